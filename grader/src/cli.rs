@@ -1,9 +1,13 @@
 //! The command line of `cargo grade`.
 
+use std::env;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::builder::StyledStr;
 use clap::{CommandFactory, FromArgMatches, Id, Parser, value_parser};
+
+use judging::assignment::Assignment;
 
 use crate::build::select_isolation::IsolationRequest;
 use crate::error::Error;
@@ -12,7 +16,7 @@ use crate::grade::options::{Dependents, GradeOptions};
 use crate::handed_out::HandedOut;
 use crate::inputs::exam_source::ExamSource;
 use crate::inputs::question_ref::QuestionRef;
-use crate::inputs::task_selection::{NamedTasks, TaskSelection};
+use crate::inputs::task_selection::{TaskOrFile, TaskSelection};
 use crate::machine::printing::exit_with;
 use crate::probe::Budget;
 use crate::report::text::HintDetail;
@@ -41,14 +45,14 @@ pub enum Command {
     },
     /// Run one question again.
     Replay(GradeOptions, QuestionRef),
-    /// Reset tasks in a submission's folder.
+    /// Reset some tasks and files in a submission's folder.
     Reset {
         /// The assignment.
         handed_out: &'static HandedOut,
-        /// The folder; `None` is the folder of students' own work.
+        /// The folder, or `None` for the student's own work.
         folder: Option<PathBuf>,
         /// The tasks and files to reset.
-        names: Vec<NamedTasks>,
+        names: Vec<TaskOrFile>,
     },
     /// Show the tools and isolation levels available on this machine.
     Diagnose,
@@ -67,23 +71,28 @@ pub enum Command {
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo grade", bin_name = "cargo grade", version)]
 pub struct Arguments {
-    /// The folder, .zip, .tar or .tar.gz with the task files (at its top, in src/, or in
-    /// student/src/); default: student
+    /// The folder, .zip, .tar or .tar.gz that contains the task files (at the top level, in src/ or
+    /// in student/src/); default: student
     pub submission: Option<PathBuf>,
 
-    /// Grade one task only, such as sphere, or all tasks of a file, such as bvh; writes no score
+    /// Grade only one task, such as sphere, or all tasks in a file, such as bvh, without writing a
+    /// score
     #[arg(long, value_name = "TASK")]
     pub task: Option<String>,
 
-    /// Run one question again, such as sphere.from_inside#7, and show the whole answer; without a
-    /// number, the first wrong question of the item
+    /// Run one question again, such as sphere.from_inside#7, and show the whole answer; if you
+    /// leave out the number, run the first of the item's questions that was answered wrongly
     #[arg(long, value_name = "ITEM[#N]", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<QuestionRef>,
 
-    /// Start a task afresh, such as sphere, or a whole file, such as bvh; keeps a copy of your file,
-    /// such as bvh.rs.bak-1
+    /// Restore the stub of a task, such as sphere, or of a whole file, such as bvh, or restore a
+    /// given file, such as world.rs; your file is kept as a copy, such as bvh.rs.bak-1
     #[arg(long, value_name = "TASK")]
     pub reset: Option<String>,
+
+    /// Instead of the whole report, show only one thing to do next, and where
+    #[arg(long, conflicts_with_all = ["replay", "watch", "format"])]
+    pub next: bool,
 
     /// If a known mistake is recognised, show its full hint instead of a nudge
     #[arg(long)]
@@ -97,11 +106,11 @@ pub struct Arguments {
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,
 
-    /// Grade again, even if nothing has changed since the last time
+    /// Grade again even if nothing has changed since the last time
     #[arg(long)]
     pub fresh: bool,
 
-    /// Print at the end how long each step took
+    /// At the end, print how long each step took
     #[arg(long, conflicts_with_all = ["replay", "watch"])]
     pub timings: bool,
 
@@ -125,11 +134,12 @@ pub struct Arguments {
     #[arg(long, value_name = "POINTS", help_heading = STAFF_OPTIONS)]
     pub require: Option<u32>,
 
-    /// Treat the code as untrusted: run it in a sandbox, or refuse to grade it
+    /// Treat the code as untrusted: run it in a sandbox or refuse to grade it
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub untrusted: bool,
 
-    /// Require this isolation level; --untrusted takes the better of full and no-namespaces
+    /// Require this isolation level; --untrusted chooses full if it is available, or else
+    /// no-namespaces
     #[arg(long, value_name = "LEVEL", help_heading = STAFF_OPTIONS)]
     pub isolation: Option<Isolation>,
 
@@ -138,14 +148,14 @@ pub struct Arguments {
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub no_reference: bool,
 
-    /// CPU time limit of an item, in seconds; default: 50 times the slowest item that has passed,
-    /// at least 2 and at most 10 seconds
+    /// CPU time limit for an item, in seconds; default: 50 times as long as the slowest item that
+    /// has passed, but at least 2 and at most 10 seconds
     #[arg(long, value_name = "SECONDS", help_heading = STAFF_OPTIONS)]
     #[arg(value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
     pub cpu_limit: Option<u64>,
 
-    /// The course's policy: how points count and what students see; --policy-default prints the
-    /// default
+    /// The course's policy: how points become a grade and what students see; --policy-default
+    /// prints the default
     #[arg(long, value_name = "FILE", help_heading = STAFF_OPTIONS)]
     pub policy: Option<PathBuf>,
 
@@ -153,8 +163,8 @@ pub struct Arguments {
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub policy_default: bool,
 
-    /// Gradescope's submission_metadata.json, which has the submission time and the due date for
-    /// the policy's late days
+    /// Gradescope's submission_metadata.json, which contains the submission time and the due date
+    /// that the policy's late days depend on
     #[arg(long, value_name = "FILE", help_heading = STAFF_OPTIONS)]
     pub gradescope_metadata: Option<PathBuf>,
 
@@ -176,12 +186,14 @@ impl Arguments {
     /// Parses this process's command line. If it is invalid or asks for help, prints a message and
     /// exits.
     pub fn from_command_line() -> Self {
-        let matches = Self::for_students().try_get_matches();
+        let arguments = env::args_os().map(with_two_dashes);
+        let matches = Self::for_students().try_get_matches_from(arguments);
         let arguments = matches.and_then(|matches| Self::from_arg_matches(&matches));
         arguments.unwrap_or_else(|error| exit_with(&error))
     }
 
-    /// Returns the definition of the command line, with help that only shows students' options.
+    /// Returns the definition of the command line, with a help text that only shows the options for
+    /// students.
     fn for_students() -> clap::Command {
         let is_staff = |arg: &clap::Arg| arg.get_help_heading() == Some(STAFF_OPTIONS);
         let command = Self::command().mut_args(|arg| {
@@ -196,12 +208,35 @@ impl Arguments {
         command.after_help(MORE_HELP)
     }
 
+    /// Returns the submission argument if it names a task rather than an existing file or folder:
+    /// `cargo grade sphere` means `cargo grade --task sphere`. Some options can only be combined
+    /// with a task if the task is selected with `--task`.
+    fn task_instead_of_submission(&self, assignment: &Assignment) -> Option<String> {
+        let submission = self.submission.as_ref()?;
+        let is_for_tasks = self.task.is_none()
+            && self.replay.is_none()
+            && self.reset.is_none()
+            && self.exam.is_none()
+            && self.out.is_none()
+            && self.require.is_none()
+            && self.format.is_empty()
+            && !self.open
+            && !self.next;
+        let name = submission.to_str().filter(|_| is_for_tasks)?;
+        let is_task = !submission.exists() && TaskSelection::parse(name, assignment).is_ok();
+        is_task.then(|| name.to_owned())
+    }
+
     /// Returns the command that these arguments select. Fails if the arguments name a task that the
     /// assignment doesn't have.
-    pub fn resolve(self) -> Result<Command, Error> {
-        let exam = ExamSource::from_option(self.exam);
+    pub fn resolve(mut self) -> Result<Command, Error> {
+        let exam = ExamSource::from_option(self.exam.clone());
         let handed_out = exam.assignment(self.assignment);
         let assignment = handed_out.assignment;
+        if let Some(name) = self.task_instead_of_submission(assignment) {
+            self.task = Some(name);
+            self.submission = None;
+        }
         let tasks = self.task.map(|text| {
             let tasks = TaskSelection::parse(&text, assignment);
             tasks.map_err(|why| invalid_value("--task <TASK>", &text, &why))
@@ -236,10 +271,11 @@ impl Arguments {
             fresh: self.fresh,
             open: self.open,
             timings: self.timings,
+            next: self.next,
             require: self.require.unwrap_or(0),
         };
         if let Some(text) = self.reset {
-            let names = NamedTasks::parse_list(&text, assignment)
+            let names = TaskOrFile::parse_with_given_files(&text, handed_out)
                 .map_err(|why| invalid_value("--reset <TASK>", &text, &why))?;
             return Ok(Command::Reset {
                 handed_out,
@@ -262,20 +298,51 @@ impl Arguments {
     }
 }
 
+/// Returns the argument, with a second dash if it is a long option that has only one, such as
+/// `-task`. The only one-letter options are `-h` and `-V`.
+fn with_two_dashes(argument: OsString) -> OsString {
+    let is_long =
+        |text: &str| text.len() > 2 && text[1..].starts_with(|c: char| c.is_ascii_alphabetic());
+    match argument.to_str() {
+        Some(text) if text.starts_with('-') && is_long(text) => format!("-{text}").into(),
+        Some(_) | None => argument,
+    }
+}
+
 fn format_help() -> String {
     let known = FORMATS.map(|format| format.id).join(", ");
     // The list is the last paragraph, so that it can grow without rewrapping the rest.
     format!(
-        "Also write these formats, which contain what the policy lets students see. Each is written \
-         to =PATH if given, else where the platform expects it, else to the --out folder.\n\
+        "Also write the report in these formats, which only show what the policy lets students see. Append \
+         =PATH to choose the file; by default, it is written where the platform expects it, or else to the \
+         --out folder.\n\
          Formats: {known}"
     )
 }
 
-/// Returns the error for a value that can only be checked once the assignment is known, in clap's
-/// wording.
+/// Returns an error in clap's wording for a value that can only be checked once the assignment is
+/// known.
 fn invalid_value(option: &str, value: &str, why: &str) -> Error {
     Error::User(format!(
         "invalid value '{value}' for '{option}': {why}\n\nFor more information, try '--help'."
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_two_dashes;
+
+    #[test]
+    fn a_long_option_with_one_dash_gets_another() {
+        for (typed, meant) in [
+            ("-task", "--task"),
+            ("-task=sphere", "--task=sphere"),
+            ("--task", "--task"),
+            ("-h", "-h"),
+            ("-", "-"),
+            ("student", "student"),
+        ] {
+            assert_eq!(with_two_dashes(typed.into()), meant, "{typed}");
+        }
+    }
 }

@@ -2,7 +2,8 @@
 //! score.
 //!
 //! Student code runs in a *probe*, a process that receives questions but never the expected
-//! answers. Points come only from comparing its answers here.
+//! answers. Points only come from comparing the probe's answers with the expected ones, outside the
+//! probe.
 //!
 //! The modules form layers. A module only imports from modules that come after it in this table,
 //! which a test checks:
@@ -20,8 +21,8 @@
 //!
 //! Some modules in these folders are re-exported at the top level for other packages.
 //!
-//! The package [`judging`] is below all of them. It contains exams, their keys and the comparison
-//! of answers with keys.
+//! The package [`judging`] is below all of them. It contains exams, their keys and the code that
+//! compares answers with keys.
 
 pub mod build;
 pub mod cli;

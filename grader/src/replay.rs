@@ -12,27 +12,26 @@ use protocol::{Answer, ElementOutcome, Question, Shape};
 use crate::build::Builder;
 use crate::build::select_isolation::with_requested_level;
 use crate::error::Error;
-use crate::grade::Prepared;
+use crate::grade::PreparedSubmission;
 use crate::grade::options::GradeOptions;
 use crate::handed_out::HandedOut;
-use crate::inputs::nearest_name::suggestion;
 use crate::inputs::question_ref::QuestionRef;
 use crate::probe::{Budget, Crash, Culprit, Fault, Launcher, smallest_overflow};
 use crate::verdict::clue;
 use crate::verdict::file_message;
 
-/// Maximum length of the code's output to show, in characters.
+/// The maximum number of characters to show of the code's output.
 const MAX_PRINTED_CHARS: usize = 20_000;
 
 /// Runs the question and returns the text for the terminal.
 pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String, Error> {
     let exam = options.exam.load(options.handed_out)?.exam;
-    let item = find_item(&exam, &reference.item)?;
+    let item = reference.find_item(&exam).map_err(Error::User)?;
     let given = reference
         .number
         .map(|number| find_element(item, number))
         .transpose()?;
-    let prepared = Prepared::new(options)?;
+    let prepared = PreparedSubmission::new(options)?;
     let builder = Builder::prepare(&prepared.workspace)?;
     let builder = with_requested_level(builder, options.isolation)?;
     let build = builder.build(&prepared.submission)?;
@@ -48,19 +47,18 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let is_missing = missing.any(|file| needed.contains(*file));
     let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
         let question = &reference.item;
-        text +=
-            &format!("{question} needs this file: correct it, and run the same command again\n");
+        text += &format!("{question} needs this file: fix it, then run the same command again\n");
         return Ok(paths.in_text(&text).into_owned());
     };
     let launcher = build.launcher(program);
     let exam_run = ExamRun::new(&launcher, item, options.budget)?;
     match given.or_else(|| exam_run.first_wrong(item)) {
         Some(position) => {
-            let replayed = Replayed::run(&launcher, item, position, options.budget)?;
+            let replayed = ReplayedQuestion::run(&launcher, item, position, options.budget)?;
             text.push_str(&replayed.report(item, &exam_run));
         }
         None => text.push_str(&format!(
-            "every answer to {} is right ({} of {})\n",
+            "every answer to {} is correct ({} of {})\n",
             item.id,
             item.count(),
             item.count()
@@ -70,7 +68,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
 }
 
 /// Returns the names of the files whose code answers an item: its task's file and those of the
-/// tasks it depends on.
+/// tasks that it depends on.
 fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'static str> {
     let needed = item
         .needs
@@ -82,51 +80,22 @@ fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'s
         .collect()
 }
 
-fn find_item<'a>(exam: &'a Exam, id: &str) -> Result<&'a Item, Error> {
-    let item = exam.items.iter().find(|item| item.id == id);
-    item.ok_or_else(|| Error::User(unknown_item(exam, id)))
-}
-
-/// Returns a message that lists the items the user may have meant: those with this name in any
-/// task, or those of the task.
-fn unknown_item(exam: &Exam, id: &str) -> String {
-    let ids = || exam.items.iter().map(|item| item.id.as_str());
-    let parts = || ids().filter_map(|known| Some((known, known.split_once('.')?)));
-    let of_name = parts().filter(|(_, (_, name))| *name == id);
-    let of_name: Vec<&str> = of_name.map(|(known, _)| known).collect();
-    if !of_name.is_empty() {
-        let names = of_name.join(" or ");
-        return format!("the exam has no item `{id}` (did you mean {names}?)");
-    }
-    let task = id.split('.').next().unwrap_or_default();
-    let of_task = parts().filter(|(_, (of, _))| *of == task);
-    let of_task: Vec<&str> = of_task.map(|(known, _)| known).collect();
-    let (whose, known) = if of_task.is_empty() {
-        ("the items", ids().collect())
-    } else {
-        ("the items of this task", of_task)
-    };
-    let nearest = suggestion(id, ids());
-    let known = known.join(", ");
-    format!("the exam has no item `{id}`{nearest}; {whose} are: {known}")
-}
-
 /// Returns the indices of a question and of an element in it.
 fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
     item.element(number).ok_or_else(|| {
         Error::User(format!(
-            "{} has {} questions, so there is no number {number}",
+            "{} has {} questions, so there is no question {number}",
             item.id,
             item.count(),
         ))
     })
 }
 
-/// The answers to all questions of an item, sent together as in an exam.
+/// The answers to all questions of an item. The questions are sent together, as in an exam.
 struct ExamRun {
     answers: Result<Vec<Answer>, Fault>,
-    /// The question that crashes or hangs the program and the element in it, if a single element is
-    /// the reason that there are no answers.
+    /// The question that crashes or hangs the program, and the element in that question, if a
+    /// single element is the reason for the missing answers.
     culprit: Option<(usize, usize)>,
 }
 
@@ -142,8 +111,8 @@ impl ExamRun {
         Ok(ExamRun { answers, culprit })
     }
 
-    /// Returns the indices of the first wrong question and its wrong element, or of the question
-    /// and element that crash or hang the program.
+    /// Returns the indices of the first wrong question and the wrong element in it, or of the
+    /// question and the element that crash or hang the program.
     fn first_wrong(&self, item: &Item) -> Option<(usize, usize)> {
         let Ok(answers) = &self.answers else {
             return Some(self.culprit.unwrap_or((0, 0)));
@@ -162,13 +131,14 @@ impl ExamRun {
             (Err(fault), Some((question, element))) => {
                 let number = item.number(question, element);
                 return format!(
-                    "right, but because of {}#{number}, the item has no answers: {fault}",
+                    "correct, but the item has no answers because of {}#{number}: {fault}",
                     item.id
                 );
             }
             (Err(fault), None) => {
                 return format!(
-                    "right when asked alone, but the item's questions together have no answer: {fault}"
+                    "correct in isolation, but when all of the item's questions are asked together, there \
+                     is no answer: {fault}"
                 );
             }
         };
@@ -178,8 +148,8 @@ impl ExamRun {
         match error {
             None => "right".to_owned(),
             Some(error) => format!(
-                "right when asked alone, but not together with the item's other questions: \
-                 {error}. {}",
+                "correct in isolation, but not together with the item's other questions: {error}. \
+                 {}",
                 clue::KEPT_STATE
             ),
         }
@@ -187,15 +157,16 @@ impl ExamRun {
 }
 
 /// A question that was rerun in isolation.
-struct Replayed {
+struct ReplayedQuestion {
     position: (usize, usize),
     answer: Result<Answer, Fault>,
     printed: String,
-    /// A minimal set of primitives that still overflows the stack, if the build does.
+    /// A minimal set of primitives that still overflows the stack, if building the tree overflows
+    /// it at all.
     smallest: Option<Vec<Shape>>,
 }
 
-impl Replayed {
+impl ReplayedQuestion {
     fn run(
         launcher: &Launcher,
         item: &Item,
@@ -217,7 +188,7 @@ impl Replayed {
         } else {
             None
         };
-        Ok(Replayed {
+        Ok(ReplayedQuestion {
             position: (question, element),
             smallest,
             answer: answers.and_then(|answers| {
@@ -245,7 +216,7 @@ impl Replayed {
         let number = item.number(question, element);
         let smallest = self.smallest.as_ref().map(|shapes| {
             let text = format!(
-                "overflows even with {} of them: {}",
+                "the stack still overflows with {} of the primitives: {}",
                 shapes.len(),
                 describe::each_shape(shapes)
             );
@@ -268,7 +239,7 @@ impl Replayed {
         }
     }
 
-    /// Describes whether the answer is right or how it is wrong.
+    /// Returns the text that says whether the answer is right and, if not, how it is wrong.
     fn verdict(&self, item: &Item, exam_run: &ExamRun) -> String {
         let (question, element) = self.position;
         let single = item.questions[question].single(element);
@@ -283,7 +254,7 @@ impl Replayed {
     }
 }
 
-/// Returns the expected answer as text, with alternatives on separate lines. A path-traced picture
+/// Returns the expected answer as text, with alternatives on separate lines. A rendered picture
 /// isn't printed.
 fn expected_text(question: &ExamQuestion, element: usize) -> String {
     if let Question::Radiance { .. } = question.question {

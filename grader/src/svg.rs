@@ -1,15 +1,15 @@
-//! Numbers, paths and text of SVG images.
+//! Formats numbers, paths and text for SVG images.
 //!
-//! The elements are markup by `maud`, which escapes text. It has no `<path/>`, so an element
-//! without contents is written `path d=(…) {}`. With a `;` instead of the braces, the element
-//! wouldn't be closed, which is invalid XML.
+//! The elements are written as `maud` markup, which escapes text. The markup has no equivalent of
+//! `<path/>`, so an element without contents is written `path d=(…) {}`. With a `;` instead of the
+//! braces, the element wouldn't be closed, which is invalid XML.
 
 use std::fmt::Write;
 
 use glam::DVec2;
 
-/// Formats a number with at most one decimal, which is finer than a pixel and the same on every
-/// machine.
+/// Formats a number with at most one decimal place. This is finer than a pixel, and the text is the
+/// same on every machine.
 pub fn number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     let (whole, tenth) = (tenths.abs() / 10, tenths.abs() % 10);
@@ -36,7 +36,7 @@ pub fn closed_path(points: &[DVec2]) -> String {
     path(points) + "Z"
 }
 
-/// Returns the text without control characters, which XML doesn't allow, not even escaped.
+/// Replaces the control characters in a text. XML doesn't allow them, even if they are escaped.
 pub fn text(text: &str) -> String {
     text.replace(char::is_control, "\u{fffd}")
 }

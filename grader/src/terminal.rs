@@ -9,11 +9,11 @@ use crate::error::Error;
 use crate::grade::cached_report::{self, CacheKey, CachedReport};
 use crate::grade::options::GradeOptions;
 use crate::grade::report_files::ReportFiles;
-use crate::grade::{GradedSubmission, Prepared, default_folder, grade_prepared};
+use crate::grade::{GradedSubmission, PreparedSubmission, default_folder, grade_prepared};
 use crate::machine::desktop;
 use crate::machine::printing::{print, print_commands, print_line};
 use crate::report::html::Reload;
-use crate::report::next_step::next_step;
+use crate::report::next_step::{first_step, next_step};
 use crate::report::text::report;
 use crate::workspace::book::Book;
 use crate::workspace::{Workspace, display_path};
@@ -31,6 +31,8 @@ pub struct PrintOptions {
     pub open: bool,
     /// Whether to print how long each step took.
     pub timings: bool,
+    /// Whether to print only one thing to do next.
+    pub next: bool,
     /// The points below which the exit code is 1.
     pub require: u32,
 }
@@ -42,12 +44,12 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
     if print.require > most {
         let points = print.require;
         return Err(Error::User(format!(
-            "--require {points} cannot be met: the assignment has {most} points"
+            "--require {points} cannot be met: the assignment has only {most} points"
         )));
     }
-    // A cached report has no timings.
-    let may_reuse = !print.fresh && !print.timings;
-    let mut prepared = Prepared::new(options)?;
+    // A cached report has no timings, and only its text is stored.
+    let may_reuse = !print.fresh && !print.timings && !print.next;
+    let mut prepared = PreparedSubmission::new(options)?;
     let cached = may_reuse.then(|| find_cached_report(&mut prepared));
     let (points, files) = match cached.transpose()?.flatten() {
         Some((cached, files)) => {
@@ -72,7 +74,7 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
 /// Returns the cached report and its files if the submission was graded before and nothing has
 /// changed since.
 fn find_cached_report(
-    prepared: &mut Prepared,
+    prepared: &mut PreparedSubmission,
 ) -> Result<Option<(CachedReport, ReportFiles)>, Error> {
     let options = prepared.options;
     if !CacheKey::is_cacheable(options) {
@@ -95,13 +97,20 @@ fn find_cached_report(
 
 /// Grades a submission, prints its report and stores it for the next run.
 fn grade_and_store(
-    prepared: &mut Prepared,
+    prepared: &mut PreparedSubmission,
     print: PrintOptions,
 ) -> Result<(u32, Option<ReportFiles>), Error> {
     let graded = grade_prepared(prepared)?;
     let text = terminal_report(&graded, prepared.options);
-    let files = graded.files.as_ref().map_or(String::new(), file_list);
-    print_text(prepared, &format!("{text}{files}"));
+    if print.next {
+        let assignment = prepared.options.handed_out.assignment;
+        let tasks = &prepared.options.tasks;
+        let step = first_step(&graded.score, tasks, assignment, prepared.options.hints);
+        print_text(prepared, &step);
+    } else {
+        let files = graded.files.as_ref().map_or(String::new(), file_list);
+        print_text(prepared, &format!("{text}{files}"));
+    }
     if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
         cached_report::store(key, &graded.score, &text, files);
     }
@@ -146,15 +155,15 @@ fn file_list(files: &ReportFiles) -> String {
 }
 
 /// Prints the text with the full paths of the task files.
-fn print_text(prepared: &Prepared, text: &str) {
-    // A cached report only gets the paths here, since the folder may have moved.
+fn print_text(prepared: &PreparedSubmission, text: &str) {
+    // The paths are only inserted here, even into a cached report, since the folder may have moved.
     let text = &*prepared.source_paths().in_text(text);
     print_line(with_links_on_a_terminal(text, &prepared.workspace));
 }
 
 /// Returns the text with links to the built handout, if there is one and the reader can click
-/// links. A cached report only gets the links here, since it may be printed elsewhere the next
-/// time.
+/// links. The links are only added here, even to a cached report, since it may be printed elsewhere
+/// the next time.
 fn with_links_on_a_terminal<'a>(text: &'a str, workspace: &Workspace) -> Cow<'a, str> {
     let book = || Book::find(workspace);
     match io::stdout().is_terminal().then(book).flatten() {

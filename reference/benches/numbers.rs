@@ -2,7 +2,7 @@
 
 use glam::{Vec3, vec3};
 
-/// A random number generator: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
+/// A random number generator. See Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
 /// Generators", 2014.
 pub struct SplitMix64(pub u64);
 

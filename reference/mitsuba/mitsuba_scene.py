@@ -19,8 +19,7 @@ def convert(scene, folder, size, bounces, scratch):
         "sensor": camera(scene["camera"], size),
     }
     if "environment" in scene:
-        radiance = {"type": "rgb", "value": scene["environment"]}
-        converted["environment"] = {"type": "constant", "radiance": radiance}
+        converted["environment"] = environment(scene["environment"], folder)
     for number, entry in enumerate(scene["shapes"]):
         [(kind, shape)] = entry.items()
         material = scene["materials"][shape["material"]]
@@ -35,6 +34,18 @@ def convert(scene, folder, size, bounces, scratch):
             made = {"type": "ply", "filename": str(path), "face_normals": soup[1] is None}
         converted[f"shape{number}"] = made | surface(material)
     return converted
+
+
+def environment(entry, folder):
+    if isinstance(entry, list):
+        return {"type": "constant", "radiance": {"type": "rgb", "value": entry}}
+    pixels = np.array(mi.Bitmap(str(folder / entry["map"])).convert(mi.Bitmap.PixelFormat.RGB,
+                                                                     mi.Struct.Type.Float32))
+    # Mitsuba interpolates between pixels, and this project doesn't. With copies of each pixel, the
+    # two hardly differ. Mitsuba's columns begin a quarter of the way further around the y-axis.
+    pixels = pixels.repeat(8, axis=0).repeat(8, axis=1) * entry.get("scale", 1.0)
+    pixels = np.roll(pixels, pixels.shape[1] // 4, axis=1)
+    return {"type": "envmap", "bitmap": mi.Bitmap(pixels.astype(np.float32))}
 
 
 def camera(entry, size):

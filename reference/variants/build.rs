@@ -1,5 +1,6 @@
-//! Writes the given code of each variant, and `STEM/NAME.rs` in the output folder, which includes it
-//! and the variant's own files. Also writes a module for each variant to `all.rs`.
+//! Writes two files for each variant to the output folder: one with its given code, and
+//! `STEM/NAME.rs`, which includes the given code and the variant's own files. Also writes `all.rs`,
+//! which has a module for each variant.
 
 use std::collections::BTreeMap;
 use std::env;

@@ -21,8 +21,8 @@ use test_support::WatchProcess;
 
 const ROUNDS: usize = 15;
 
-/// The measured quantities, in the order of measurement in each round, and the baseline that each
-/// is compared with.
+/// The measured quantities, in the order in which each round measures them, and the baseline that
+/// each of them is compared with.
 const ROWS: [Row; 7] = [
     Row::new("bare rustc of the task files (F)", "F", TimeKind::Cpu),
     Row::new("the same up to type checking (T)", "F", TimeKind::Cpu),
@@ -125,7 +125,10 @@ fn main() {
 }
 
 fn print(rounds: &[[Cost; ROWS.len()]]) {
-    println!("median of {} rounds; ratios within one round", rounds.len());
+    println!(
+        "median of {} rounds; each ratio compares times from the same round",
+        rounds.len()
+    );
     println!("{:36}{:>9}{:>9}{:>8}", "", "wall ms", "CPU ms", "ratio");
     for (which, row) in ROWS.iter().enumerate() {
         let costs = || rounds.iter().map(|round| round[which]);

@@ -1,6 +1,6 @@
-//! Measures the CPU time per submission of a class, at the strongest isolation level that the
-//! machine supports, and compares it with the baseline F: one bare `rustc` call for the same task
-//! files (`grader/benches/README.md`).
+//! Measures the CPU time that grading a class takes per submission, at the strongest isolation
+//! level that the machine supports, and compares it with the baseline F: one bare `rustc` call for
+//! the same task files (`grader/benches/README.md`).
 //!
 //! All submissions change in each round, so that no cached results can be reused.
 
@@ -17,9 +17,9 @@ const STUDENTS: usize = 60;
 /// The number of submissions in a short run.
 const FEW_STUDENTS: usize = 4;
 
-/// The number of baseline measurements before the class is graded, and again afterwards. Several
-/// are needed because a call only takes a third of a second and the speed of a shared machine
-/// varies.
+/// The number of baseline measurements to take before the class is graded, and again afterwards.
+/// Several are needed because a call only takes a third of a second and the speed of a shared
+/// machine varies.
 const BASELINE_CALLS: usize = 5;
 
 fn main() {
@@ -45,7 +45,7 @@ fn main() {
 
     let cores = thread::available_parallelism().map_or(1, usize::from);
     println!("{count} submissions on {cores} cores, {rounds} rounds");
-    println!("  F, CPU ms   each, CPU ms    / F     throughput / (cores / F)");
+    println!("F (CPU ms)  CPU ms each  ratio to F  throughput / (cores / F)");
     let (mut of_baseline, mut of_most) = (Vec::new(), Vec::new());
     for round in 0..rounds {
         for (number, student) in students.iter().enumerate() {
@@ -63,7 +63,7 @@ fn main() {
         of_baseline.push(each / baseline);
         of_most.push(throughput / most);
         println!(
-            "{:11.0} {:14.0} {:6.2} {:28.2}",
+            "{:10.0}  {:11.0}  {:10.2}  {:24.2}",
             1e3 * baseline,
             1e3 * each,
             each / baseline,
@@ -71,7 +71,7 @@ fn main() {
         );
     }
     let [of_baseline, of_most] = [of_baseline, of_most].map(median);
-    println!("median {of_baseline:26.2} {of_most:28.2}");
+    println!("median {of_baseline:28.2}  {of_most:24.2}");
 }
 
 /// Grades the class into a new folder. Returns the cost.

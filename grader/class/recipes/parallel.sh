@@ -22,7 +22,7 @@ policy=() cores=()
 [[ -z "$CORES" ]] || cores=(--jobs "$CORES")
 
 if [[ "$(realpath -m "$OUT")/" == "$(realpath "$INPUT")"/* ]]; then
-    echo "error: OUT is in INPUT, so results would be taken for submissions: choose another OUT" >&2
+    echo "error: OUT is in INPUT, so the results would be mistaken for submissions: choose a different OUT" >&2
     exit 2
 fi
 before=$(cat "$OUT/shards/count" 2>/dev/null || true)

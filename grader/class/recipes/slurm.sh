@@ -10,7 +10,7 @@
 # CORES, MEMORY and TIME are requested for each part (default: 2 cores, 4G, 4 hours). A part that has
 # not ended after WAIT (default: 7days), for example because no node has that much memory, is
 # cancelled. RETRIES is the number of times that a failed part is graded again (default: 2), and
-# SBATCH has more options for sbatch, such as "--partition=short --account=cs". OPTIONS are passed to
+# SBATCH contains more options for sbatch, such as "--partition=short --account=cs". OPTIONS are passed to
 # every `cargo class`, such as "--cpu-limit 5", and LISTS to the merge, such as "--roster people.csv
 # --canvas export.csv".
 set -euo pipefail
@@ -53,7 +53,7 @@ unfinished() {
 case "${STEP:-submit}" in
 submit)
     if [[ "$(realpath -m "$OUT")/" == "$(realpath "$INPUT")"/* ]]; then
-        echo "error: OUT is in INPUT, so results would be taken for submissions: choose another OUT" >&2
+        echo "error: OUT is in INPUT, so the results would be mistaken for submissions: choose a different OUT" >&2
         exit 2
     fi
     before=$(cat "$OUT/shards/count" 2>/dev/null || true)

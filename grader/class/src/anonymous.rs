@@ -12,7 +12,7 @@ use crate::store::{Store, json};
 /// The name of the key in the output folder.
 const KEY: &str = "anonymous-key.json";
 
-/// The pseudonyms of a class, by the ids of its entries.
+/// The pseudonyms for a class, keyed by the ids of its entries.
 pub struct Pseudonyms(BTreeMap<String, String>);
 
 impl Pseudonyms {
@@ -26,8 +26,8 @@ impl Pseudonyms {
         self.0.get(id).cloned().unwrap_or_default()
     }
 
-    /// Returns the graded submissions with pseudonyms, without names of people and files and without
-    /// times. Adds missing pseudonyms to the key.
+    /// Returns the graded submissions under pseudonyms, without times or the names of people and
+    /// files. Adds missing pseudonyms to the key.
     pub fn hide(&mut self, class: &GradedClass, store: &Store) -> Result<GradedClass, Error> {
         let mut hidden = class.clone();
         hidden.missing.clear();
@@ -60,7 +60,7 @@ fn hide_row(row: &mut ClassRow, pseudonym: &str) {
     };
     pseudonym.clone_into(&mut row.result.id);
     for grade in &mut row.grades {
-        // It may name other submissions.
+        // The problem may name other submissions.
         grade.problem = None;
         for points in &mut grade.manual {
             pseudonym.clone_into(&mut points.student);

@@ -9,12 +9,12 @@ use zip::{DateTime, ZipWriter};
 /// An archive that is being written in memory.
 pub struct ArchiveWriter {
     writer: ZipWriter<Cursor<Vec<u8>>>,
-    /// The names used in the archive, in lower case.
+    /// The names already used in the archive, in lower case.
     used: BTreeSet<String>,
 }
 
 impl Default for ArchiveWriter {
-    /// Returns an archive without files.
+    /// Returns an empty archive.
     fn default() -> Self {
         ArchiveWriter {
             writer: ZipWriter::new(Cursor::new(Vec::new())),

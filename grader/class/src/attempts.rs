@@ -1,5 +1,5 @@
-//! Computes the final points of all submissions according to the policy, including manual points. If a
-//! person has several submissions, the policy's rule decides which one is used.
+//! Computes the final points of all submissions according to the policy, including manual points.
+//! If a person has several submissions, the policy's rule decides which one is used.
 
 use std::collections::BTreeSet;
 
@@ -9,11 +9,11 @@ use crate::error::Error;
 use crate::graded_class::{ClassRow, GradeProblem};
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
-use crate::manual_points::{ManualPoints, ManualPointsList};
+use crate::manual_points::ManualPointsList;
 use crate::outcome::{EntryOutcome, EntryResult, TaskScore};
 
-/// Applies the policy and the manual points to all results. `exam` contains the tasks without any
-/// points.
+/// Applies the policy and the manual points to all results. `exam` contains the exam's tasks with 0
+/// points each.
 pub fn count_points(
     results: Vec<EntryResult>,
     policy: &Policy,
@@ -23,7 +23,7 @@ pub fn count_points(
     let mut rows = Vec::new();
     for result in results {
         let people = result.info.people.iter();
-        let own: Vec<Vec<ManualPoints>> = people.map(|person| manual.of(person)).collect();
+        let own = people.map(|person| manual.of(person)).collect();
         rows.push(ClassRow::new(result, policy, own, exam));
     }
     apply_rule(policy, &mut rows);
@@ -54,9 +54,8 @@ fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
             }
         };
         let set_aside = attempts.iter().filter(|(row, _)| chosen != Some(*row));
-        let problems: Vec<(Attempt, GradeProblem)> = set_aside
-            .map(|attempt| (*attempt, problem(&attempt.0)))
-            .collect();
+        let problems = set_aside.map(|attempt| (*attempt, problem(&attempt.0)));
+        let problems: Vec<(Attempt, GradeProblem)> = problems.collect();
         for ((row, person), problem) in problems {
             let grade = &mut rows[row].grades[person];
             grade.counted = None;
@@ -72,23 +71,21 @@ fn choose(
     attempts: &[Attempt],
     submissions: &BTreeSet<usize>,
 ) -> Option<usize> {
-    let mut candidates = Vec::new();
-    for row in submissions {
-        match &rows[*row].result.outcome {
-            EntryOutcome::Graded(_) => candidates.push(*row),
-            EntryOutcome::NothingToGrade(_) => {}
-            // It is graded in the next run and may then be the one to use.
-            EntryOutcome::Fault(_) => return None,
-        }
+    let outcome = |row: &usize| &rows[*row].result.outcome;
+    // A submission that could not be graded is graded in the next run and may then be the one to
+    // use.
+    let mut outcomes = submissions.iter().map(outcome);
+    if outcomes.any(|outcome| matches!(outcome, EntryOutcome::Fault(_))) {
+        return None;
     }
-    if let [only] = candidates.as_slice() {
-        return Some(*only).filter(|_| policy.attempts.counts != AttemptRule::Ask);
-    }
+    let mut candidates = Vec::from_iter(submissions.iter().copied());
     match policy.attempts.counts {
         AttemptRule::Ask => None,
+        // If the latest attempt can't be graded, its person is asked for the files. Silently using an
+        // older one could cost the person points.
         AttemptRule::Latest => {
             let info = |row: &usize| &rows[*row].result.info;
-            // Numbers of different groups say nothing about the order.
+            // Attempt numbers from different groups say nothing about the order.
             let people = &info(candidates.first()?).people;
             let number = |row: &usize| info(row).attempt.filter(|_| info(row).people == *people);
             if let Some(numbers) = candidates.iter().map(number).collect::<Option<Vec<u32>>>() {
@@ -104,24 +101,24 @@ fn choose(
             only_last(&candidates, &times)
         }
         AttemptRule::Best => {
-            let points = |row: &usize| {
-                let own = attempts.iter().filter(|attempt| attempt.0 == *row);
-                let grades = own.map(|(row, person)| &rows[*row].grades[*person]);
-                let points: Option<Vec<u32>> = grades
-                    .map(|grade| Some(grade.counted.as_ref()?.points))
-                    .collect();
-                points?.into_iter().max()
-            };
-            let points: Option<Vec<u32>> = candidates.iter().map(points).collect();
-            let points = points?;
-            let most = points.iter().max()?;
-            let best = points.iter().position(|points| points == most)?;
-            Some(candidates[best])
+            candidates.retain(|row| matches!(outcome(row), EntryOutcome::Graded(_)));
+            if let [only] = candidates.as_slice() {
+                return Some(*only);
+            }
+            let mut best: Option<(u32, usize)> = None;
+            for (row, person) in attempts.iter().filter(|(row, _)| candidates.contains(row)) {
+                let points = rows[*row].grades[*person].counted.as_ref()?.points;
+                if best.is_none_or(|(most, _)| points > most) {
+                    best = Some((points, *row));
+                }
+            }
+            Some(best?.1)
         }
     }
 }
 
-/// Returns the candidate with the greatest time or number. Of two with the same, neither is the last.
+/// Returns the candidate with the latest time or the highest number. If two candidates share it,
+/// returns `None`, since neither is the last.
 fn only_last<T: Ord>(candidates: &[usize], keys: &[T]) -> Option<usize> {
     let latest = keys.iter().max()?;
     let all = candidates.iter().zip(keys);
@@ -138,7 +135,7 @@ mod tests {
     use crate::entry::Person;
     use crate::graded_class::tests::{fault, graded, nothing, person, policy, result};
 
-    /// Returns a row for each submission, given its id, its outcome and its time.
+    /// Returns a row for each submission, which is described by its id, outcome and time.
     fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {
         let row = |(id, outcome, time): &(&str, EntryOutcome, Option<&str>)| {
             let mut result = result(id, &["Ann"], outcome.clone());
@@ -148,7 +145,7 @@ mod tests {
         submissions.iter().map(row).collect()
     }
 
-    /// Returns the final points of each submission of one person, or why it doesn't have any.
+    /// Returns the final points for each of a person's submissions, or the reason it has none.
     fn counted(rule: &str, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<String> {
         let policy = policy(&format!("[attempts]\ncounts = {rule:?}"));
         let mut rows = rows(&policy, submissions);
@@ -186,12 +183,12 @@ mod tests {
             ("ask", &c, is_open),
             ("latest", &c, ["see b", "60", "see b"]),
             ("latest", &undated, is_open),
-            // If two attempts have the latest time, a person chooses.
+            // If two attempts share the latest time, a person has to choose.
             ("latest", &last_at_once, is_open),
             ("latest", &first_at_once, ["see b", "60", "see b"]),
-            // The first of the best is used.
+            // Of several best attempts, the first is used.
             ("best", &c, ["80", "see a", "see a"]),
-            // It is graded in the next run.
+            // The failed attempt is graded in the next run.
             ("best", &failed, is_open),
             ("latest", &failed, is_open),
         ] {
@@ -209,10 +206,11 @@ mod tests {
         let graded_at = |time| ("a", graded(80), time);
         let empty = ("b", nothing(), None);
         let undated = ("b", graded(60), None);
+        let dated = ("b", graded(60), Some("2026-11-22T10:00:00Z"));
         let future = ("b", graded(60), Some("2062-11-20T10:00:00Z"));
         for (rule, attempts, expected) in [
             ("ask", [graded_at(None), empty.clone()], is_open),
-            // With a rule, attempts without files are ignored.
+            // An attempt without files is never the best, but it can be the latest.
             (
                 "best",
                 [empty_at(Some("2026-11-23T10:00:00Z")), undated.clone()],
@@ -221,10 +219,20 @@ mod tests {
             (
                 "latest",
                 [empty_at(Some("2026-11-23T10:00:00Z")), undated.clone()],
+                is_open,
+            ),
+            (
+                "latest",
+                [empty_at(Some("2026-11-23T10:00:00Z")), dated.clone()],
+                ["(None, None)", "see a"],
+            ),
+            (
+                "latest",
+                [empty_at(Some("2026-11-21T10:00:00Z")), dated],
                 ["see b", "60"],
             ),
             ("best", [empty_at(None), empty], is_open),
-            // Points with an unclear time aren't compared.
+            // If the time of an attempt is unclear, points aren't compared.
             ("best", [graded_at(Some("yesterday")), undated], is_open),
             // One of the years must be wrong.
             (

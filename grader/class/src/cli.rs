@@ -14,11 +14,13 @@ use crate::layout_kind::LayoutChoice;
 use crate::list_kind::ListKind;
 use crate::shard::Shard;
 
-/// Grades a class: a learning platform's export, or a folder with a folder or archive per student.
+/// Grades a class: a learning platform's export, or a folder that contains a folder or an archive
+/// for each student.
 ///
-/// It can be killed at any time; run again, it grades only what is missing. Exit codes: 0 every
-/// submission was graded or had nothing to grade; 2 the command line, the input or a list is wrong;
-/// 3 some submissions could not be graded because of the grader or the machine: run it again.
+/// You can stop this command at any time: when you run it again, it only grades what is missing.
+/// Exit codes: 0 every submission was graded or had nothing to grade; 2 the command line, the input
+/// or a list is wrong; 3 some submissions could not be graded because of a problem with the grader
+/// or the machine: run it again.
 #[derive(Clone, Debug, Parser)]
 #[command(
     name = "cargo class",
@@ -39,50 +41,52 @@ pub struct Cli {
 /// The subcommands.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Merge the shards that several machines have graded into one class
+    /// Merge the results of several shards into one class
     Merge(MergeArguments),
 }
 
 /// The arguments for grading a class.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ClassArguments {
-    /// The platform's export (a folder or archive), or a folder with a folder or archive per
-    /// student
+    /// The platform's export (a folder or archive), or a folder that contains a folder or an
+    /// archive for each student
     #[arg(required_unless_present = "replay")]
     pub input: Option<PathBuf>,
 
-    /// Output folder; a run that was stopped is resumed from it
+    /// Output folder; if a run is interrupted, the next one resumes from it
     #[arg(long, value_name = "FOLDER", required_unless_present = "dry_run")]
     pub out: Option<PathBuf>,
 
-    /// List who would be graded from which files, without grading
+    /// List which files would be graded for each student, without grading them
     #[arg(long)]
     pub dry_run: bool,
 
-    /// Grade only a few submissions, and print how long the rest will take
+    /// Grade only a few submissions and estimate how long the rest will take
     #[arg(long, requires = "out", conflicts_with_all = ["dry_run", "regrade", "shard"])]
     pub estimate: bool,
 
-    /// Write the students' own lines into this new folder, without names, for a similarity checker;
-    /// the key and a list of identical submissions are written beside it
+    /// Write the students' own lines to this new folder, without names, for a similarity checker;
+    /// the key and a list of identical submissions are written next to it
     #[arg(long, value_name = "FOLDER")]
     pub similarity_input: Option<PathBuf>,
 
-    /// Grade everything again, keep the old scores, and list whose points changed and why
+    /// Grade everything again, keep the old scores, and list whose points changed, and why
     #[arg(long, conflicts_with = "dry_run")]
     pub regrade: bool,
 
-    /// Grade only part K of N, such as 2/8; `cargo class merge` merges the parts
+    /// Grade only part K of N, such as 2/8; `cargo class merge` combines the parts
     #[arg(long, value_name = "K/N", conflicts_with = "regrade")]
     pub shard: Option<Shard>,
 
-    /// Folder with corrected hand-ins: a folder or archive for each, named after the submission or one
-    /// of its people. Their files replace the first ones, whose time counts. Repeat it in each run
+    /// Folder with corrected hand-ins: a folder or archive for each, named after the submission or
+    /// one of its students. Their files replace the original ones, but the original submission time
+    /// still applies. Repeat this option in every run
     #[arg(long, value_name = "FOLDER", conflicts_with = "replay")]
     pub corrected: Option<PathBuf>,
 
-    /// Run one question of a graded submission again, such as `ann sphere.from_inside#7`, and show the
-    /// whole answer; ID is the submission's folder or anything that identifies one person
+    /// Run one question of a graded submission again, such as `ann sphere.from_inside#7`, and show
+    /// the whole answer; ID is the submission's folder, or anything that identifies one of its
+    /// students
     #[arg(long, value_names = ["ID", "ITEM[#N]"], num_args = 2, requires = "out")]
     #[arg(conflicts_with_all = ["input", "dry_run", "estimate", "regrade", "shard", "similarity_input"])]
     pub replay: Option<Vec<String>>,
@@ -104,7 +108,7 @@ pub struct ClassArguments {
     pub lists: Lists,
 }
 
-/// Options for grading each submission, with the meaning that they have in `cargo grade`.
+/// Options for grading each submission, with the same meaning as in `cargo grade`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct GradingArguments {
     /// The assignment; default: that of the exam file, or rays
@@ -119,13 +123,13 @@ pub struct GradingArguments {
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
 
-    /// CPU time limit of an item, in seconds; default: 50 times the slowest item that has passed,
-    /// at least 2 and at most 10 seconds
+    /// CPU time limit for an item, in seconds; default: 50 times as long as the slowest item that
+    /// has passed, but at least 2 and at most 10 seconds
     #[arg(long, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
     pub cpu_limit: Option<u64>,
 
-    /// Level of isolation of submissions from this machine; default: full if the machine supports
-    /// it, else no-namespaces; if it supports neither, nothing is graded
+    /// How well submissions are isolated from this machine; default: full if the machine supports
+    /// it, otherwise no-namespaces; if it supports neither, nothing is graded
     #[arg(long, value_name = "LEVEL")]
     pub isolation: Option<Isolation>,
 
@@ -134,40 +138,46 @@ pub struct GradingArguments {
     pub no_reference: bool,
 }
 
-/// The roster and the gradebooks of a class, as CSV files, and what is made of the grades.
+/// The roster and the gradebooks of a class, as CSV files, and the files to make from the grades.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Lists {
-    /// The policy file, for which grading and merging have options of their own; `None` for the default
-    /// policy.
+    /// The policy file, or `None` for the default policy. Grading and merging each have a separate
+    /// option for it.
     #[arg(skip)]
     pub policy: Option<PathBuf>,
+
+    /// The list of people that the platform's download contains beside the submissions.
+    #[arg(skip)]
+    pub downloaded: Option<PathBuf>,
 
     /// Roster, with columns such as name, email, sid, username; optional columns are group (one
     /// submission counts for the whole group) and datetime (the submission time)
     #[arg(long, value_name = "CSV")]
     pub roster: Option<PathBuf>,
 
-    /// Grade although more than half of the submissions match nobody in the roster or gradebook
+    /// Grade even if more than half of the submissions don't match anybody in the roster or
+    /// gradebook
     #[arg(long)]
     pub accept_unlisted: bool,
 
-    /// Points and comments by hand, with the columns student, task, delta, comment, author and, if you
-    /// like, date; they are added before lateness is considered
+    /// Manual points and comments, with the columns student, task, delta, comment, author and,
+    /// optionally, date; the points are added before lateness is considered
     #[arg(long, value_name = "CSV")]
     pub manual_points: Option<PathBuf>,
 
-    /// Write hand-back.zip: a page for each student, with the file names that Canvas and Moodle
-    /// expect
+    /// Write hand-back.zip, which contains a page for each student, with the file names that Canvas
+    /// and Moodle expect
     #[arg(long)]
     pub hand_back: bool,
 
-    /// Write a copy of the class for graders into this folder, with pseudonyms instead of names;
+    /// Write a copy of the class for graders to this folder, with pseudonyms instead of names;
     /// anonymous-key.json in the output folder is the key
     #[arg(long, value_name = "FOLDER")]
     pub anonymous: Option<PathBuf>,
 
-    /// Show similar submissions side by side: the folder of an earlier --similarity-input, and a
-    /// checker's results (Dolos's pairs.csv or JPlag's results.csv). Repeat it in each run
+    /// Show similar submissions side by side, given the folder of an earlier --similarity-input and
+    /// a checker's results (Dolos's pairs.csv, or JPlag's results.csv or archive). Repeat this
+    /// option in every run
     #[arg(long, value_names = ["FOLDER", "RESULTS"], num_args = 2)]
     pub similar: Vec<PathBuf>,
 
@@ -187,7 +197,8 @@ pub struct Lists {
     #[arg(long, value_name = "CSV")]
     pub gradescope: Option<PathBuf>,
 
-    /// Drop a list that an earlier run was given; otherwise, a list that is left out counts as before
+    /// Stop using a list from an earlier run; otherwise, if you leave out a list, the previous one
+    /// is used
     #[arg(long, value_name = "LIST")]
     pub drop_list: Vec<ListKind>,
 }
@@ -217,7 +228,12 @@ pub struct MergeArguments {
 }
 
 impl Lists {
-    /// Returns the path of a list, to read or replace it.
+    /// Returns the path of a list.
+    pub fn get(&self, kind: ListKind) -> Option<PathBuf> {
+        self.clone().path(kind).take()
+    }
+
+    /// Returns a list's path, which can be read or replaced.
     pub fn path(&mut self, kind: ListKind) -> &mut Option<PathBuf> {
         match kind {
             ListKind::Policy => &mut self.policy,
@@ -226,6 +242,7 @@ impl Lists {
             ListKind::Canvas => &mut self.canvas,
             ListKind::Moodle => &mut self.moodle,
             ListKind::Gradescope => &mut self.gradescope,
+            ListKind::Downloaded => &mut self.downloaded,
         }
     }
 }

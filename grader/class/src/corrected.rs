@@ -9,17 +9,17 @@ use judging::sanitize::sanitize_line;
 
 use crate::entry::Entry;
 use crate::error::Error;
+use crate::file_tree::list_folder;
 use crate::identity::find_submission;
 use crate::layout::{Layout, LayoutChoice, RecognisedClass, recognise};
-use crate::listing::list_folder;
 use crate::paths::contains;
 use crate::store::Store;
 
 /// The maximum length of a name in a message, in characters.
 const MAX_CHARS: usize = 200;
 
-/// Replaces the files of the submissions that `folder` has corrected hand-ins for, each named after
-/// the submission or one of its people. `input` is the path of the class.
+/// Replaces the files of each submission that has a corrected hand-in in `folder`. A corrected
+/// hand-in is named after the submission or one of its people. `input` is the path of the class.
 pub fn replace_files(
     class: &mut RecognisedClass,
     folder: &Path,
@@ -29,8 +29,8 @@ pub fn replace_files(
     let shown = folder.display();
     if contains(input, folder) {
         return Err(Error::user(format!(
-            "{shown} is in {}: the corrected hand-ins would be taken for submissions of their own; \
-             move the folder out of it",
+            "{shown} is inside {}, so the corrected hand-ins would be graded as separate \
+             submissions: move the folder elsewhere",
             input.display()
         )));
     }
@@ -50,7 +50,7 @@ pub fn replace_files(
         let entry = &mut class.entries[index];
         if let Some(other) = used.insert(index, path.clone()) {
             return Err(Error::user(format!(
-                "{shown}: {other} and {path} both correct {}: remove one",
+                "{shown}: {other} and {path} both contain corrections for {}: remove one",
                 entry.id
             )));
         }
@@ -59,23 +59,22 @@ pub fn replace_files(
         entry.info.is_corrected = true;
         entry.info.needs_staff = false;
     }
-    let unmatched = corrected.unmatched.into_iter().map(|mut file| {
+    for mut file in corrected.unmatched {
         file.name = format!("{shown}/{}", file.name);
-        file
-    });
-    class.unmatched.extend(unmatched);
+        class.unmatched.push(file);
+    }
     Ok(())
 }
 
-/// Rejects a run without corrected hand-ins if the last run had some: their submissions would be
-/// graded from the first files again.
+/// Rejects a run without corrected hand-ins if the last run had some. Otherwise, those submissions
+/// would be graded from their original files again.
 pub fn check_none_lost(store: &Store) -> Result<(), Error> {
     let is_corrected =
         |id: &String| matches!(store.result(id), Ok(Some(result)) if result.info.is_corrected);
     match store.ids()?.into_iter().find(is_corrected) {
         Some(id) => Err(Error::user(format!(
-            "{} has points for corrected hand-ins, such as {id}: pass their folder with --corrected \
-             again; if the first files are to count, pass an empty folder",
+            "{} has points for corrected hand-ins, such as {id}: pass their folder with \
+             --corrected again, or an empty folder to go back to the original files",
             store.folder().display()
         ))),
         None => Ok(()),

@@ -8,7 +8,7 @@ pub const BINS: usize = 10;
 /// The distribution of points over a class, for the exam or a task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Distribution {
-    /// The maximum number of points of the exam or task.
+    /// The maximum number of points for the exam or task.
     pub of: u32,
     /// The lowest number of points.
     pub least: u32,
@@ -22,18 +22,17 @@ pub struct Distribution {
     pub most: u32,
     /// The mean, rounded to one decimal place.
     pub mean: f64,
-    /// The number of submissions in each tenth of `of`. Full points are in the last tenth.
+    /// The number of submissions in each tenth of `of`. Full points fall into the last tenth.
     pub bins: [usize; BINS],
 }
 
 impl Distribution {
-    /// Returns the distribution of `points` out of `of`, or `None` if `points` is empty.
+    /// Returns the distribution of `points`, or `None` if `points` is empty. `of` is the maximum.
     pub fn new(mut points: Vec<u32>, of: u32) -> Option<Self> {
         points.sort_unstable();
         let (&least, &most) = (points.first()?, points.last()?);
         let count = points.len();
-        // Use the nearest-rank method, so that every quartile is a number of points that some
-        // submission got.
+        // Use the nearest-rank method, so that every quartile is equal to some submission's points.
         let at = |quarter: usize| points[(quarter * count).div_ceil(4).max(1) - 1];
         let mut bins = [0; BINS];
         for &points in &points {

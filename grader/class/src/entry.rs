@@ -1,22 +1,22 @@
 //! The entries of a class, in a form that doesn't depend on the layout.
 
 use std::ops::Not;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::names::{are_alike, are_equal};
+use crate::names::{are_alike, are_equal, joined};
 
 /// The placeholder for the names of the people in [`EntryInfo::hand_back_as`].
 pub const WHO: &str = "{who}";
-/// The placeholder for a person's own number in [`EntryInfo::hand_back_as`]. Each person gets a
-/// page.
+/// The placeholder for a person's number in [`EntryInfo::hand_back_as`]. If the name contains it,
+/// each person gets a separate page.
 pub const NUMBER: &str = "{number}";
 
 /// One submission of a class, before its files are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The id: unique in the class, and the name of the folder with the results.
+    /// The id, which is unique in the class. The folder with the entry's results has the same name.
     pub id: String,
     /// Information about the submission, such as its people.
     pub info: EntryInfo,
@@ -31,37 +31,44 @@ pub struct EntryInfo {
     pub people: Vec<Person>,
     /// Whether the platform's export marks the submission as late.
     pub late: bool,
-    /// Whether the platform's export marks every late submission, so that one without a mark is on
-    /// time.
+    /// Whether the platform's export marks every late submission, in which case a submission
+    /// without a mark is on time.
     #[serde(default, skip_serializing_if = "Not::not")]
     pub marks_late: bool,
-    /// Whether corrected files, which were handed in again, have replaced the first ones.
+    /// Whether corrected files, which were handed in later, have replaced the original ones.
     #[serde(default, skip_serializing_if = "Not::not")]
     pub is_corrected: bool,
-    /// Whether there is nothing to grade because of names or the export, which only staff can correct.
+    /// Whether there is nothing to grade because of a problem with names or the export that only
+    /// staff can correct.
     #[serde(default, skip_serializing_if = "Not::not")]
     pub needs_staff: bool,
-    /// The number of the attempt among those of the same people, if the platform counts them.
+    /// Why it is unclear who handed in the submission, if it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unclear_person: Option<String>,
+    /// Whether staff provided lists, but none of the people is on them.
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub is_unlisted: bool,
+    /// The number of this attempt among the attempts by the same people, if the platform counts
+    /// attempts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub attempt: Option<u32>,
-    /// The submission time in the platform's export, in its format.
+    /// The submission time from the platform's export, in the platform's format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
-    /// The time in a list, if the export doesn't contain one.
+    /// The submission time from a list, if the export doesn't contain one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub listed: Option<ListedTime>,
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
     /// The file name that the platform requires for the people's page, where `{who}` is replaced by
-    /// their names and `{number}` by each person's number. `None` if the platform doesn't require a
-    /// name.
+    /// their names and `{number}` by each person's number. `None` if the platform accepts any name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
-    /// The pseudonym for graders, or empty.
+    /// The pseudonym that graders see, or an empty string if there is none.
     #[serde(skip)]
     pub pseudonym: String,
-    /// The group that the submission is named after, if its people were taken from a list of this
-    /// group.
+    /// The group that the submission is named after, if its people were taken from a list of the
+    /// group's members.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub team: Option<String>,
 }
@@ -91,9 +98,10 @@ pub struct Person {
     /// The account name, for example on GitHub.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
-    /// The platform's own number for the person: the user id in Canvas, the participant number in
-    /// Moodle. In Moodle's file names, it can also be the number of a group, which may be equal to
-    /// somebody's. It is therefore only used together with the name.
+    /// The number that the platform gives the person, such as the user id in Canvas or the
+    /// participant number in Moodle. In Moodle's file names, it can also be the number of a group,
+    /// which may equal the number of some person. The number is therefore only used together with
+    /// the name.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
     /// The group in the roster.
@@ -114,19 +122,27 @@ pub struct Person {
     /// Whether only the roster's groups say that the person belongs to the submission.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_from_group: bool,
-    /// Whether the person is on a list, so that `number` isn't a group's.
+    /// Whether the person is on a list, in which case `number` isn't a group's number.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_listed: bool,
 }
 
 impl Entry {
+    /// Returns an entry without files, which only staff can correct.
+    pub fn left_to_staff(name: &str, why: impl Into<String>) -> Self {
+        let source = Source::Missing(why.into());
+        let mut entry = Entry::new(name, Person::named_by_file(name), name, source);
+        entry.info.needs_staff = true;
+        entry
+    }
+
     /// Marks the entry as one without files, which only staff can correct.
-    pub fn leave_to_staff(&mut self, why: String) {
-        self.source = Source::Missing(why);
+    pub fn leave_to_staff(&mut self, why: impl Into<String>) {
+        self.source = Source::Missing(why.into());
         self.info.needs_staff = true;
     }
 
-    /// Returns the entry of one person, which was read from the file or folder `from`.
+    /// Returns an entry for one person, read from the file or folder `from`.
     pub fn new(id: impl Into<String>, person: Person, from: &str, source: Source) -> Self {
         let info = EntryInfo {
             people: vec![person],
@@ -143,10 +159,21 @@ impl Entry {
 pub enum Source {
     /// A folder or an archive.
     Path(PathBuf),
-    /// Individual files, each with the name it was handed in under and its path.
+    /// Individual files: for each one, the name that it was handed in under, and its path.
     Files(Vec<(String, PathBuf)>),
     /// Nothing can be graded, for this reason.
     Missing(String),
+}
+
+impl Source {
+    /// Returns the paths of the folder, the archive or the files.
+    pub fn paths(&self) -> Vec<&Path> {
+        match self {
+            Source::Path(path) => vec![path],
+            Source::Files(files) => files.iter().map(|(_, path)| path.as_path()).collect(),
+            Source::Missing(_) => Vec::new(),
+        }
+    }
 }
 
 impl Person {
@@ -163,6 +190,11 @@ impl Person {
         [&self.email, &self.sid, &self.login]
     }
 
+    /// Returns whether none of the identifiers that are unique to one person is known.
+    pub fn is_bare(&self) -> bool {
+        self.own_identifiers() == [""; 3]
+    }
+
     /// Returns everything that identifies the person, without empty strings.
     pub fn identifiers(&self) -> impl Iterator<Item = &str> + Clone {
         let all = self.own_identifiers().into_iter();
@@ -170,24 +202,23 @@ impl Person {
         all.filter(|text| !text.is_empty())
     }
 
-    /// Returns the platform's number, or an empty string if it may be a group's.
+    /// Returns the platform's number for the person, or an empty string if the number may be a
+    /// group's.
     pub fn own_number(&self) -> &str {
         if self.is_listed { &self.number } else { "" }
     }
 
-    /// Returns whether the person has this number and a name similar to the one that a list has for
-    /// the number. A list without names gives the number in place of the name, such as
-    /// `Participant 51`.
+    /// Returns whether the person has this number and a name similar to the one that a list gives
+    /// for this number. A list without names contains text such as `Participant 51` in place of the
+    /// name.
     pub fn has_number(&self, number: &str, name: &str) -> bool {
-        let numbered = || format!("{}{}", self.name, self.number);
-        let is_alike = || {
-            self.name.is_empty()
-                || name.is_empty()
-                || are_alike(&self.name, name)
-                || are_alike(name, &self.name)
-                || are_alike(&numbered(), name)
-        };
-        !number.is_empty() && self.number == number && is_alike()
+        let numbered = format!("{}{}", self.name, self.number);
+        let pairs = [(&*self.name, name), (name, &self.name), (&numbered, name)];
+        let mut pairs = pairs.into_iter();
+        let is_unknown = self.name.is_empty() || name.is_empty();
+        !number.is_empty()
+            && self.number == number
+            && (is_unknown || pairs.any(|(one, other)| are_alike(one, other)))
     }
 
     /// Returns whether this is Canvas's test student, which lets teachers see their course as a
@@ -237,8 +268,8 @@ impl Person {
     }
 
     /// Returns whether both records describe the same person. Only unique identifiers are compared.
-    /// A name on its own is never enough, since two people may share a name, and neither is a
-    /// number.
+    /// A name on its own is never enough, since two people may share one. A number isn't enough
+    /// either.
     pub fn matches(&self, other: &Person) -> bool {
         let pairs = self.own_identifiers().into_iter();
         let mut pairs = pairs.zip(other.own_identifiers());
@@ -247,14 +278,13 @@ impl Person {
     }
 
     /// Returns whether both records describe the same person, or can only be compared by name and
-    /// share it.
+    /// have the same name.
     pub fn is_same(&self, other: &Person) -> bool {
-        let is_bare =
-            |person: &Person| person.own_identifiers() == [""; 3] && person.number.is_empty();
-        let has_only_name = is_bare(self) && is_bare(other) && !self.name.is_empty();
+        let has_only_name = |person: &Person| person.is_bare() && person.number.is_empty();
+        let is_namesake = !self.name.is_empty() && are_equal(&self.name, &other.name);
         self.matches(other)
             || self == other
-            || (has_only_name && are_equal(&self.name, &other.name))
+            || (is_namesake && has_only_name(self) && has_only_name(other))
     }
 }
 
@@ -270,8 +300,8 @@ impl EntryInfo {
         self.late || self.listed.as_ref().is_some_and(|listed| listed.late)
     }
 
-    /// Removes the groups and extensions, which only come from rosters, because a different roster
-    /// is used.
+    /// Removes the groups and extensions, which only come from rosters. This is needed when a
+    /// different roster is used.
     pub fn forget_groups_and_extensions(&mut self) {
         if let Some(team) = &self.team {
             self.people = vec![Person::named_by_file(team)];
@@ -285,8 +315,7 @@ impl EntryInfo {
 
     /// Returns the names of all people, joined with ` + `.
     pub fn display_names(&self) -> String {
-        let names: Vec<&str> = self.people.iter().map(Person::display_name).collect();
-        names.join(" + ")
+        joined(self.people.iter().map(Person::display_name), " + ")
     }
 }
 

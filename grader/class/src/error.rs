@@ -12,7 +12,8 @@ pub struct Error {
 }
 
 impl Error {
-    /// Returns an error that the user can fix, i.e. the command line, the input or a list is wrong.
+    /// Returns an error that the user can fix, i.e. one caused by a mistake in the command line,
+    /// the input or a list.
     pub fn user(error: impl ToString) -> Self {
         let text = error.to_string();
         Error { text, exit_code: 2 }

@@ -6,13 +6,13 @@ use grader::printing::counted;
 
 /// The numbers of machines to show times for.
 const MACHINES: [usize; 6] = [1, 2, 4, 8, 16, 64];
-/// The number of submissions to show the cost of, in addition to the class.
+/// The estimate shows the cost for this many submissions, in addition to the cost for the class.
 const MANY: f64 = 1e6;
 
 /// The measured times of some submissions, used to estimate the rest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Estimate {
-    /// The time each submission in the sample occupied a core.
+    /// The time for which each submission in the sample occupied a core.
     pub times: Vec<Duration>,
     /// The number of submissions that are still to be graded.
     pub remaining: usize,
@@ -21,25 +21,13 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Returns the mean time per submission on one core, or `None` if nothing was measured.
-    fn mean(&self) -> Option<Duration> {
-        let count = u32::try_from(self.times.len()).ok()?;
-        self.times.iter().sum::<Duration>().checked_div(count)
-    }
-
-    /// Returns the time that this many machines like this one take for the rest. Each submission is
-    /// graded on one core of one machine.
-    fn remaining_time(&self, mean: Duration, machines: usize) -> Duration {
-        let rounds = self.remaining.div_ceil(machines * self.slots);
-        mean * u32::try_from(rounds).unwrap_or(u32::MAX)
-    }
-
     /// Renders the estimate.
     pub fn render(&self) -> String {
-        let Some(mean) = self.mean() else {
-            return "\n  nothing to estimate: every submission is graded\n\n".to_owned();
-        };
-        let seconds = mean.as_secs_f64();
+        let count = self.times.len();
+        if count == 0 {
+            return "\n  nothing to estimate: every submission has been graded\n\n".to_owned();
+        }
+        let seconds = self.times.iter().sum::<Duration>().as_secs_f64() / count as f64;
         let sample = counted(self.times.len(), "submission");
         let mut text = format!(
             "  \n  estimate from {sample}: {seconds:.1} s per submission on one core\n  \
@@ -47,7 +35,9 @@ impl Estimate {
             self.remaining, self.slots
         );
         for machines in MACHINES {
-            let time = format_duration(self.remaining_time(mean, machines));
+            // Each submission is graded on one core of one machine.
+            let rounds = self.remaining.div_ceil(machines * self.slots);
+            let time = format_duration(seconds * rounds as f64);
             let machines = match machines {
                 1 => "this machine".to_owned(),
                 machines => format!("{machines} machines like this"),
@@ -56,13 +46,13 @@ impl Estimate {
         }
         let hours = MANY * seconds / 3600.0;
         text += &format!("  a million submissions: {hours:.0} core-hours\n");
-        text + "  the results are kept: without --estimate, the rest is graded\n\n"
+        text + "  the results are kept: leave out --estimate to grade the rest\n\n"
     }
 }
 
-/// Formats a duration in its two largest units.
-fn format_duration(duration: Duration) -> String {
-    let seconds = duration.as_secs_f64().ceil() as u64;
+/// Formats a number of seconds in the two largest units.
+fn format_duration(seconds: f64) -> String {
+    let seconds = seconds.ceil() as u64;
     match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
         (0, 0, seconds) => format!("{seconds} s"),
         (0, minutes, seconds) => format!("{minutes} min {seconds} s"),

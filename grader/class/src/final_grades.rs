@@ -1,5 +1,5 @@
-//! The final grades of the last run, i.e. after lateness, manual points and the policy, and the
-//! changes since the previous run.
+//! The final grades of the last run (after applying lateness, manual points and the policy), and
+//! the changes since the previous run.
 
 use std::collections::BTreeMap;
 
@@ -7,15 +7,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::entry::Person;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
-use crate::list_kind::{KeptLists, ListKind};
+use crate::list_kind::ListKind;
+use crate::names::with_detail;
 use crate::outcome::{EntryOutcome, id_and_names};
 use crate::run::{Run, Settings};
 
 /// The name of the file with the final grades in the output folder.
 pub const FILE: &str = "final-grades.json";
 
-/// The final grades of the last run, and those they are compared with. A run that changes nothing
-/// keeps both, so that repeating a run that was killed lists the same changes.
+/// The final grades of the last run, and the grades they are compared with. A run that changes
+/// nothing keeps both, so repeating a killed run lists the same changes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GradeHistory {
     /// The final grades to compare with, or `None` in a new folder.
@@ -27,7 +28,7 @@ pub struct GradeHistory {
 /// The final grades of a run and everything they depend on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FinalGrades {
-    /// The round. A regrade is compared with the grades before it.
+    /// The grading round. A regrade is compared with the grades of the round before it.
     round: u32,
     settings: Settings,
     lists: BTreeMap<ListKind, String>,
@@ -42,13 +43,13 @@ struct FinalGrade {
     submission: String,
     person: Person,
     status: String,
-    /// The final points and their maximum, or `None` if the submission doesn't have any.
+    /// The final points and their maximum, or `None` for a submission without final points.
     counts: Option<[u32; 2]>,
     /// The graded points.
     graded: u32,
     manual: i32,
     late_days: u32,
-    /// The policy's differences from the exam in items and tasks.
+    /// How the policy's items and tasks differ from those in the exam.
     #[serde(default)]
     changes: Vec<String>,
 }
@@ -58,8 +59,16 @@ struct FinalGrade {
 pub struct GradeChanges {
     /// The settings and lists that changed.
     pub causes: Vec<&'static str>,
-    /// Sentences about the changes, each with the submission, the person and the cause.
+    /// Sentences about the changes. Each names the submission, the person and the cause.
     pub changes: Vec<String>,
+}
+
+impl GradeChanges {
+    /// Returns whether nothing changed: neither a final grade nor anything that final grades depend
+    /// on.
+    pub fn is_empty(&self) -> bool {
+        self.causes.is_empty() && self.changes.is_empty()
+    }
 }
 
 impl GradeHistory {
@@ -74,7 +83,7 @@ impl GradeHistory {
             return earlier;
         }
         let before = match earlier.before {
-            // The comparison lasts until all submissions are graded.
+            // Compare with the same grades until all submissions are graded.
             Some(before) if earlier.now.is_incomplete => before,
             Some(_) | None => earlier.now,
         };
@@ -107,20 +116,19 @@ impl FinalGrades {
         let mut grades = Vec::new();
         for row in &class.rows {
             if let EntryOutcome::Fault(_) = row.result.outcome {
-                grades.extend(
-                    last.iter()
-                        .flat_map(|last| last.of(&row.result.id))
-                        .cloned(),
-                );
+                let earlier = last.iter().flat_map(|last| last.of(&row.result.id));
+                grades.extend(earlier.cloned());
             } else {
                 let people = row.people();
                 grades.extend(people.map(|(person, grade)| FinalGrade::new(row, person, grade)));
             }
         }
+        let lists = run.lists.iter().filter(|(kind, _)| LISTS.contains(kind));
+        let lists = lists.map(|(kind, list)| (*kind, list.hash.clone()));
         FinalGrades {
             round: run.round,
             settings: run.settings.clone(),
-            lists: hashes(&run.lists),
+            lists: lists.collect(),
             is_incomplete: class.fault_count() > 0,
             grades,
         }
@@ -131,7 +139,7 @@ impl FinalGrades {
         grades.filter(move |grade| grade.submission == submission)
     }
 
-    /// Returns the change to a later grade. A new submission isn't a change.
+    /// Returns a sentence about the change to a later grade. A new submission isn't a change.
     fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<String> {
         self.of(&now.submission).next()?;
         match self.find(now) {
@@ -143,7 +151,8 @@ impl FinalGrades {
         }
     }
 
-    /// Returns the change of an earlier grade that is missing here although its submission isn't.
+    /// Returns a sentence about an earlier grade that is missing here although the submission
+    /// isn't.
     fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
         (was.counts.is_some() && self.find(was).is_none()).then(|| {
@@ -152,7 +161,7 @@ impl FinalGrades {
         })
     }
 
-    /// Returns this run's grade of the same person for the same submission.
+    /// Returns this run's grade for the same person and submission.
     fn find(&self, grade: &FinalGrade) -> Option<&FinalGrade> {
         let is_same = |own: &&FinalGrade| {
             let mut names = own.person.identifiers();
@@ -181,7 +190,7 @@ impl FinalGrade {
         }
     }
 
-    /// Returns the points as text, or why there are none.
+    /// Returns the points as text, or the reason there are none.
     fn value(&self, with_maximum: bool) -> String {
         match self.counts {
             Some([points, of]) if with_maximum => format!("{points} of {of}"),
@@ -215,21 +224,10 @@ impl FinalGrade {
         self.changed(&was, &now, &why.join(", "))
     }
 
-    /// Returns a sentence about a change: the points or why there are none, and the cause.
+    /// Returns a sentence about a change. It contains the points before and after the change (or
+    /// the reason there are none) and the cause.
     fn changed(&self, was: &str, now: &str, why: &str) -> String {
         let who = id_and_names(&self.submission, self.person.display_name());
-        let why = if why.is_empty() {
-            ""
-        } else {
-            &format!(": {why}")
-        };
-        format!("{who}: {was} → {now}{why}")
+        with_detail(&format!("{who}: {was} → {now}"), why)
     }
-}
-
-fn hashes(lists: &KeptLists) -> BTreeMap<ListKind, String> {
-    let counted = lists.iter().filter(|(kind, _)| LISTS.contains(kind));
-    counted
-        .map(|(kind, list)| (*kind, list.hash.clone()))
-        .collect()
 }

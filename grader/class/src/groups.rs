@@ -1,38 +1,71 @@
 //! Group submissions: a platform such as Canvas exports a group's submission under the name of one
-//! member, and the roster's group column lists the other members. Moodle names it after the group.
+//! member, and the roster's group column lists the other members. Moodle names the submission after
+//! the group.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::entry::{EntryInfo, Person};
 use crate::list_kind::ListKind;
-use crate::names::are_equal;
+use crate::names::{are_same_name, can_become, fold, joined};
 use crate::roster::Member;
 
-/// Assigns entries that are named after a group and match nobody to the group's members, according
-/// to the roster or, if the group isn't in it, another list. Returns whether any were found.
+/// If an entry is named after a group and matches nobody, assigns it to the group's members. They
+/// come from the roster or, if the group isn't in it, from another list. If several groups could be
+/// meant, it isn't assigned to any of them. Returns whether any members were found.
 pub fn resolve_teams(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     let mut has_teams = false;
     for info in entries {
-        let [person] = info.people.as_slice() else {
+        let mut groups = groups_named_by(rows, info);
+        let (Some((_, members)), None) = (groups.pop_first(), groups.first_key_value()) else {
             continue;
         };
-        let team = person.name.clone();
-        if team.is_empty() || rows.iter().any(|row| row.matches(person)) {
-            continue;
-        }
-        let members = rows
-            .iter()
-            .filter(|row| are_equal(&row.person.group, &team));
-        let has_roster = members.clone().any(|row| row.list == ListKind::Roster);
-        let members = members.filter(|row| !has_roster || row.list == ListKind::Roster);
-        let members: Vec<Person> = members.map(|row| row.person.clone()).collect();
-        if !members.is_empty() {
-            has_teams = true;
-            info.people = members;
-            info.team = Some(team);
-        }
+        let people = members.into_iter().map(|member| member.person.clone());
+        info.team = Some(info.display_names());
+        info.people = people.collect();
+        has_teams = true;
     }
     has_teams
+}
+
+/// Returns a sentence about an entry named after a group if, judging by the name, it could be any
+/// of several groups.
+pub fn shared_team(rows: &[Member], info: &EntryInfo) -> Option<String> {
+    let groups = groups_named_by(rows, info);
+    let groups = groups.values().map(|members| &members[0].person.group);
+    let groups = Vec::from_iter(groups);
+    (groups.len() > 1).then(|| {
+        format!(
+            "{}: it could belong to any of the groups {}, whose names differ only in punctuation, \
+             so it isn't assigned to any of them: in the name of the file or folder and in the \
+             `group` column, give the groups names with different letters or digits",
+            info.from,
+            joined(groups, ", ")
+        )
+    })
+}
+
+/// Returns the members of each group that an entry may be named after. There are none if the entry
+/// is named after a person on a list.
+fn groups_named_by<'a>(rows: &'a [Member], info: &EntryInfo) -> BTreeMap<String, Vec<&'a Member>> {
+    let mut groups: BTreeMap<String, Vec<&Member>> = BTreeMap::new();
+    let [person] = info.people.as_slice() else {
+        return groups;
+    };
+    let team = person.name.as_str();
+    if team.is_empty() || rows.iter().any(|row| row.matches(person)) {
+        return groups;
+    }
+    let members = rows.iter();
+    let members = members.filter(|row| are_same_name(&row.person.group, team));
+    let has_roster = members.clone().any(|row| row.list == ListKind::Roster);
+    for member in members.filter(|row| !has_roster || row.list == ListKind::Roster) {
+        let group = fold(&member.person.group);
+        groups.entry(group).or_default().push(member);
+    }
+    if groups.keys().any(|group| can_become(group, team)) {
+        groups.retain(|group, _| can_become(group, team));
+    }
+    groups
 }
 
 /// Merges the records of people who are listed twice.
@@ -40,10 +73,8 @@ pub fn remove_repetitions(people: &mut Vec<Person>) {
     let mut distinct: Vec<Person> = Vec::new();
     for person in people.drain(..) {
         let is_repetition = |other: &&mut Person| {
-            let has_other_name = !other.name.is_empty()
-                && !person.name.is_empty()
-                && !are_equal(&other.name, &person.name);
-            other.is_same(&person) && !has_other_name
+            let has_unknown_name = other.name.is_empty() || person.name.is_empty();
+            other.is_same(&person) && (has_unknown_name || are_same_name(&other.name, &person.name))
         };
         match distinct.iter_mut().find(is_repetition) {
             Some(other) => other.fill_missing_from(&person),
@@ -53,8 +84,8 @@ pub fn remove_repetitions(people: &mut Vec<Person>) {
     *people = distinct;
 }
 
-/// Adds the other members of a group to the entry of the member who submitted, except those with a
-/// submission of their own. Returns whether any were found.
+/// Adds the other members of a group to the entry of the member who submitted, unless they have
+/// handed in a separate submission. Returns whether any members were found.
 pub fn add_group_members(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     let members = rows.iter().filter(|row| row.list == ListKind::Roster);
     let people = entries.iter().flat_map(|info| info.people.clone());
@@ -62,14 +93,12 @@ pub fn add_group_members(rows: &[Member], entries: &mut [&mut EntryInfo]) -> boo
     let is_there = |member: &Member| people.iter().any(|person| member.matches(person));
     let mut has_added = false;
     for info in entries {
-        let theirs = members
-            .clone()
-            .filter(|member| info.people.iter().any(|person| member.matches(person)));
+        let is_theirs = |member: &&Member| info.people.iter().any(|person| member.matches(person));
+        let theirs = members.clone().filter(is_theirs);
         let groups: BTreeSet<&str> = theirs.map(|member| member.person.group.as_str()).collect();
         let others = members.clone().filter(|member| {
-            let is_in_group =
-                !member.person.group.is_empty() && groups.contains(member.person.group.as_str());
-            is_in_group && !is_there(member)
+            let group = member.person.group.as_str();
+            !group.is_empty() && groups.contains(group) && !is_there(member)
         });
         let others = others.map(|member| Person {
             is_from_group: true,

@@ -1,10 +1,10 @@
 //! One archive with the pages to hand back. Its files have the names that Canvas and Moodle expect
 //! for an upload. For other platforms, they are named after the people.
 //!
-//! Canvas takes the first two numbers between underscores for the user and the attachment, and
-//! shows the page under the attachment's name, so an attachment that is a zip is answered with a
-//! zip. Moodle splits a name at its underscores into full name, participant, plug-in type, plug-in
-//! and file name, so the full name must not contain any.
+//! Canvas reads the first two numbers between underscores as the numbers of the user and the
+//! attachment, and shows the page under the attachment's name. The page for a submitted zip is
+//! therefore put into a zip as well. Moodle splits a name at its underscores into full name,
+//! participant, plug-in type, plug-in and file name, so the full name must not contain any.
 
 use std::io;
 
@@ -15,6 +15,7 @@ use crate::archive::ArchiveWriter;
 use crate::entry::{NUMBER, Person, WHO};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
+use crate::names::{are_equal, joined};
 use crate::store::Store;
 
 /// The name of the archive in the output folder.
@@ -22,10 +23,10 @@ pub const ARCHIVE: &str = "hand-back.zip";
 /// The suffix of a page's file name, after the person's name.
 const PAGE: &str = "feedback.html";
 
-/// The reason for leaving out a page in Moodle. If the number is a group's, the wrong person would
-/// get the page.
-const NO_NUMBER: &str = "the number in the file name can be a person's or a group's, and no list tells \
-    which: pass Moodle's worksheet with --moodle";
+/// The reason for leaving out a page for Moodle. If the number in the file name belonged to a
+/// group, the wrong person would get the page.
+const NO_NUMBER: &str = "the number in the file name could be a person's or a group's, and no list \
+                         says which: pass Moodle's worksheet with --moodle";
 
 /// An archive to hand back to students.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,7 +35,7 @@ pub struct HandBack {
     pub archive: Vec<u8>,
     /// The number of pages in the archive.
     pub pages: usize,
-    /// The people whose pages aren't in the archive, with the reasons.
+    /// The people whose pages aren't in the archive, and the reasons.
     pub left_out: Vec<String>,
 }
 
@@ -47,7 +48,8 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         let has_page = row.result.score().is_some();
         let ready = |(_, grade): &(&Person, &PersonGrade)| has_page && grade.counted.is_some();
         let (ready, others): (Vec<_>, Vec<_>) = row.people().partition(ready);
-        for (person, grade) in others {
+        // The page for the attempt that counts says everything.
+        for (person, grade) in others.into_iter().filter(|(_, own)| !own.is_superseded()) {
             let (name, status) = (person.display_name(), row.status(grade));
             left_out.push(format!("{name}: {status}: {}", row.why(grade)));
         }
@@ -59,12 +61,12 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         if let Some(name) = name.filter(|name| !name.contains(NUMBER)) {
             // The platform forwards the page to the members of a group.
             let names = ready.iter().map(|(person, _)| person.display_name());
-            let names = safe_folder_name(&names.collect::<Vec<_>>().join(" + "));
+            let names = safe_folder_name(&joined(names, " + "));
             add_as(&mut archive, name, &names, &page).map_err(cannot_write)?;
             continue;
         }
         for (person, grade) in ready {
-            let who = safe_folder_name(person.display_name());
+            let who = safe_folder_name(&unique_name(class, person));
             let own = with_counted(&page, &own_texts(row, person, grade));
             let added = match name {
                 Some(_) if person.own_number().is_empty() => {
@@ -87,12 +89,28 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
     })
 }
 
+/// Returns a person's name, followed by an identifier if somebody else in the class has the same
+/// name.
+fn unique_name(class: &GradedClass, person: &Person) -> String {
+    let name = person.display_name();
+    let people = class.rows.iter().flat_map(|row| &row.result.info.people);
+    let mut namesakes = people.filter(|other| are_equal(other.display_name(), name));
+    let mut own = person.own_identifiers().into_iter();
+    let identifier = own.find(|own| !own.is_empty() && *own != name);
+    let is_shared = namesakes.any(|other| other.own_identifiers() != person.own_identifiers());
+    match identifier.filter(|_| is_shared) {
+        Some(identifier) => format!("{name} {identifier}"),
+        None => name.to_owned(),
+    }
+}
+
 /// Returns the error for an archive that cannot be written, e.g. because it is too large.
 fn cannot_write(error: io::Error) -> Error {
     Error::machine(format!("cannot write {ARCHIVE}: {error}"))
 }
 
-/// Returns the sentences on a person's own page, which don't mention the rest of the group.
+/// Returns the sentences for a page that only one person gets. They don't mention the rest of the
+/// group.
 fn own_texts(row: &ClassRow, person: &Person, grade: &PersonGrade) -> Vec<String> {
     let name = person.display_name();
     let name = (name != row.result.id).then(|| name.to_owned());

@@ -1,5 +1,5 @@
-//! Texts to the people whose submissions cannot be graded: what was wrong, and how to hand in again.
-//! Staff send them; nothing is sent here.
+//! Messages to the people whose submissions cannot be graded. They say what was wrong and how to
+//! hand in again. Staff send the messages. Nothing is sent by this program.
 
 use std::collections::BTreeSet;
 
@@ -15,14 +15,14 @@ use crate::layout::unique_name;
 use crate::outcome::EntryOutcome;
 use crate::store::Store;
 
-/// The folder of the texts in the output folder.
+/// The subfolder of the output folder for the messages.
 pub const FOLDER: &str = "hand-in-again";
 /// The maximum length of a name or a reason, in characters.
 const MAX_CHARS: usize = 1_000;
 
-/// Writes a text for each person none of whose submissions can be graded, and removes those of the
-/// last run. Returns the number of texts.
-pub fn write_texts(
+/// Writes a message for each person who has submitted something, but nothing that can be graded.
+/// Removes the messages from the last run. Returns the number of messages written.
+pub fn write_messages(
     class: &GradedClass,
     store: &Store,
     handed_out: &HandedOut,
@@ -67,21 +67,21 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
     let reason = |why: &String| format!("- {}\n", sanitize_line(why, MAX_CHARS));
     format!(
         "To: {name}{address}\n\
-         Subject: Please hand in again\n\
+         Subject: Please resubmit your work\n\
          \n\
          Hello {name},\n\
          \n\
-         Your submission could not be graded. This is what is wrong with it:\n\
+         Your submission could not be graded, for this reason:\n\
          \n\
          {}\n\
-         Please pack your files again. To do so, run this command in the folder of the assignment:\n\
+         Please pack your files again. To do so, run this command in the assignment's folder:\n\
          \n    cargo handin\n\
          \n\
-         It makes the archive handin.zip from your {}.\n\
-         It also reads the archive as the grader will, and lists each file. If one is missing, put\n\
-         it beside the others, under exactly this name, and run the command again.\n\
+         It creates the archive handin.zip from your {}.\n\
+         It also reads the archive the way the grader will, and lists each file. If one is\n\
+         missing, put it next to the others, with exactly this name, and run the command again.\n\
          \n\
-         Then send us handin.zip as an answer to this message. The time of your first submission\n\
+         Then send us handin.zip in reply to this message. The time of your first submission\n\
          counts, so please hand in your code as it was then.\n",
         reasons.iter().map(reason).collect::<String>(),
         handed_out.file_list(),

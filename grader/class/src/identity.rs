@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use grader::nearest_name::suggestion;
 
 use crate::entry::Person;
-use crate::names::{are_equal, fold};
+use crate::names::{are_equal, are_same_name, fold};
 
-/// One person's part of a submission: the index of the row and of the person in it.
+/// One person's part in a submission: the index of the row, and the person's index in that row.
 pub type Attempt = (usize, usize);
 
 /// Returns the attempts of each person. Only unique identifiers are compared, unless only a name is
@@ -25,8 +25,8 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
     groups.into_values().collect()
 }
 
-/// Returns the index of the submission with this id, or of the only one of people with this name or
-/// identifier. `all` lists the id and the people of each submission.
+/// Returns the index of the submission with this id, or of the only submission by somebody with
+/// this name or identifier. `all` lists the id and the people of each submission.
 pub fn find_submission(who: &str, all: &[(&str, &[Person])]) -> Result<usize, String> {
     if let Some(index) = all.iter().position(|(id, _)| are_equal(id, who)) {
         return Ok(index);
@@ -35,15 +35,22 @@ pub fn find_submission(who: &str, all: &[(&str, &[Person])]) -> Result<usize, St
         let mut names = all[*index].1.iter().flat_map(Person::identifiers);
         names.any(|name| are_equal(name, who))
     };
-    let theirs: Vec<usize> = (0..all.len()).filter(is_theirs).collect();
+    let is_called = |index: &usize| {
+        let mut people = all[*index].1.iter();
+        people.any(|person| are_same_name(&person.name, who))
+    };
+    let mut theirs: Vec<usize> = (0..all.len()).filter(is_theirs).collect();
+    if theirs.is_empty() {
+        theirs = (0..all.len()).filter(is_called).collect();
+    }
     Err(match theirs.as_slice() {
         [only] => return Ok(*only),
         [one, other, ..] => format!(
-            "{who:?} could be {} or {}: write the name of the submission's folder",
+            "{who:?} could be {} or {}: use the name of the submission's folder",
             all[*one].0, all[*other].0
         ),
         [] => format!(
-            "no submission is named {who:?}, and nobody in one has this name or identifier{}",
+            "no submission is called {who:?}, and none belongs to a person with this name or identifier{}",
             suggestion(who, all.iter().map(|(id, _)| *id))
         ),
     })

@@ -7,13 +7,14 @@ use std::path::Path;
 use grader::build::build_dir::{BuildDir, remove_abandoned};
 use grader::files::{self, AtPath};
 use grader::handed_out::HandedOut;
-use grader::submission::{Submission, SubmissionError, listed, places};
+use grader::submission::{Submission, SubmissionError, listed};
 use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::entry::{Entry, Source};
 use crate::error::Error;
+use crate::file_tree::{Node, hidden_names, list_folder};
 use crate::layout::{self, LayoutChoice, METADATA, RecognisedClass, UnmatchedPath};
-use crate::listing::{Node, hidden_names, list_folder};
+use crate::outcome::EntryOutcome;
 use crate::roster::Member;
 use crate::unpack::{CLASS_FOLDER, unpack};
 
@@ -33,7 +34,7 @@ pub struct Input {
 
 impl Input {
     /// Opens the folder or archive at `path`. An archive is unpacked into a temporary folder in
-    /// `parent`. Ambiguous names are compared with `known`, the people on lists.
+    /// `parent`. Ambiguous names are checked against `known`, the people on the class's lists.
     pub fn open(
         choice: &LayoutChoice,
         path: &Path,
@@ -60,7 +61,7 @@ impl Input {
         let archive = path.file_name().map(|name| name.to_string_lossy());
         let archive = archive.as_deref().filter(|_| unpacked.is_some());
         let (root, note) = match (choice.layout, listed.children()) {
-            // A folder that isn't a submission in the chosen layout contains the class.
+            // A folder that isn't named like a submission in the chosen layout contains the class.
             (Some(layout), [only]) if only.is_folder() && !layout.has_name(&only.name) => {
                 (only, None)
             }
@@ -71,22 +72,22 @@ impl Input {
         let metadata = metadata.transpose().map_err(Error::user)?;
         let metadata = metadata.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
         let mut class = layout::recognise(choice, &root, metadata.as_deref(), handed_out, known)?;
-        class.notes.extend(note);
+        // The note about a single folder is wrong if several submissions were found in it.
+        let is_wrong = root.path == listed.path && class.entries.len() > 1;
+        class.notes.extend(note.filter(|_| !is_wrong));
         let unpacked = unpacked.map(|unpacked| {
             class.unmatched.extend(unpacked.problems);
             reject_incomplete(&mut class, &folder, unpacked.incomplete);
             unpacked.build_dir
         });
-        let hidden = hidden_names(&root.path).map_err(Error::user)?;
-        let hidden = hidden.into_iter().map(|name| UnmatchedPath {
-            name,
-            why: "its name begins with a dot, so it is hidden".to_owned(),
-        });
-        class.unmatched.extend(hidden);
+        for name in hidden_names(&root.path).map_err(Error::user)? {
+            let why = "its name begins with a dot, so it is hidden";
+            class.unmatched.push(UnmatchedPath::new(name, why));
+        }
         let of_several = if class.entries.is_empty() {
             layout::side_by_side(&root, handed_out)
         } else {
-            // A few may be students' mistakes, which are reported to them.
+            // A few such entries may be mistakes by students, which are reported to them.
             let is_most = 2 * class.mixtures.len() > class.entries.len();
             class.mixtures.first().filter(|_| is_most).cloned()
         };
@@ -95,8 +96,8 @@ impl Input {
             let why = sanitize_line(&why, MAX_CHARS);
             return refused(&format!(
                 "cannot be read as a class: {why}{unpack}; or choose how to read it: with --layout \
-                 tutorials, each folder has several students' folders, and with --layout folders, each \
-                 is one submission"
+                 tutorials, each folder contains several students' folders; with --layout folders, \
+                 each folder is one submission"
             ));
         }
         if class.entries.is_empty() {
@@ -113,18 +114,17 @@ impl Input {
     }
 }
 
-/// Marks each entry with a file that could not be unpacked as an entry without files. Files that
-/// belong to no entry are listed.
+/// If a file of an entry could not be unpacked, marks the entry as having no files. If such a file
+/// belongs to no entry, adds it to the unmatched files.
 fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec<UnmatchedPath>) {
     for file in incomplete {
         let path = folder.join(&file.name);
         let mut entries = class.entries.iter_mut();
-        let entry = entries.find(|entry| match &entry.source {
-            Source::Path(own) => path.starts_with(own),
-            Source::Files(files) => files.iter().any(|(_, own)| *own == path),
-            Source::Missing(_) => false,
-        });
-        match entry {
+        let is_own = |entry: &&mut Entry| {
+            let mut paths = entry.source.paths().into_iter();
+            paths.any(|own| path.starts_with(own))
+        };
+        match entries.find(is_own) {
             Some(entry) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 let why = format!("{} cannot be unpacked: {}", sanitize(&name, 200), file.why);
@@ -135,47 +135,28 @@ fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec
     }
 }
 
-/// Why an entry contains no gradable submission. This doesn't affect other entries.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NotCollected {
-    /// The entry contains nothing to grade.
-    NothingToGrade(String),
-    /// The machine failed to read the entry, so nothing is known about it.
-    MachineFault(String),
-}
-
-impl NotCollected {
-    /// Returns the reason as text.
-    pub fn into_text(self) -> String {
-        let (NotCollected::NothingToGrade(why) | NotCollected::MachineFault(why)) = self;
-        why
-    }
-}
-
-/// Reads the task files of an entry.
+/// Reads the task files of an entry. If there is no submission to grade, returns the entry's
+/// outcome. Other entries aren't affected.
 pub fn collect_submission(
     entry: &Entry,
     handed_out: &'static HandedOut,
-) -> Result<Submission, NotCollected> {
-    let mut submission = match &entry.source {
-        Source::Path(path) => {
-            Submission::collect(path, handed_out).map_err(|error| not_collected(&error, path))?
-        }
-        Source::Files(files) => Submission::from_files(&entry.id, files, handed_out)
-            .map_err(|error| not_collected(&error, Path::new(&entry.id)))?,
-        Source::Missing(why) => return Err(NotCollected::NothingToGrade(why.clone())),
+) -> Result<Submission, EntryOutcome> {
+    let id = &entry.id;
+    let (collected, input) = match &entry.source {
+        Source::Path(path) => (Submission::collect(path, handed_out), path.as_path()),
+        Source::Files(files) => (Submission::from_files(id, files, handed_out), Path::new(id)),
+        Source::Missing(why) => return Err(EntryOutcome::NothingToGrade(why.clone())),
     };
-    submission.name.clone_from(&entry.id);
+    let mut submission = collected.map_err(|error| {
+        let why = error_message(&error, input);
+        if error.is_machine_fault() {
+            EntryOutcome::fault(&why)
+        } else {
+            EntryOutcome::NothingToGrade(why)
+        }
+    })?;
+    submission.name.clone_from(id);
     Ok(submission)
-}
-
-fn not_collected(error: &SubmissionError, input: &Path) -> NotCollected {
-    let why = error_message(error, input);
-    if error.is_machine_fault() {
-        NotCollected::MachineFault(why)
-    } else {
-        NotCollected::NothingToGrade(why)
-    }
 }
 
 /// Returns the error's message without the path, which may be different in the next run.
@@ -184,35 +165,21 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
         SubmissionError::NotFound(_) | SubmissionError::NotFileOrFolder(_) => {
             "it no longer exists".to_owned()
         }
-        SubmissionError::NoTaskFiles { found, .. } if found.is_empty() => {
-            "nothing was handed in".to_owned()
-        }
-        SubmissionError::NoTaskFiles { found, .. } => {
-            let found = sanitize(&listed(found), 200);
-            format!("none of the task files was handed in, only {found}")
-        }
-        SubmissionError::Ambiguous { copies, .. } => {
-            let copies = sanitize(&places(copies), 200);
-            format!(
-                "it has task files that differ, in {copies}: put those that count into one folder, without the others"
-            )
-        }
-        SubmissionError::StarterBesideCopies {
-            starters, copies, ..
-        } => {
-            let (starters, copies) = (listed(starters), listed(copies));
-            format!(
-                "it has the starter's {}, and changed copies in {}: keep the file that counts, under \
-                 the task file's name",
-                sanitize(&starters, 300),
-                sanitize(&copies, 300)
-            )
-        }
-        SubmissionError::TooMany(_, limit) => {
-            format!("it has {limit}: keep the task files without the rest")
-        }
-        SubmissionError::Link { link, .. } => {
-            format!("{link} is a link, and links are not followed")
+        SubmissionError::NoTaskFiles { found, advice, .. } => match sanitize(&listed(found), 200) {
+            _ if found.is_empty() => "nothing was handed in".to_owned(),
+            found => format!("none of the task files was handed in, only {found}{advice}"),
+        },
+        SubmissionError::Ambiguous { .. }
+        | SubmissionError::StarterBesideCopies { .. }
+        | SubmissionError::TooMany(_, _)
+        | SubmissionError::Link { .. } => {
+            let text = error.to_string();
+            let rest = text.strip_prefix(&*input.to_string_lossy());
+            let rest = rest.map(|rest| match rest.strip_prefix(": ") {
+                Some(rest) => rest.to_owned(),
+                None => format!("it{rest}"),
+            });
+            sanitize(&rest.unwrap_or(text), MAX_CHARS)
         }
         SubmissionError::Unreadable(error) if error.path == input => {
             format!("the folder or file cannot be read: {}", error.reason())

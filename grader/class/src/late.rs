@@ -13,23 +13,28 @@ use judging::sanitize::sanitize;
 use crate::entry::{EntryInfo, Person};
 use crate::identity::person_ids;
 use crate::moodle_status::MoodleStatus;
-use crate::names::{are_equal, fold};
+use crate::names::are_equal;
 
 /// The reason it is unclear how late a submission is. Points must not depend on a guess, so the
 /// submission doesn't get final points until a person corrects the time.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{why}")]
 pub struct UnclearTime {
-    /// The reason and what to do.
+    /// The reason, followed by what to do about it.
     pub why: String,
     /// Whether the student hasn't submitted the files, according to Moodle.
     pub is_draft: bool,
 }
 
-/// The platform only says that the submission is late, and the person has an extension.
-pub const ONLY_A_FLAG: &str = "the platform says that it is late, but an extension can be applied only \
-    if the submission time and the due time are known: add a column `datetime` to the roster, and `due` \
-    to the policy";
+/// The reason for an unclear time if the platform only says that the submission is late and the
+/// person has an extension.
+pub const ONLY_A_FLAG: &str = "the platform says that the submission is late, but an extension can \
+    be applied only if the submission time and the due time are known: add a `datetime` column to \
+    the roster, and `due` to the policy";
+
+const NOT_IN_CLASS: &str = "who is not in this class";
+const SHARED_NAME: &str = "but several people have this name, and all of them get it: use an email \
+    address or a student number instead";
 
 impl UnclearTime {
     /// Returns the error for a submission that has a time or should have one.
@@ -40,7 +45,7 @@ impl UnclearTime {
         }
     }
 
-    /// Returns the error for a submission time that points depend on but that cannot be used.
+    /// Returns the error for an unusable submission time that points depend on.
     fn submitted(text: &str, why: TimeError) -> Self {
         UnclearTime::new(format!(
             "the submission time {text:?} cannot be used: {why}"
@@ -48,8 +53,9 @@ impl UnclearTime {
     }
 }
 
-/// Returns how late a submission is for one of its people. If its submission time is known and the
-/// policy sets a due time, these two decide. Otherwise, the platform's late flag does.
+/// Returns the lateness of a submission for one of the people who handed it in. If its submission
+/// time is known and the policy sets a due time, the lateness depends on these two times.
+/// Otherwise, it depends on the platform's late flag.
 pub fn lateness(
     policy: &Policy,
     info: &EntryInfo,
@@ -100,14 +106,15 @@ fn check_plausible(
     let grace = i64::from(policy.late.grace_minutes) * 60;
     if info.late && without_extension.is_some_and(|seconds| seconds <= 0) {
         Err(UnclearTime::new(format!(
-            "a list has the submission time {text:?}, which is on time, but the platform marks the \
-             submission as late: write the time of the last attempt into the list, or leave it empty"
+            "a list gives the submission time as {text:?}, which is on time, but the platform \
+             marks the submission as late: enter the time of the last attempt in the list, or \
+             leave the time empty"
         )))
     } else if info.marks_late && !info.late && time.duration_since(due).as_secs() > grace {
         Err(UnclearTime::new(format!(
-            "a list has the submission time {text:?}, which is late, but the platform does not mark the \
-             submission as late: correct the time, or add the extension that the platform granted to \
-             the roster or the policy"
+            "a list gives the submission time as {text:?}, which is late, but the platform does \
+             not mark the submission as late: correct the time, or, if the platform granted an \
+             extension, add it to the roster or the policy"
         )))
     } else {
         Ok(())
@@ -138,15 +145,15 @@ fn extensions(
     let status = MoodleStatus::parse(&person.status);
     if let Some(unknown) = status.unknown {
         return Err(UnclearTime::new(format!(
-            "the status {unknown:?} in Moodle's worksheet is unknown, and could be a draft or an \
+            "the status {unknown:?} in Moodle's worksheet is unknown, and could mean a draft or an \
              extension: set Moodle's language to English, and download the worksheet again"
         )));
     }
     // A partner's draft is a different submission.
     if let Some(unsubmitted) = status.unsubmitted.filter(|_| !person.is_from_group) {
         let why = format!(
-            "the status in Moodle's worksheet is {unsubmitted:?}: if the files count, change it to \
-             \"Submitted for grading\" there, or else remove them from the input"
+            "the status in Moodle's worksheet is {unsubmitted:?}: if the files should be graded, change it \
+             to \"Submitted for grading\" there; otherwise, remove them from the input"
         );
         let is_draft = true;
         return Err(UnclearTime { why, is_draft });
@@ -156,21 +163,15 @@ fn extensions(
     let due = policy.late.due;
     let needed = |_: &&str| due.is_some() || info.is_late();
     let by_moodle = status.extension.filter(needed).unwrap_or_default();
-    for text in [&person.extension, by_moodle] {
-        if text.is_empty() {
-            continue;
-        }
-        let own = Extension::parse(text, policy.late.timezone.as_ref());
-        let own = own.and_then(|own| {
-            if own.is_far_from(due) {
-                Err(TimeError::FarFromDue)
-            } else {
-                Ok(own)
-            }
-        });
+    let listed = [&person.extension, by_moodle].into_iter();
+    for text in listed.filter(|text| !text.is_empty()) {
+        let own = match Extension::parse(text, policy.late.timezone.as_ref()) {
+            Ok(own) if own.is_far_from(due) => Err(TimeError::FarFromDue),
+            own => own,
+        };
         extensions.push(own.map_err(|why| {
             UnclearTime::new(format!(
-                "the extension {text:?} is neither a number of days nor a time that can be used: {why}"
+                "the extension {text:?} is neither a number of days nor a valid time: {why}"
             ))
         })?);
     }
@@ -180,13 +181,7 @@ fn extensions(
 /// Prints a warning for each of the policy's extensions that doesn't belong to any of these people,
 /// or that belongs to several with the same name.
 pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
-    let unmatched = unmatched_extensions(policy, people).into_iter();
-    let unmatched = unmatched.map(|name| (name, "who is not in this class"));
-    let shared = extensions_of_namesakes(policy, people).into_iter();
-    let advice = "and several people with this name get it: write an email address or student number \
-                  in its place";
-    let shared = shared.map(|name| (name, advice));
-    for (name, problem) in unmatched.chain(shared) {
+    for (name, problem) in extension_problems(policy, people) {
         let name = sanitize(name, 200);
         print_error_line(format_args!(
             "the policy has an extension for {name:?}, {problem}"
@@ -194,35 +189,32 @@ pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
     }
 }
 
-/// Returns the names in the policy's extensions that don't belong to any of these people.
-fn unmatched_extensions<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'a str> {
-    let mut names: BTreeSet<String> = BTreeSet::new();
-    for person in people {
-        let all = person.identifiers().chain([person.group.as_str()]);
-        names.extend(all.map(fold));
-    }
-    let keys = policy.late.extensions.keys();
-    let unmatched = keys.filter(|key| !names.contains(&fold(key)));
-    unmatched.map(String::as_str).collect()
-}
-
-/// Returns the names in the policy's extensions that several of these people share.
-fn extensions_of_namesakes<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<&'a str> {
+/// Returns each name in the policy's extensions that belongs to none or several of these people,
+/// together with a description of the problem.
+fn extension_problems<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<(&'a str, &'static str)> {
     let ids = person_ids(people);
-    let is_shared = |key: &&String| {
-        let named = people.iter().zip(&ids);
-        let named = named.filter(|(person, _)| are_equal(&person.name, key));
+    let problem = |key: &'a String| {
+        let own = |person: &&Person| {
+            let mut names = person.identifiers().chain([person.group.as_str()]);
+            names.any(|name| are_equal(name, key))
+        };
         // A group's name applies to everybody in the group.
-        let named = named.filter(|(person, _)| !are_equal(&person.group, key));
-        let ids: BTreeSet<usize> = named.map(|(_, id)| *id).collect();
-        ids.len() > 1
+        let is_named =
+            |person: &Person| are_equal(&person.name, key) && !are_equal(&person.group, key);
+        let named = people.iter().zip(&ids);
+        let named = named.filter(|(person, _)| is_named(person));
+        let named: BTreeSet<usize> = named.map(|(_, id)| *id).collect();
+        if !people.iter().any(own) {
+            Some((key.as_str(), NOT_IN_CLASS))
+        } else {
+            (named.len() > 1).then_some((key.as_str(), SHARED_NAME))
+        }
     };
-    let keys = policy.late.extensions.keys();
-    keys.filter(is_shared).map(String::as_str).collect()
+    policy.late.extensions.keys().filter_map(problem).collect()
 }
 
-/// Returns whether the policy sets a due time, but the submission has neither a time nor a late
-/// flag. Such a submission is treated as on time.
+/// Returns whether the policy sets a due time, but the submission comes without a time and without a
+/// late flag. Such a submission is treated as on time.
 pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
     policy.late.due.is_some() && !info.is_late() && info.submitted().is_none()
 }
@@ -247,7 +239,7 @@ mod tests {
         let nobody = Person::default();
         let late = lateness(&policy, &late_flag(), &nobody).unwrap();
         assert_eq!(late, Lateness::of_seconds(301));
-        assert_eq!(policy.counted_points(80, 100, late).points, 72);
+        assert_eq!(policy.final_points(80, 100, late).points, 72);
         let on_time = lateness(&policy, &EntryInfo::default(), &nobody);
         assert_eq!(on_time, Ok(Lateness::NONE));
         assert!(!is_undated(&policy, &EntryInfo::default()));
@@ -262,15 +254,17 @@ mod tests {
         let unclear = lateness(&policy, &late_flag(), &ann);
         assert_eq!(unclear, Err(UnclearTime::new(ONLY_A_FLAG)));
         assert!(lateness(&policy, &late_flag(), &Person::named("Bob")).is_ok());
-        assert!(unmatched_extensions(&policy, &[&ann]).is_empty());
-        assert_eq!(unmatched_extensions(&policy, &[]), ["ann"]);
+        assert!(extension_problems(&policy, &[&ann]).is_empty());
+        let problems = extension_problems(&policy, &[]);
+        assert_eq!(problems, [("ann", NOT_IN_CLASS)]);
     }
 
     #[test]
     fn an_extension_for_a_group_or_in_other_letters_belongs_to_somebody() {
         let policy = policy("[late.extensions]\n'Ann LEE' = 2\n'Team A' = 1\n'Team B' = 1");
         let ann = person(json!({ "name": "ann lee", "group": "team a" }));
-        assert_eq!(unmatched_extensions(&policy, &[&ann]), ["Team B"]);
+        let problems = extension_problems(&policy, &[&ann]);
+        assert_eq!(problems, [("Team B", NOT_IN_CLASS)]);
     }
 
     #[test]
@@ -279,7 +273,11 @@ mod tests {
         let ann = |sid: &str, group: &str| {
             person(json!({ "name": "Ann Lee", "sid": sid, "group": group }))
         };
-        let shared = |people: &[&Person]| extensions_of_namesakes(&policy, people);
+        let shared = |people: &[&Person]| {
+            let mut problems = extension_problems(&policy, people);
+            problems.retain(|(_, problem)| *problem == SHARED_NAME);
+            Vec::from_iter(problems.into_iter().map(|(name, _)| name))
+        };
         let (one, other) = (ann("u1", "team a"), ann("u2", "team a"));
         assert_eq!(shared(&[&one, &other]), ["ann lee"]);
         assert!(shared(&[&one, &one]).is_empty(), "two attempts of one");

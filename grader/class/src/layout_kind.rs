@@ -1,9 +1,11 @@
-//! The layouts of the input, by name.
+//! The layouts that the input can have, and their names.
 
 use clap::{Args, ValueEnum};
+use serde::{Deserialize, Serialize};
 
 /// A layout of the input, named after the platform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
 pub enum Layout {
     /// Gradescope's "Export submissions"
     Gradescope,
@@ -26,20 +28,34 @@ pub enum Layout {
     #[value(name = "gitlab", alias = "tutorials")]
     GitLab,
     /// A folder or archive for each student
+    #[default]
     #[value(name = "folders")]
     Plain,
 }
 
-/// How to read the input, where its names do not tell.
-#[derive(Clone, Debug, Default, Args)]
+/// How to read the input if its names don't make that clear. The choice is stored in `run.json`.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Args)]
 pub struct LayoutChoice {
-    /// Layout of the input; default: it is recognised by the names of files and folders
+    /// Layout of the input; default: that of the last run, or the one recognised from the names of
+    /// files and folders
     #[arg(long, value_name = "PLATFORM")]
     pub layout: Option<Layout>,
 
-    /// Title of the assignment, if the input has several, as from Microsoft Teams
+    /// Title of the assignment, if the input contains several, e.g. from Microsoft Teams; default:
+    /// that of the last run
     #[arg(long, value_name = "TITLE")]
     pub title: Option<String>,
+}
+
+impl LayoutChoice {
+    /// Returns this choice. Missing parts are taken from the last run's choice.
+    #[must_use]
+    pub fn or(&self, last: &LayoutChoice) -> Self {
+        LayoutChoice {
+            layout: self.layout.or(last.layout),
+            title: self.title.as_ref().or(last.title.as_ref()).cloned(),
+        }
+    }
 }
 
 impl Layout {

@@ -12,14 +12,14 @@
 //! | grading of a class | [`grade`] |
 //! | files of a class | [`output`], [`similarity`] |
 //! | reports for people | [`report`] |
-//! | grading of entries, changes of scores, and questions about them | [`entry_grader`], [`regrade_diff`], [`replay`] |
-//! | what is made of grades; the input | [`anonymous`], [`final_grades`], [`gradebook`], [`hand_back`], [`hand_in_again`], [`summary`], [`input`] |
-//! | grades, lists and the grader | [`attempts`], [`corrected`], [`list_memory`], [`lists`], [`submission_grader`], [`unpack`] |
+//! | grading of entries, changes in scores, and questions about them | [`entry_grader`], [`regrade_diff`], [`replay`] |
+//! | results derived from grades, and the input | [`anonymous`], [`final_grades`], [`gradebook`], [`hand_back`], [`hand_in_again`], [`summary`], [`input`] |
+//! | grades, lists and the grader | [`attempts`], [`corrected`], [`entry_completion`], [`list_memory`], [`submission_grader`], [`unpack`] |
 //! | a graded class | [`graded_class`] |
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`similar_pairs`], [`store`] |
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
 //! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
-//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`layout_kind`], [`list_kind`], [`listing`], [`names`], [`paths`], [`queue`], [`shard`] |
+//! | tools | [`archive`], [`distribution`], [`error`], [`estimate`], [`file_tree`], [`layout_kind`], [`list_kind`], [`names`], [`paths`], [`queue`], [`shard`] |
 
 pub mod anonymous;
 pub mod archive;
@@ -28,9 +28,11 @@ pub mod cli;
 pub mod corrected;
 pub mod distribution;
 pub mod entry;
+pub mod entry_completion;
 pub mod entry_grader;
 pub mod error;
 pub mod estimate;
+pub mod file_tree;
 pub mod final_grades;
 pub mod grade;
 pub mod gradebook;
@@ -45,8 +47,6 @@ pub mod layout;
 pub mod layout_kind;
 pub mod list_kind;
 pub mod list_memory;
-pub mod listing;
-pub mod lists;
 pub mod manual_points;
 pub mod merge;
 pub mod moodle_status;

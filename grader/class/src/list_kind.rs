@@ -7,7 +7,7 @@ use std::ops::Not;
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
-/// A list that staff give for a class.
+/// A list that staff provide for a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum ListKind {
@@ -15,7 +15,7 @@ pub enum ListKind {
     Policy,
     /// The roster.
     Roster,
-    /// The points by hand.
+    /// The manual points.
     ManualPoints,
     /// The gradebook from Canvas.
     Canvas,
@@ -23,9 +23,15 @@ pub enum ListKind {
     Moodle,
     /// The grades from Gradescope.
     Gradescope,
+    /// The list of people that the platform's download contains beside the submissions.
+    Downloaded,
 }
 
 impl ListKind {
+    /// The gradebooks.
+    pub const GRADEBOOKS: [ListKind; 3] =
+        [ListKind::Canvas, ListKind::Moodle, ListKind::Gradescope];
+
     /// Returns the name on the command line: the option without its dashes.
     pub fn name(self) -> String {
         let value = self.to_possible_value().expect("no list is hidden");
@@ -37,22 +43,23 @@ impl ListKind {
         match self {
             ListKind::Policy => "the policy",
             ListKind::Roster => "the roster",
-            ListKind::ManualPoints => "the table of points by hand",
+            ListKind::ManualPoints => "the table of manual points",
             ListKind::Canvas => "the Canvas gradebook",
             ListKind::Moodle => "the Moodle worksheet",
             ListKind::Gradescope => "the list from Gradescope",
+            ListKind::Downloaded => "the list of people in the download",
         }
     }
 }
 
-/// A list with a copy in the output folder.
+/// A list that has a copy in the output folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct KeptList {
+pub struct ListCopy {
     /// The hash of the file.
     pub hash: String,
     /// The path on the command line, for messages.
     pub given_as: String,
-    /// The column to fill in, in a gradebook from Canvas.
+    /// The column to fill in if the list is a gradebook from Canvas.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
     /// Whether the list comes from the merged shards rather than from the merge's command line.
@@ -61,11 +68,11 @@ pub struct KeptList {
 }
 
 /// The lists by kind, as stored in `run.json`.
-pub type KeptLists = BTreeMap<ListKind, KeptList>;
+pub type ListCopies = BTreeMap<ListKind, ListCopy>;
 
-impl KeptList {
+impl ListCopy {
     /// Returns whether the contents of both lists are the same.
-    pub fn is_same(&self, other: &KeptList) -> bool {
+    pub fn is_same(&self, other: &ListCopy) -> bool {
         (&self.hash, &self.column) == (&other.hash, &other.column)
     }
 }

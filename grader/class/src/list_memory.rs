@@ -1,6 +1,6 @@
 //! Remembers the lists that the results in an output folder depend on. The folder contains a copy
-//! of each. If a list isn't given to a later run, the run uses the copy, so that the points,
-//! extensions and names in it aren't lost.
+//! of each. If a list is missing from a later run's command line, the run uses the copy, so that
+//! the points, extensions and names in it aren't lost.
 
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -15,7 +15,7 @@ use judging::sanitize::sanitize_line;
 
 use crate::cli::Lists;
 use crate::error::Error;
-use crate::list_kind::{KeptList, KeptLists, ListKind};
+use crate::list_kind::{ListCopies, ListCopy, ListKind};
 use crate::run::Run;
 use crate::store::Store;
 
@@ -28,50 +28,79 @@ pub struct UsedLists {
     /// The lists, which may be copies.
     pub lists: Lists,
     /// The lists to record in `run.json`.
-    pub kept: KeptLists,
-    /// Sentences for staff.
+    pub kept: ListCopies,
+    /// Sentences for staff that have yet to be printed.
     notes: Vec<String>,
     copies: BTreeMap<ListKind, Vec<u8>>,
+    /// Whether the command line specifies manual points.
+    has_new_points: bool,
+    /// The manual points from the last run, if the command line specifies different ones.
+    earlier_points: Option<(ListCopy, Vec<u8>)>,
 }
 
 /// An output folder and the lists it contains copies of.
-pub type KeptIn<'a> = (&'a Path, &'a KeptLists);
+pub type FolderCopies<'a> = (&'a Path, &'a ListCopies);
 
 impl UsedLists {
-    /// Chooses each list: the one on the command line or else, unless it is dropped, the copy in
-    /// the output folder `out`, or else the one that all merged shards were graded with. Prints
-    /// where the lists come from and which ones changed.
-    pub fn choose(given: Lists, out: Option<&Path>, parts: &[KeptIn]) -> Result<Self, Error> {
+    /// Chooses each list. A list on the command line takes precedence. If there is none and the
+    /// list isn't dropped, uses the copy in the output folder `out` or, failing that, the list that
+    /// all merged shards were graded with. Prints where the lists come from and which ones changed.
+    pub fn choose(given: Lists, out: Option<&Path>, parts: &[FolderCopies]) -> Result<Self, Error> {
         let mut used = UsedLists {
             lists: given,
             ..UsedLists::default()
         };
-        let run = out
-            .map(|out| Store::new(out).read_run())
-            .transpose()?
-            .flatten();
-        let last = out.zip(run.as_ref().map(|run| &run.lists));
-        for kind in ListKind::value_variants() {
-            used.choose_list(*kind, last, parts)?;
-        }
-        for note in &used.notes {
-            print_error_line(sanitize_line(note, 300));
-        }
+        let mut kinds = ListKind::value_variants().to_vec();
+        kinds.retain(|kind| *kind != ListKind::Downloaded || !parts.is_empty());
+        used.choose_kinds(&kinds, out, parts)?;
         Ok(used)
+    }
+
+    /// Unless the list of people is dropped, adds the one found in the platform's download or, if
+    /// there is none, the copy of an earlier one.
+    pub fn add_downloaded(
+        &mut self,
+        found: Option<PathBuf>,
+        out: Option<&Path>,
+    ) -> Result<(), Error> {
+        let is_dropped = self.lists.drop_list.contains(&ListKind::Downloaded);
+        self.lists.downloaded = found.filter(|_| !is_dropped);
+        self.choose_kinds(&[ListKind::Downloaded], out, &[])
+    }
+
+    fn choose_kinds(
+        &mut self,
+        kinds: &[ListKind],
+        out: Option<&Path>,
+        parts: &[FolderCopies],
+    ) -> Result<(), Error> {
+        let run = out.map(|out| Store::new(out).read_run()).transpose()?;
+        let run = run.flatten();
+        let last = out.zip(run.as_ref().map(|run| &run.lists));
+        for kind in kinds {
+            if let Some((list, bytes)) = self.choose_list(*kind, last, parts)? {
+                self.copies.insert(*kind, bytes);
+                self.kept.insert(*kind, list);
+            }
+        }
+        for note in self.notes.drain(..) {
+            print_error_line(sanitize_line(&note, 300));
+        }
+        Ok(())
     }
 
     fn choose_list(
         &mut self,
         kind: ListKind,
-        out: Option<KeptIn>,
-        parts: &[KeptIn],
-    ) -> Result<(), Error> {
+        out: Option<FolderCopies>,
+        parts: &[FolderCopies],
+    ) -> Result<Option<(ListCopy, Vec<u8>)>, Error> {
         let (name, title) = (kind.name(), kind.title());
         let last = out.and_then(|(folder, lists)| Some((folder, lists.get(&kind)?)));
-        let (list, bytes) = if let Some(path) = self.lists.path(kind).clone() {
+        if let Some(path) = self.lists.path(kind).clone() {
             let bytes = read(kind, &path)?;
             let column = self.lists.column.clone();
-            let list = KeptList {
+            let list = ListCopy {
                 hash: file_hash(&bytes),
                 given_as: path.display().to_string(),
                 column: column.filter(|_| kind == ListKind::Canvas),
@@ -79,48 +108,53 @@ impl UsedLists {
             };
             if last.is_some_and(|(_, last)| !last.is_same(&list)) {
                 self.notes.push(format!(
-                    "{title} differs from the last run's, so final points may change"
+                    "{title} has changed since the last run, so final points may change"
                 ));
             }
-            (list, bytes)
-        } else if self.lists.drop_list.contains(&kind) {
-            let dropped = last.map(|_| format!("{title} of the last run no longer counts"));
-            self.notes.extend(dropped);
-            return Ok(());
-        } else {
-            let own = last.filter(|(_, list)| !list.is_of_parts || parts.is_empty());
-            let of_parts = match own {
-                Some(_) => None,
-                None => one_of_parts(kind, parts)?,
-            };
-            let Some((folder, list)) = own.or(of_parts) else {
-                return Ok(());
-            };
-            let is_of_parts = list.is_of_parts || of_parts.is_some();
-            let path = copy_path(folder, kind, list);
-            let bytes = read_copy(kind, &path, list)?;
-            self.notes.push(format!(
-                "using {title} of the {}, {}; --drop-list {name} drops it",
-                if is_of_parts { "parts" } else { "last run" },
-                list.given_as
-            ));
-            if kind == ListKind::Canvas && self.lists.column.is_none() {
-                self.lists.column.clone_from(&list.column);
+            if kind == ListKind::ManualPoints {
+                self.has_new_points = true;
+                self.earlier_points = last.and_then(|(folder, last)| {
+                    let copy = read_copy(kind, &copy_path(folder, kind, last), last);
+                    Some((last.clone(), copy.ok()?))
+                });
             }
-            *self.lists.path(kind) = Some(path);
-            let list = KeptList {
-                is_of_parts,
-                ..list.clone()
-            };
-            (list, bytes)
+            return Ok(Some((list, bytes)));
+        }
+        if self.lists.drop_list.contains(&kind) {
+            let dropped = last.map(|_| format!("{title} from the last run is no longer used"));
+            self.notes.extend(dropped);
+            return Ok(None);
+        }
+        let own = last.filter(|(_, list)| !list.is_of_parts || parts.is_empty());
+        let of_parts = match own {
+            Some(_) => None,
+            None => one_of_parts(kind, parts)?,
         };
-        self.copies.insert(kind, bytes);
-        self.kept.insert(kind, list);
-        Ok(())
+        let Some((folder, list)) = own.or(of_parts) else {
+            return Ok(None);
+        };
+        let mut list = list.clone();
+        list.is_of_parts |= of_parts.is_some();
+        let path = copy_path(folder, kind, &list);
+        let bytes = read_copy(kind, &path, &list)?;
+        self.notes.push(format!(
+            "using {title} from the {}, {}; to stop using it, pass --drop-list {name}",
+            if list.is_of_parts {
+                "parts"
+            } else {
+                "last run"
+            },
+            list.given_as
+        ));
+        if kind == ListKind::Canvas && self.lists.column.is_none() {
+            self.lists.column.clone_from(&list.column);
+        }
+        *self.lists.path(kind) = Some(path);
+        Ok(Some((list, bytes)))
     }
 
-    /// Writes the copies and `run.json` into an output folder, and removes copies that it doesn't
-    /// name. File names contain the hash, so that the copies of the last run are kept until
+    /// Writes the copies and `run.json` into an output folder, and removes copies that `run.json`
+    /// doesn't name. File names contain the hash, so the copies of the last run are kept until
     /// `run.json` is written.
     pub fn save(&self, store: &Store, run: &Run) -> Result<(), Error> {
         let mut paths = Vec::new();
@@ -142,16 +176,44 @@ impl UsedLists {
     }
 }
 
-/// Returns the list that all shards were graded with, and the folder of one of them.
+impl UsedLists {
+    /// Goes back to the manual points of the last run if those of this run are refused. They can
+    /// only be checked after grading. `finished` is the result of the run.
+    pub fn forget_refused<T>(
+        mut self,
+        finished: Result<T, Error>,
+        store: &Store,
+        run: &Run,
+    ) -> Result<T, Error> {
+        let is_refused = finished.as_ref().is_err_and(|error| error.exit_code() == 2);
+        if self.has_new_points && is_refused {
+            let kind = ListKind::ManualPoints;
+            self.kept.remove(&kind);
+            if let Some((list, copy)) = self.earlier_points.take() {
+                self.kept.insert(kind, list);
+                self.copies.insert(kind, copy);
+            }
+            let lists = self.kept.clone();
+            let run = Run {
+                lists,
+                ..run.clone()
+            };
+            self.save(store, &run)?;
+        }
+        finished
+    }
+}
+
+/// Returns the list that all shards were graded with, and the folder of one of the shards.
 fn one_of_parts<'a>(
     kind: ListKind,
-    parts: &[KeptIn<'a>],
-) -> Result<Option<(&'a Path, &'a KeptList)>, Error> {
+    parts: &[FolderCopies<'a>],
+) -> Result<Option<(&'a Path, &'a ListCopy)>, Error> {
     let Some((first, lists)) = parts.first() else {
         return Ok(None);
     };
     let list = lists.get(&kind);
-    let is_other = |(_, lists): &&KeptIn| match (list, lists.get(&kind)) {
+    let is_other = |(_, lists): &&FolderCopies| match (list, lists.get(&kind)) {
         (Some(one), Some(other)) => !one.is_same(other),
         (one, other) => one.is_some() != other.is_some(),
     };
@@ -168,24 +230,23 @@ fn one_of_parts<'a>(
     }
 }
 
-fn copy_path(folder: &Path, kind: ListKind, list: &KeptList) -> PathBuf {
+fn copy_path(folder: &Path, kind: ListKind, list: &ListCopy) -> PathBuf {
     let is_policy = kind == ListKind::Policy;
     let extension = if is_policy { "toml" } else { "csv" };
     let hash = list.hash.get(..12).unwrap_or_default();
-    folder
-        .join(FOLDER)
-        .join(format!("{}-{hash}.{extension}", kind.name()))
+    let name = format!("{}-{hash}.{extension}", kind.name());
+    folder.join(FOLDER).join(name)
 }
 
 /// Reads a copy, which must not have changed since it was written.
-fn read_copy(kind: ListKind, path: &Path, list: &KeptList) -> Result<Vec<u8>, Error> {
+fn read_copy(kind: ListKind, path: &Path, list: &ListCopy) -> Result<Vec<u8>, Error> {
     match files::read(path) {
         Ok(bytes) if file_hash(&bytes) == list.hash => Ok(bytes),
         Err(error) if error.source.kind() != ErrorKind::NotFound => Err(Error::user(error)),
         Ok(_) | Err(_) => {
             let (path, name, title) = (path.display(), kind.name(), kind.title());
             Err(Error::user(format!(
-                "{path} is missing or has changed, and {title} of the last run is still needed: \
+                "{path} is missing or has changed, and {title} from the last run is still needed: \
                  pass it again with --{name}, or drop it with --drop-list {name}"
             )))
         }

@@ -1,7 +1,7 @@
 //! Manual points: points that staff add or deduct, and comments, from a CSV file with a row for
 //! each student and task. They are kept separate from the graded points.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};
 use std::mem;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::identity::person_ids;
-use crate::names::are_equal;
+use crate::names::{are_equal, are_same_name, with_detail};
 use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
 
@@ -48,7 +48,7 @@ pub struct ManualPointsList {
 }
 
 impl ManualPointsList {
-    /// Reads a file and checks each row on its own.
+    /// Reads a file and checks each row separately.
     pub fn read(path: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         let table = Table::read(path)?;
         let mut columns = [0; 5];
@@ -61,71 +61,64 @@ impl ManualPointsList {
             all: Vec::new(),
         };
         for (row, cells) in table.numbered_rows() {
-            let date = date.map_or("", |index| cells[index].trim());
+            let date = date.map_or("", |index| cells[index].trim()).to_owned();
             let cells = columns.map(|index| cells[index].trim().to_owned());
-            let points = ManualPoints::parse(row, cells, handed_out);
+            let points = ManualPoints::parse(row, cells, date, handed_out);
             let points = points.map_err(|problem| list.error(row, problem))?;
-            list.all.push(ManualPoints {
-                date: date.to_owned(),
-                ..points
-            });
+            list.all.push(points);
         }
         Ok(list)
     }
 
-    /// Replaces each row for a pseudonym by a row for each person of the submission.
-    pub fn resolve_pseudonyms(&mut self, entries: &[&mut EntryInfo]) {
+    /// Replaces each row for a pseudonym with rows for the people who handed in the submission, and
+    /// names with different punctuation with those of the people.
+    pub fn resolve_names(&mut self, entries: &[&mut EntryInfo]) {
         let resolve = |points: ManualPoints| {
             let is_meant = |info: &&&mut EntryInfo| info.pseudonym == points.student;
             let Some(info) = entries.iter().find(is_meant) else {
-                return vec![points];
+                return vec![points.with_name_of(entries)];
             };
-            let names = info
-                .people
-                .iter()
-                .filter_map(|own| own.identifiers().next());
+            let people = info.people.iter();
+            let names = people.filter_map(|own| own.identifiers().next());
             let of_person = |name: &str| ManualPoints {
                 student: name.to_owned(),
                 ..points.clone()
             };
             names.map(of_person).collect()
         };
-        self.all = mem::take(&mut self.all)
-            .into_iter()
-            .flat_map(resolve)
-            .collect();
+        let all = mem::take(&mut self.all).into_iter();
+        self.all = all.flat_map(resolve).collect();
     }
 
     /// Checks that each row belongs to exactly one of these people, and that no two rows belong to
-    /// the same person and task. A person with several submissions is in the list once for each.
+    /// the same person and task. `people` contains each person once per submission.
     pub fn check_students(&self, people: &[&Person]) -> Result<(), Error> {
         let ids = person_ids(people);
         let mut rows: BTreeMap<(usize, &str), usize> = BTreeMap::new();
         for points in &self.all {
-            let found = (0..people.len()).filter(|index| points.is_for(people[*index]));
-            let found: Vec<usize> = found.collect();
-            let Some(first) = found.first().copied() else {
-                let problem = format!(
-                    "nobody with the name or identifier {:?} handed something in: write the email \
-                     address, the student number, the account name or the full name",
-                    points.student
-                );
-                return Err(self.error(points.row, problem));
+            let (row, student) = (points.row, &points.student);
+            let all = people.iter().zip(&ids);
+            let mut found = all.filter(|(person, _)| points.is_for(person));
+            let Some((first, id)) = found.next() else {
+                return Err(self.error(row, format!(
+                    "nobody with the name or identifier {student:?} handed anything in: use the \
+                     email address, the student number, the account name or the full name"
+                )));
             };
-            if let Some(other) = found.iter().find(|other| ids[**other] != ids[first]) {
-                let problem = format!(
-                    "{:?} could be {} or {}: write the email address or the student number",
-                    points.student,
-                    people[first].display_name(),
-                    people[*other].display_name()
-                );
-                return Err(self.error(points.row, problem));
+            if let Some((other, _)) = found.find(|(_, other)| *other != id) {
+                let [first, other] = [first, other].map(|person| person.display_name());
+                return Err(self.error(
+                    row,
+                    format!(
+                        "{student:?} could be {first} or {other}: use the email address or the \
+                     student number"
+                    ),
+                ));
             }
-            if let Some(other) = rows.insert((ids[first], points.task.as_str()), points.row) {
-                let problem = format!(
-                    "row {other} has points for the same student and task: write them in one row"
-                );
-                return Err(self.error(points.row, problem));
+            if let Some(other) = rows.insert((*id, points.task.as_str()), row) {
+                return Err(self.error(row, format!(
+                    "row {other} also has points for this student and task: combine the two rows"
+                )));
             }
         }
         Ok(())
@@ -138,8 +131,8 @@ impl ManualPointsList {
     }
 
     /// Checks that no task gets more than its maximum or fewer than 0 points. `exam` contains the
-    /// tasks without any points. If the grader or the machine failed, the earned points aren't known
-    /// yet.
+    /// exam's tasks with 0 points each. If the grader or the machine failed, the earned points
+    /// aren't known yet.
     pub fn check_range(
         &self,
         points: &[ManualPoints],
@@ -152,21 +145,25 @@ impl ManualPointsList {
             EntryOutcome::Fault(_) => return Ok(()),
         };
         for ManualPoints {
-            row, task, delta, ..
+            row,
+            student,
+            task,
+            delta,
+            ..
         } in points
         {
             let Some(graded) = tasks.iter().find(|graded| graded.id == *task) else {
-                let problem = format!("the exam has no items of the task {task}: remove the row");
+                let problem = format!("the exam has no items for the task {task}: remove the row");
                 return Err(self.error(*row, problem));
             };
             let (earned, most) = (graded.points, graded.max_points);
             let sum = earned.checked_add_signed(*delta);
             if sum.is_none_or(|sum| sum > most) {
-                let problem = format!(
-                    "{delta:+} points are out of range: {earned} of {most} points were earned for \
-                     {task}"
-                );
-                return Err(self.error(*row, problem));
+                return Err(self.error(*row, format!(
+                    "{delta:+} points is out of range: {earned} of {most} points were earned for \
+                     {task} by {student}, perhaps because files were handed in again: correct this \
+                     row and pass the table with --manual-points"
+                )));
             }
         }
         Ok(())
@@ -179,7 +176,12 @@ impl ManualPointsList {
 
 impl ManualPoints {
     /// Parses the cells of a row, in the order of [`COLUMNS`].
-    fn parse(row: usize, cells: [String; 5], handed_out: &HandedOut) -> Result<Self, String> {
+    fn parse(
+        row: usize,
+        cells: [String; 5],
+        date: String,
+        handed_out: &HandedOut,
+    ) -> Result<Self, String> {
         let [student, task, delta, comment, author] = cells;
         let tasks = handed_out.assignment.tasks.iter().map(|task| task.id);
         let tasks: Vec<&str> = tasks.collect();
@@ -201,8 +203,22 @@ impl ManualPoints {
             delta,
             comment,
             author,
-            date: String::new(),
+            date,
         })
+    }
+
+    /// Returns the points with the name of the only person whose name differs from the written one
+    /// at most in punctuation. Otherwise, or if somebody has the written name, returns them
+    /// unchanged.
+    fn with_name_of(mut self, entries: &[&mut EntryInfo]) -> Self {
+        let people = || entries.iter().flat_map(|info| &info.people);
+        let names = people().map(|person| person.name.as_str());
+        let names = names.filter(|name| are_same_name(name, &self.student));
+        let names: BTreeSet<&str> = names.collect();
+        if names.len() == 1 && !people().any(|person| self.is_for(person)) {
+            self.student = names.into_iter().collect();
+        }
+        self
     }
 
     fn is_for(&self, person: &Person) -> bool {
@@ -213,25 +229,11 @@ impl ManualPoints {
 
 impl fmt::Display for ManualPoints {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let ManualPoints {
-            task,
-            delta,
-            comment,
-            author,
-            date,
-            ..
-        } = self;
-        let points = match delta.abs() {
-            1 => "point",
-            _ => "points",
-        };
-        write!(f, "{task}: {delta:+} {points} by {author}")?;
-        if !date.is_empty() {
-            write!(f, ", {date}")?;
-        }
-        match comment.as_str() {
-            "" => Ok(()),
-            comment => write!(f, ": {comment}"),
-        }
+        let ManualPoints { task, delta, .. } = self;
+        let (author, date) = (&self.author, &self.date);
+        let plural = if delta.abs() == 1 { "" } else { "s" };
+        let comma = if date.is_empty() { "" } else { ", " };
+        let text = format!("{task}: {delta:+} point{plural} by {author}{comma}{date}");
+        f.write_str(&with_detail(&text, &self.comment))
     }
 }

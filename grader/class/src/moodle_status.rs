@@ -3,7 +3,7 @@
 
 use crate::names::are_equal;
 
-/// Sentences that change no grade, from Moodle's `mod/assign/lang/en/assign.php`.
+/// Sentences that don't affect the grade, from Moodle's `mod/assign/lang/en/assign.php`.
 const KNOWN: [&str; 14] = [
     "Submitted for grading",
     "Submitted",

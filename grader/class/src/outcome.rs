@@ -3,10 +3,14 @@
 use std::collections::BTreeMap;
 
 use grader::policy::{ItemPoints, TaskPoints};
+use judging::sanitize::sanitize;
 use serde::de::Error;
 use serde::{Deserialize, Serialize};
 
 use crate::entry::EntryInfo;
+
+/// The maximum length of a fault's message, in characters.
+const MAX_FAULT_CHARS: usize = 2_000;
 
 /// The result of an entry.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -94,7 +98,8 @@ pub struct TaskScore {
     pub items: Vec<ItemScore>,
 }
 
-/// Returns the tasks of an exam without any points, from the maximum of each item.
+/// Returns the tasks of an exam with 0 points each. `items` contains the maximum points for each
+/// item.
 pub fn exam_tasks(items: &BTreeMap<String, u32>) -> Vec<TaskScore> {
     let mut tasks: BTreeMap<&str, TaskScore> = BTreeMap::new();
     for (id, points) in items {
@@ -124,17 +129,18 @@ pub struct ItemScore {
     pub max_points: u32,
     /// The verdict, as in `score.json`.
     pub verdict: String,
-    /// The id of the item because of which this one was not graded, if its verdict says so.
+    /// The id of the item that kept this one from being graded, if the verdict says so.
     #[serde(default, rename = "by")]
     pub blocked_by: Option<String>,
     /// The explanation of the verdict, in a sentence.
     pub message: String,
-    /// The known mistakes with the same answers, the most likely first.
+    /// The known mistakes that give the same answers, starting with the most likely one.
     pub hints: Vec<Hint>,
 }
 
 impl TaskScore {
-    /// Returns the task for the policy, with the points that staff gave by hand.
+    /// Returns the task in the form that the policy uses, including the points that staff gave by
+    /// hand.
     pub fn for_policy(&self, manual: i32) -> TaskPoints<'_> {
         let items = self.items.iter().map(|item| ItemPoints {
             id: &item.id,
@@ -165,23 +171,16 @@ pub struct Stamp {
     /// The cache key: a hash of the submission and everything else its score depends on. Empty if
     /// there is no score.
     pub key: String,
-    /// The round when the entry was graded.
+    /// The round that the entry was graded in.
     pub round: u32,
     /// The result, without its id (the folder's name) and its score (stored in a separate file).
     #[serde(flatten)]
     pub result: EntryResult,
 }
 
-impl Stamp {
-    /// Returns whether the entry was graded.
-    pub fn is_graded(&self) -> bool {
-        matches!(self.result.outcome, EntryOutcome::Graded(_))
-    }
-}
-
 impl ScoreSummary {
-    /// Parses a score file. The file may come from another machine, so more points than an exam can
-    /// have are an error.
+    /// Parses a score file. The file may come from another machine, so it is an error if it
+    /// contains more points than an exam can have.
     pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
         /// The maximum number of points in a score file. No exam has more, and the sum over a class
         /// doesn't overflow.
@@ -189,7 +188,7 @@ impl ScoreSummary {
         let score: ScoreSummary = serde_json::from_str(text)?;
         match score.all_points().max() {
             Some(points) if points > MAX_POINTS => Err(serde_json::Error::custom(format!(
-                "{points} points are more than an exam can have"
+                "{points} points is more than an exam can have"
             ))),
             Some(_) | None => Ok(score),
         }
@@ -205,6 +204,21 @@ impl ScoreSummary {
     /// Returns the items of all tasks.
     pub fn items(&self) -> impl Iterator<Item = &ItemScore> {
         self.tasks.iter().flat_map(|task| &task.items)
+    }
+}
+
+impl EntryOutcome {
+    /// Returns the outcome for a failure of the grader or the machine, for this reason.
+    pub fn fault(why: &str) -> Self {
+        EntryOutcome::Fault(sanitize(why, MAX_FAULT_CHARS))
+    }
+
+    /// Returns the reason that there is no score, or an empty string if there is a score.
+    pub fn why(&self) -> &str {
+        match self {
+            EntryOutcome::Graded(_) => "",
+            EntryOutcome::NothingToGrade(why) | EntryOutcome::Fault(why) => why,
+        }
     }
 }
 
@@ -226,10 +240,9 @@ impl EntryResult {
 
 /// Returns an entry's id and, if they differ from it, the names of its people.
 pub fn id_and_names(id: &str, names: &str) -> String {
-    if names == id {
-        id.to_owned()
-    } else {
-        format!("{id} ({names})")
+    match names {
+        names if names == id => id.to_owned(),
+        names => format!("{id} ({names})"),
     }
 }
 
@@ -256,7 +269,7 @@ mod tests {
         for place in 0..6 {
             assert!(parse(place, 100_000).is_ok(), "{place}");
             let error = parse(place, 100_001).unwrap_err().to_string();
-            assert_eq!(error, "100001 points are more than an exam can have");
+            assert_eq!(error, "100001 points is more than an exam can have");
         }
         assert!(parse(0, 1 << 32).is_err());
     }

@@ -9,20 +9,20 @@ use grader::printing::{counted, print, print_line};
 use crate::anonymous::Pseudonyms;
 use crate::attempts::count_points;
 use crate::cli::Lists;
+use crate::entry_completion::ListFindings;
 use crate::error::Error;
 use crate::final_grades::{self, GradeHistory};
 use crate::gradebook::{FilledGradebook, fill_canvas, fill_gradescope, fill_moodle};
 use crate::graded_class::GradedClass;
 use crate::hand_back::{ARCHIVE, hand_back};
-use crate::hand_in_again::{FOLDER, write_texts};
-use crate::list_kind::{KeptLists, ListKind};
-use crate::lists::ListFindings;
+use crate::hand_in_again::{FOLDER, write_messages};
+use crate::list_kind::{ListCopies, ListKind};
 use crate::outcome::{EntryResult, exam_tasks};
-use crate::regrade_diff::{Changes, find_regrade_changes, find_resubmitted};
+use crate::regrade_diff::{Changes, find_drifts, find_regrade_changes};
 use crate::report::{grades, page, text};
 use crate::run::Run;
 use crate::similar_pairs::{SimilarPair, read_similar_pairs};
-use crate::store::{Store, json};
+use crate::store::{REPLACED, Store, json};
 use crate::summary::ClassSummary;
 
 /// Whether every submission of a class was graded.
@@ -30,7 +30,7 @@ use crate::summary::ClassSummary;
 pub enum Completion {
     /// Every submission was graded or had nothing to grade.
     Complete,
-    /// Some submissions were not graded because of a fault in the grader or the machine.
+    /// Some submissions were not graded because of a problem with the grader or the machine.
     Incomplete,
 }
 
@@ -62,24 +62,16 @@ impl ClassContext<'_> {
             store, run, lists, ..
         } = self;
         let similar = read_similar_pairs(lists)?;
-        let settings = &run.settings;
         let regrade = find_regrade_changes(store, run, &results)?;
-        let resubmitted = find_resubmitted(store, &results)?;
-        let rows = count_points(
-            results,
-            self.policy,
-            &self.findings.manual,
-            &exam_tasks(&run.items),
-        )?;
+        let resubmitted = find_drifts(store, &results, REPLACED)?;
+        let (manual, tasks) = (&self.findings.manual, exam_tasks(&run.items));
+        let rows = count_points(results, self.policy, manual, &tasks)?;
         let class = &GradedClass {
-            exam: settings.exam.clone(),
-            exam_hash: settings.exam_hash.clone(),
-            isolation: settings.isolation.clone(),
+            settings: run.settings.clone(),
             rows,
             missing: self.findings.missing,
         };
-        // Read this first, so that a run that is killed later can be repeated and lists the same
-        // changes again.
+        // Read this first, so that if the run is killed later, repeating it lists the same changes.
         let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
         store.write(final_grades::FILE, json(&history))?;
         let changes = Changes {
@@ -90,17 +82,7 @@ impl ClassContext<'_> {
         };
         let summary = write_results(class, store, &changes, &similar)?;
         print(text::render_summary(&summary));
-        print(
-            changes
-                .regrade
-                .iter()
-                .map(text::render_regrade)
-                .collect::<String>(),
-        );
-        print(text::render_resubmitted(&changes.resubmitted));
-        let grades = changes.grades.iter().map(text::render_grade_changes);
-        print(grades.collect::<String>());
-        print(text::render_removed(&changes.removed));
+        print(text::render_changes(&changes));
         write_for_platforms(class, store, lists)?;
         if let Some(folder) = &lists.anonymous {
             write_for_graders(class, store, run, folder)?;
@@ -109,10 +91,10 @@ impl ClassContext<'_> {
         for name in ["grades.csv", "class.html"] {
             print_path(store, name);
         }
-        if let texts @ 1.. = write_texts(class, store, self.handed_out)? {
+        if let messages @ 1.. = write_messages(class, store, self.handed_out)? {
             print_path(store, FOLDER);
-            let texts = counted(texts, "text");
-            print_line(format!("    {texts} to people who have to hand in again"));
+            let messages = counted(messages, "message");
+            print_line(format!("    {messages} for students who need to resubmit"));
         }
         print_line("");
         Ok(match class.fault_count() {
@@ -138,10 +120,8 @@ fn write_results(
         store.write_counted(id, &texts)?;
     }
     store.write("class.json", json(&summary))?;
-    store.write(
-        "class.html",
-        page::render_page(class, &summary, changes, similar),
-    )?;
+    let page = page::render_page(class, &summary, changes, similar);
+    store.write("class.html", page)?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
     if let Some(regrade) = &changes.regrade {
         store.write("drift.json", json(&regrade.drifts))?;
@@ -168,13 +148,10 @@ fn write_for_graders(
     for row in &hidden.rows {
         copy.save_result(&row.result, "", run.round)?;
     }
+    let ids = hidden.rows.iter().map(|row| row.result.id.clone());
     copy.write_run(&Run {
-        lists: KeptLists::new(),
-        entries: hidden
-            .rows
-            .iter()
-            .map(|row| row.result.id.clone())
-            .collect(),
+        lists: ListCopies::new(),
+        entries: ids.collect(),
         ..run.clone()
     })?;
     write_results(&hidden, &copy, &Changes::default(), &[])?;
@@ -192,7 +169,7 @@ fn write_for_platforms(class: &GradedClass, store: &Store, lists: &Lists) -> Res
     }
     for kind in &lists.drop_list {
         // The copy of a dropped gradebook would contain outdated points.
-        if let ListKind::Canvas | ListKind::Moodle | ListKind::Gradescope = kind {
+        if ListKind::GRADEBOOKS.contains(kind) {
             store.remove(&format!("{}.csv", kind.name()))?;
         }
     }

@@ -1,5 +1,5 @@
-//! Compares the scores of a regrade with the earlier ones: whose points changed, for what items and
-//! why.
+//! Compares the scores from a regrade with the earlier ones, and finds out whose points changed,
+//! for which items, and why.
 
 use std::collections::BTreeSet;
 
@@ -7,9 +7,10 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::final_grades::GradeChanges;
+use crate::names::with_detail;
 use crate::outcome::{EntryResult, ItemScore, ScoreSummary, id_and_names};
 use crate::run::Run;
-use crate::store::Store;
+use crate::store::{PREVIOUS, Store};
 
 /// The differences from earlier runs.
 #[derive(Clone, Debug, Default)]
@@ -33,11 +34,6 @@ pub struct RegradeChanges {
     pub causes: Vec<&'static str>,
 }
 
-/// Returns the scores that changed because their submission changed.
-pub fn find_resubmitted(store: &Store, results: &[EntryResult]) -> Result<Vec<Drift>, Error> {
-    find_drifts(results, |id| store.replaced_score(id))
-}
-
 /// Returns the changes that a regrade made, or `None` in a folder's first round.
 pub fn find_regrade_changes(
     store: &Store,
@@ -48,35 +44,34 @@ pub fn find_regrade_changes(
         return Ok(None);
     };
     Ok(Some(RegradeChanges {
-        drifts: find_drifts(results, |id| store.previous_score(id))?,
+        drifts: find_drifts(store, results, PREVIOUS)?,
         causes: before.differences(&run.settings),
     }))
 }
 
-/// Compares each result with the previous score saved for its entry.
-fn find_drifts(
+/// Compares each result with its entry's earlier score in the file [`PREVIOUS`] or
+/// [`REPLACED`](crate::store::REPLACED).
+pub fn find_drifts(
+    store: &Store,
     results: &[EntryResult],
-    kept_score: impl Fn(&str) -> Result<Option<ScoreSummary>, Error>,
+    earlier: &str,
 ) -> Result<Vec<Drift>, Error> {
     let mut drifts = Vec::new();
     for result in results {
-        let was = kept_score(&result.id)?;
+        let was = store.earlier_score(&result.id, earlier)?;
         drifts.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
     }
     Ok(drifts)
 }
 
-/// Returns sentences about the entries in the stores that aren't among `ids`, each with its people
-/// and points. An entry in several stores is only named once.
+/// Returns a sentence about each entry in the stores that isn't among `ids`, including its people
+/// and points. An entry in several stores is only listed once.
 pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Error> {
     let mut known: BTreeSet<String> = ids.iter().map(|id| (*id).to_owned()).collect();
     let mut removed = Vec::new();
     for store in stores {
         for id in store.ids()? {
-            if known.contains(&id) {
-                continue;
-            }
-            let Some(result) = store.result(&id)? else {
+            let Some(result) = store.result(&id)?.filter(|_| !known.contains(&id)) else {
                 continue;
             };
             let who = id_and_names(&id, &result.info.display_names());
@@ -127,10 +122,7 @@ pub struct ItemChange {
 
 /// Compares the scores of an entry. Returns `None` if nothing changed.
 fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
-    let items = match now {
-        Some(now) => item_changes(was, now),
-        None => Vec::new(),
-    };
+    let items = now.map_or_else(Vec::new, |now| item_changes(was, now));
     let is_same = now.is_some_and(|now| now.points == was.points) && items.is_empty();
     (!is_same).then(|| Drift {
         id: id.to_owned(),
@@ -148,16 +140,12 @@ fn item_changes(was: &ScoreSummary, now: &ScoreSummary) -> Vec<ItemChange> {
         (!same).then(|| item_change(old.as_ref(), Some(item)))
     });
     let gone = was.items().filter(|item| find(now, &item.id).is_none());
-    changed
-        .chain(gone.map(|item| item_change(Some(item), None)))
-        .collect()
+    let gone = gone.map(|item| item_change(Some(item), None));
+    changed.chain(gone).collect()
 }
 
 fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
-    let explain = |item: &ItemScore| match item.message.as_str() {
-        "" => item.verdict.clone(),
-        message => format!("{}: {message}", item.verdict),
-    };
+    let explain = |item: &ItemScore| with_detail(&item.verdict, &item.message);
     let why = match (was, now) {
         // The new message alone doesn't say why the points were lost before.
         (Some(was), Some(now)) if now.points > was.points => {

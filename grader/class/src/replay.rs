@@ -1,4 +1,4 @@
-//! Runs a question of a graded submission again, for a student who asks about the grade.
+//! Runs a question for a graded submission again, in case a student asks about the grade.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::store::Store;
 /// The maximum length of an item's message, in characters.
 const MAX_CHARS: usize = 1_000;
 
-/// Runs a question on the graded files and returns the text for the terminal. `question` is the
+/// Runs a question on the graded files and returns the text for the terminal. `question` names the
 /// submission or person, and the item.
 pub fn replay_question(
     out: &Path,
@@ -29,11 +29,13 @@ pub fn replay_question(
     let store = Store::new(out);
     let Some(run) = store.read_run()? else {
         let out = out.display();
-        return Err(Error::user(format!("{out} holds no scores: grade first")));
+        return Err(Error::user(format!(
+            "{out} contains no scores: grade the class first"
+        )));
     };
     if options.exam.hash(options.handed_out)? != run.settings.exam_hash {
         return Err(Error::user(format!(
-            "{} was graded with another exam, {:?}: pass its file with --exam",
+            "{} was graded with a different exam, {:?}: pass that exam's file with --exam",
             out.display(),
             run.settings.exam
         )));

@@ -5,32 +5,36 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::list_kind::KeptLists;
+use crate::layout_kind::LayoutChoice;
+use crate::list_kind::ListCopies;
 use crate::shard::Shard;
 
 /// The contents of `run.json`.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Run {
     /// The format version of `run.json`.
     pub schema: u32,
     /// The round, counted from 1. `--regrade` starts the next round.
     pub round: u32,
-    /// How far the round has come.
+    /// The state of the round.
     pub state: RoundState,
     /// The shard that is graded. `None` for the whole class.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
     /// The policy, the roster and the other lists. The folder contains copies of them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub lists: KeptLists,
-    /// The maximum points of each item of the exam.
+    pub lists: ListCopies,
+    /// The chosen layout.
+    #[serde(default)]
+    pub choice: LayoutChoice,
+    /// The maximum points for each item in the exam.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub items: BTreeMap<String, u32>,
-    /// The ids of the entries. The folder may have others, of students who are no longer in the
-    /// input.
+    /// The ids of the entries. The folder may contain other entries, from students who are no
+    /// longer in the input.
     pub entries: Vec<String>,
-    /// The hash of the ids of all entries of the class, including those in other shards. It
-    /// prevents merging shards of different classes, which could leave somebody out.
+    /// The hash of all entry ids in the class, including those in other shards. It prevents merging
+    /// shards of different classes, which could leave somebody out.
     pub class: String,
     /// The settings that the scores depend on.
     pub settings: Settings,
@@ -39,13 +43,14 @@ pub struct Run {
     pub before: Option<Settings>,
 }
 
-/// How far a round has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// The state of a round.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RoundState {
     /// The scores from before a regrade have yet to be saved. Until then, nothing is graded.
     SavesPrevious,
     /// Some entries may not be graded yet.
+    #[default]
     Started,
     /// Every entry is graded.
     Finished,
@@ -54,7 +59,7 @@ pub enum RoundState {
 }
 
 /// Everything that scores depend on, other than the submissions.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// The exam's name.
     pub exam: String,
@@ -74,25 +79,19 @@ pub struct Settings {
 pub const SCHEMA: u32 = 1;
 
 impl Run {
-    /// Returns the first round in a new folder, with nothing graded yet.
+    /// Returns the first round in a new folder. Nothing is graded yet.
     pub fn first_round(settings: Settings) -> Self {
         Run {
             schema: SCHEMA,
             round: 1,
-            state: RoundState::Started,
-            shard: None,
-            lists: KeptLists::new(),
-            items: BTreeMap::new(),
-            entries: Vec::new(),
-            class: String::new(),
             settings,
-            before: None,
+            ..Run::default()
         }
     }
 
-    /// Returns the next round, with nothing graded yet. It will be compared with the last finished
-    /// round. An abandoned regrade has already replaced some scores, so the scores saved before it
-    /// are kept for the comparison.
+    /// Returns the next round, where nothing is graded yet. It will be compared with the last
+    /// finished round. An abandoned regrade has already replaced some scores, so the scores saved
+    /// before it are kept for the comparison.
     pub fn next_round(&self, settings: Settings) -> Self {
         let (before, state) = if self.is_unfinished_regrade() {
             (self.before.clone(), self.state)
@@ -107,7 +106,7 @@ impl Run {
         }
     }
 
-    /// Returns the state of the run after it is restarted.
+    /// Returns the run after a restart.
     #[must_use]
     pub fn resume(self) -> Self {
         let state = if self.was_finished() {
@@ -178,7 +177,7 @@ mod tests {
         assert_eq!((third.round, third.state), (3, RoundState::Started));
         assert_eq!(third.before, Some(first.settings.clone()));
 
-        // Once it is finished, the next regrade is compared with it.
+        // Once this regrade is finished, the next one is compared with it.
         let finished = Run {
             state: RoundState::Resumed,
             ..saved

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// A part of a class: number `part` of `of` parts, counted from 1.
+/// A part of a class that is divided into `of` parts. `part` is its number, starting at 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     part: usize,

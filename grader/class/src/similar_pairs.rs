@@ -2,9 +2,13 @@
 //! files that `--similarity-input` wrote, and the key next to their folder says whose they are.
 
 use std::collections::HashMap;
+use std::ffi::OsStr;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use grader::files;
+use grader::submission::{Archive, ArchiveLimits};
+use serde_json::Value;
 
 use crate::cli::Lists;
 use crate::error::Error;
@@ -14,9 +18,9 @@ use crate::table::Table;
 /// Two similar files. Nothing is concluded or graded from them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimilarPair {
-    /// The checker's similarity, from 0 to 1.
+    /// The similarity according to the checker, from 0 to 1.
     pub similarity: f64,
-    /// The files, which are of the same task.
+    /// The files, which belong to the same task.
     pub files: [ComparedFile; 2],
 }
 
@@ -25,21 +29,24 @@ pub struct SimilarPair {
 pub struct ComparedFile {
     /// The task file's name, without its extension.
     pub task: String,
-    /// The submission's id as a safe cell, from the key.
+    /// The submission's id from the key, as a safe cell.
     pub submission: String,
-    /// The path of the students' own lines.
+    /// The path of the file with the students' own lines.
     pub path: PathBuf,
     /// The students' own lines.
     pub lines: String,
 }
 
-/// Dolos's columns in `pairs.csv`, and JPlag's in the `results.csv` of `--csv-export`: both names
-/// and the similarity.
+/// The titles of the columns with both names and the similarity, first in Dolos's `pairs.csv`, then
+/// in the `results.csv` that JPlag's `--csv-export` writes.
 const COLUMNS: [[&str; 3]; 2] = [
     ["leftFilePath", "rightFilePath", "similarity"],
     ["submissionName1", "submissionName2", "averageSimilarity"],
 ];
-/// Checkers list every pair of a class, but nobody would compare more than these.
+/// The maximum size of a file in JPlag's archive, in bytes.
+const MAX_JSON_BYTES: u64 = 256 << 20;
+/// The maximum number of pairs. Checkers list every pair in a class, but nobody would compare more
+/// than this many.
 const MAX_PAIRS: usize = 20;
 
 /// Reads the most similar pairs from all results that `--similar` names.
@@ -56,32 +63,97 @@ pub fn read_similar_pairs(lists: &Lists) -> Result<Vec<SimilarPair>, Error> {
     Ok(pairs)
 }
 
-/// Reads a file with results, without the students' lines. Leaves out pairs of different tasks.
-fn read_results(folder: &Path, results: &Path) -> Result<Vec<SimilarPair>, Error> {
-    let key = read_key(folder)?;
+/// A row of results, numbered as in spreadsheets: the names of two files and their similarity.
+type ResultRow = (usize, [String; 3]);
+
+/// Reads the rows of a table from Dolos or JPlag.
+fn read_table(results: &Path) -> Result<Vec<ResultRow>, Error> {
     let (table, shown) = (Table::read(results)?, results.display());
-    let is_known = |names: &[&str; 3]| names.iter().all(|name| table.column(name).is_some());
-    let columns = COLUMNS.into_iter().find(is_known).ok_or_else(|| {
+    let columns = COLUMNS.map(|names| names.map(|name| table.column(name)));
+    let columns = columns.into_iter().find(|all| !all.contains(&None));
+    let columns = columns.ok_or_else(|| {
         Error::user(format!(
             "{shown} is neither Dolos's pairs.csv nor JPlag's results.csv: pass one of these"
         ))
     })?;
+    let rows = table.numbered_rows().map(|(number, row)| {
+        let cell = |column: Option<usize>| column.map_or("", |column| row[column].trim());
+        (number, columns.map(|column| cell(column).to_owned()))
+    });
+    Ok(rows.collect())
+}
+
+/// Reads the comparisons in JPlag's archive. Since version 6, they are in a separate file. Before
+/// that, they were in the overview.
+fn read_archive(results: &Path) -> Result<Vec<ResultRow>, Error> {
+    let refused = |why: &dyn Display| Error::user(format!("{}: {why}", results.display()));
+    let archive = Archive::open(results, ArchiveLimits::class());
+    let mut archive = archive.map_err(|why| refused(&why))?;
+    let members = archive.listing().map_err(|why| refused(&why))?.members;
+    let mut read = |name: &str| {
+        let Some(member) = members.iter().find(|member| member.path == name) else {
+            return Ok(Value::Null);
+        };
+        let bytes = archive.read(&[member], MAX_JSON_BYTES);
+        let bytes = bytes.map_err(|why| refused(&why))?.concat();
+        serde_json::from_slice(&bytes).map_err(|why| refused(&format!("{name}: {why}")))
+    };
+    let overview = read("overview.json")?;
+    let (comparisons, mappings) = (
+        read("topComparisons.json")?,
+        read("submissionMappings.json")?,
+    );
+    let comparisons = comparisons.as_array();
+    let comparisons = comparisons.or(overview["top_comparisons"].as_array());
+    let missing = "it contains no comparisons in the format of JPlag 5 or 6: pass JPlag's result \
+                   archive";
+    let comparisons = comparisons.ok_or_else(|| refused(&missing))?.iter();
+    // Ids are names without slashes.
+    let names = [
+        &mappings["submissionIds"],
+        &overview["submission_id_to_display_name"],
+    ];
+    let rows = comparisons.map(|comparison| {
+        let name = |keys: [&str; 2]| {
+            let id = keys.iter().find_map(|key| comparison[*key].as_str());
+            let id = id.unwrap_or_default();
+            let name = names.iter().find_map(|names| names[id].as_str());
+            name.unwrap_or(id).to_owned()
+        };
+        [
+            name(["firstSubmission", "first_submission"]),
+            name(["secondSubmission", "second_submission"]),
+            comparison["similarities"]["AVG"].to_string(),
+        ]
+    });
+    Ok((1..).zip(rows).collect())
+}
+
+/// Reads a file with results, but not the students' lines. Leaves out pairs of files from different
+/// tasks.
+fn read_results(folder: &Path, results: &Path) -> Result<Vec<SimilarPair>, Error> {
+    let (key, shown) = (read_key(folder)?, results.display());
+    let extension = results.extension().and_then(OsStr::to_str);
+    let rows = match extension {
+        Some("zip" | "jplag") => read_archive(results),
+        _ => read_table(results),
+    };
     let mut pairs = Vec::new();
-    for (number, row) in table.numbered_rows() {
-        let cell = |name: &str| table.column(name).map_or("", |column| row[column].trim());
-        let [one, other, similarity] = columns.map(cell);
+    for (number, [one, other, similarity]) in rows? {
         let error = |problem: &str| Error::user(format!("{shown}, row {number}: {problem}"));
-        let files = [one, other].map(|name| find_compared(name, folder, results, &key));
+        let files = [&one, &other].map(|name| find_compared(name, folder, results, &key));
         let [Some(left), Some(right)] = files else {
             return Err(error(&format!(
-                "{one:?} or {other:?} is not a file of a task in {}: pass the folder that was \
-                 compared, and put the results of one task into a folder such as sphere",
+                "{one:?} or {other:?} is not a task file in {}: pass the folder that was compared, \
+                 and put the results of one task into a folder such as sphere",
                 folder.display()
             )));
         };
         let parsed = similarity.parse().ok();
         let Some(similarity) = parsed.filter(|number| (0.0..=1.0).contains(number)) else {
-            return Err(error("similarity is not from 0 to 1: export it again"));
+            return Err(error(
+                "the similarity is not between 0 and 1: export the file again",
+            ));
         };
         if left.task == right.task {
             let files = [left, right];
@@ -91,19 +163,23 @@ fn read_results(folder: &Path, results: &Path) -> Result<Vec<SimilarPair>, Error
     Ok(pairs)
 }
 
-/// The ids of the submissions, by number. Spreadsheets drop the zeros before a number.
+/// The ids of the submissions, keyed by number, since spreadsheets drop leading zeros.
 type Key = HashMap<u32, String>;
 
 /// Reads the key next to a folder of compared files.
 fn read_key(folder: &Path) -> Result<Key, Error> {
     let path = beside(folder, "key.csv");
-    let table = Table::read(&path)
-        .map_err(|error| Error::user(format!("{error}; pass the folder of --similarity-input")))?;
+    let table = Table::read(&path).map_err(|error| {
+        Error::user(format!(
+            "{error}; pass the folder that --similarity-input created"
+        ))
+    })?;
     let entry = |row: &Vec<String>| Some((row.first()?.parse().ok()?, row.get(1)?.clone()));
     Ok(table.rows.iter().filter_map(entry).collect())
 }
 
-/// Finds a file by the checker's name for it. If that lacks the task, the results' folder names it.
+/// Finds a file by the checker's name for it. If this name lacks the task, it is taken from the
+/// name of the folder with the results.
 fn find_compared(name: &str, folder: &Path, results: &Path, key: &Key) -> Option<ComparedFile> {
     let name = PathBuf::from(name.replace('\\', "/"));
     let number = name.file_stem()?.to_str()?.parse().ok()?;

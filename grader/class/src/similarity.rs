@@ -1,11 +1,12 @@
-//! Input for similarity checkers such as JPlag, Dolos and MOSS. Each task file has a folder with a
-//! numbered file per submission that only contains its students' own lines. This isn't a detector:
-//! it only compares entire submissions for equality.
+//! Input for similarity checkers such as JPlag, Dolos and MOSS. Each task file has a folder, which
+//! contains a numbered file for each submission. The numbered file contains only the lines that the
+//! students wrote themselves. This isn't a detector: it only compares entire submissions for
+//! equality.
 //!
 //! The folder can be uploaded to a service, since it doesn't contain names. The key to the numbers
 //! and the list of identical submissions are written next to it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
@@ -13,9 +14,10 @@ use grader::files;
 use grader::handed_out::{HandedOut, own_lines};
 use judging::content_hash::ContentHash;
 
-use crate::entry::{Entry, EntryInfo};
+use crate::entry::Entry;
 use crate::error::Error;
 use crate::input::collect_submission;
+use crate::names::joined;
 use crate::paths::{beside, contains};
 use crate::report::text::one_line;
 use crate::table::{Table, safe_cell};
@@ -29,31 +31,34 @@ struct OwnWork<'a> {
 }
 
 impl OwnWork<'_> {
+    /// Returns the id and the names of the people, as cells of a table.
+    fn cells(&self) -> [String; 2] {
+        [&self.entry.id, &self.entry.info.display_names()].map(|text| safe_cell(text))
+    }
+
     fn content_hash(&self) -> String {
-        let parts = self
-            .files
-            .iter()
-            .flat_map(|(file, text)| [*file, text.as_str()]);
-        let hash = parts.fold(ContentHash::default(), |hash, part| {
-            hash.with(part.as_bytes())
-        });
+        let mut hash = ContentHash::default();
+        for (file, text) in &self.files {
+            hash.add(file.as_bytes());
+            hash.add(text.as_bytes());
+        }
         hash.hex()
     }
 }
 
-/// Checks that the folder for files without names is empty, and apart from the input and the output.
-/// `option` is the option that names it.
+/// Checks that the folder for anonymous files is empty and doesn't overlap with the input or the
+/// output. `option` is the command-line option that names the folder.
 pub fn check_folder(folder: &Path, others: &[&Path], option: &str) -> Result<(), Error> {
     if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(Error::user(format!(
-            "{} is not empty: name a new folder for {option}",
+            "{} is not empty: choose a new folder for {option}",
             folder.display()
         )));
     }
     for other in others {
         if contains(folder, other) || contains(other, folder) {
             return Err(Error::user(format!(
-                "{} and {} must not contain each other, or names would be passed on: choose another \
+                "{} and {} must not contain each other, or names would leak: choose a different \
                  folder for {option}",
                 folder.display(),
                 other.display()
@@ -88,7 +93,7 @@ pub fn write_input(
             });
         }
     }
-    // Numbers in entry order would reveal names to anyone with a list of the class.
+    // Numbers in entry order would reveal names to anyone with a class list.
     let mut order: Vec<&mut OwnWork> = all.iter_mut().collect();
     order.sort_by_cached_key(|work| work.content_hash());
     for (number, work) in (1..).zip(order) {
@@ -112,11 +117,9 @@ pub fn write_input(
 fn key_table(all: &[OwnWork]) -> Table {
     let mut table = Table::new(&["number", "submission", "names"]);
     for work in all {
-        table.rows.push(vec![
-            format!("{:04}", work.number),
-            safe_cell(&work.entry.id),
-            safe_cell(&work.entry.info.display_names()),
-        ]);
+        let [id, names] = work.cells();
+        let row = [format!("{:04}", work.number), id, names];
+        table.rows.push(row.to_vec());
     }
     table
 }
@@ -125,14 +128,14 @@ fn key_table(all: &[OwnWork]) -> Table {
 fn identical<'a, 'e>(all: &'a [OwnWork<'e>]) -> Vec<Vec<&'a OwnWork<'e>>> {
     let mut same: BTreeMap<Vec<(&str, String)>, Vec<&OwnWork>> = BTreeMap::new();
     for work in all {
-        let texts = work.files.iter().map(|(file, text)| {
-            let words: Vec<&str> = text.split_whitespace().collect();
-            (*file, words.join(" "))
-        });
+        let texts = work
+            .files
+            .iter()
+            .map(|(file, text)| (*file, joined(text.split_whitespace(), " ")));
         same.entry(texts.collect()).or_default().push(work);
     }
-    let mut groups: Vec<Vec<&OwnWork>> =
-        same.into_values().filter(|works| works.len() > 1).collect();
+    let groups = same.into_values().filter(|works| works.len() > 1);
+    let mut groups: Vec<Vec<&OwnWork>> = groups.collect();
     groups.sort_by_key(|works| works[0].entry.id.as_str());
     groups
 }
@@ -140,14 +143,15 @@ fn identical<'a, 'e>(all: &'a [OwnWork<'e>]) -> Vec<Vec<&'a OwnWork<'e>>> {
 fn identical_table(groups: &[Vec<&OwnWork>]) -> Table {
     let mut table = Table::new(&["set", "submission", "names", "expected"]);
     for (number, works) in (1..).zip(groups) {
+        let expected = if is_one_group(works) {
+            "same group"
+        } else {
+            ""
+        };
         for work in works {
-            let expected = is_one_group(works).then(|| "same group".to_owned());
-            table.rows.push(vec![
-                i32::to_string(&number),
-                safe_cell(&work.entry.id),
-                safe_cell(&work.entry.info.display_names()),
-                expected.unwrap_or_default(),
-            ]);
+            let [id, names] = work.cells();
+            let row = [i32::to_string(&number), id, names, expected.to_owned()];
+            table.rows.push(row.to_vec());
         }
     }
     table
@@ -156,10 +160,9 @@ fn identical_table(groups: &[Vec<&OwnWork>]) -> Table {
 /// Returns whether the roster lists all of these people in the same group. They may then hand in
 /// the same code.
 fn is_one_group(works: &[&OwnWork]) -> bool {
-    let group = |info: &EntryInfo| info.people.first().map(|person| person.group.clone());
-    let first = group(&works[0].entry.info).filter(|group| !group.is_empty());
     let people = works.iter().flat_map(|work| &work.entry.info.people);
-    first.is_some_and(|first| people.into_iter().all(|person| person.group == first))
+    let groups: BTreeSet<&str> = people.map(|person| person.group.as_str()).collect();
+    groups.len() == 1 && !groups.contains("")
 }
 
 fn render(
@@ -169,12 +172,13 @@ fn render(
     count: usize,
     identical: &[Vec<&OwnWork>],
 ) -> String {
-    let mut text = format!("\n  own lines of {count} submissions, for a similarity checker\n");
+    let mut text =
+        format!("\n  students' own lines from {count} submissions, for a similarity checker\n");
     for works in identical {
-        let names: Vec<&str> = works.iter().map(|work| work.entry.id.as_str()).collect();
+        let ids = joined(works.iter().map(|work| &work.entry.id), ", ");
         let is_expected = is_one_group(works);
         let expected = if is_expected { " (same group)" } else { "" };
-        text += &format!("  identical{expected}: {}\n", one_line(&names.join(", ")));
+        text += &format!("  identical{expected}: {}\n", one_line(&ids));
     }
     for path in [folder, key, list] {
         text += &format!("  {}\n", path.display());

@@ -31,7 +31,7 @@ pub trait SubmissionGrader: Sync {
     /// Returns everything that scores depend on, other than the submissions.
     fn settings(&self) -> Result<Settings, Error>;
 
-    /// Returns the maximum points of each item of the exam, by its id.
+    /// Returns the maximum points for each item in the exam, keyed by the item's id.
     fn item_points(&self) -> BTreeMap<String, u32>;
 
     /// Grades a submission and writes its score and its page for staff. Calls `show_status` with
@@ -111,10 +111,11 @@ fn options_of_scores(options: &GradeOptions) -> String {
         dependents,
         budget,
         handed_out,
-        // settings of their own
+        // stored as separate settings
         exam: _,
         isolation: _,
-        // applied to finished scores, apart from what students may see, which the cache key has
+        // applied to finished scores, apart from what students may see, which is part of the cache
+        // key
         policy: _,
         // options of a single submission
         submission: _,

@@ -2,13 +2,15 @@
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
+use std::iter;
 
 use serde::Serialize;
 
 use crate::distribution::Distribution;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
 use crate::manual_points::ManualPoints;
-use crate::outcome::{EntryOutcome, ScoreSummary, id_and_names};
+use crate::names::with_detail;
+use crate::outcome::{EntryOutcome, ItemScore, ScoreSummary, TaskScore, id_and_names};
 
 /// The format version of `class.json`.
 const SCHEMA: u32 = 1;
@@ -24,13 +26,14 @@ pub struct ClassSummary {
     pub exam: String,
     /// The hash of the exam file.
     pub exam_hash: String,
-    /// The isolation level of the submissions.
+    /// The isolation level used for the submissions.
     pub isolation: String,
     /// The number of graded submissions.
     pub graded: usize,
     /// The number of submissions with nothing to grade.
     pub nothing_to_grade: usize,
-    /// The number of submissions that were not graded because of the grader or the machine.
+    /// The number of submissions that were not graded because of a problem with the grader or the
+    /// machine.
     pub not_graded: usize,
     /// The number of people on the rosters who submitted nothing.
     pub missing: usize,
@@ -38,19 +41,25 @@ pub struct ClassSummary {
     pub undated: usize,
     /// The number of submissions without final points because their submission time is unclear.
     pub unclear_times: usize,
+    /// The number of submissions without final points because it is unclear who handed them in.
+    pub unclear_people: usize,
+    /// The number of submissions by people who aren't in the lists.
+    pub unlisted: usize,
     /// The number of submissions that aren't used because another submission by the same person is.
     pub superseded: usize,
     /// The number of submissions the teacher has yet to choose or reject.
     pub undecided: usize,
-    /// The distribution of the total points, or `None` without scores.
+    /// The distribution of the total points, or `None` if there are no scores.
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
     pub tasks: Vec<TaskDistribution>,
-    /// The number of graded submissions in each section of the roster, and in `all`.
+    /// The number of graded submissions in each section of the roster, and in the whole class under
+    /// the name `all`.
     pub sections: BTreeMap<String, usize>,
     /// How often each task and each item was failed, in lecture order.
     pub failed: Vec<FailureRate>,
-    /// The most common root causes of lost points, in descending order of the number of submissions.
+    /// The most common root causes of lost points, in descending order of the number of
+    /// submissions.
     pub causes: Vec<Cause>,
     /// The submissions that need attention.
     pub outliers: Vec<Outlier>,
@@ -97,11 +106,62 @@ pub struct Outlier {
     pub id: String,
     /// The names of its people.
     pub names: String,
-    /// Why the submission needs attention.
+    /// The reasons that the submission needs attention, as text.
     pub why: String,
     /// Whether the submission has a report.
     #[serde(skip)]
     pub has_report: bool,
+    /// The reasons in `why`, separately.
+    #[serde(skip)]
+    pub reasons: Vec<Reason>,
+}
+
+/// A reason that submissions need attention, and advice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reason {
+    /// The cause, which submissions can share.
+    pub cause: String,
+    /// The facts about one submission, or an empty string.
+    pub detail: String,
+    /// The advice, which starts with a semicolon, or an empty string.
+    pub remedy: &'static str,
+}
+
+/// A sentence about submissions that need attention for the same reason, and a map of these
+/// submissions, keyed by detail. If all submissions have the same detail, it is part of the
+/// sentence instead, and the key is empty.
+pub type AttentionGroup<'a> = (String, BTreeMap<&'a str, Vec<&'a Outlier>>);
+
+/// Groups the submissions that need attention by cause and remedy.
+pub fn attention_groups(outliers: &[Outlier]) -> Vec<AttentionGroup<'_>> {
+    let mut groups: Vec<(&Reason, BTreeMap<&str, Vec<&Outlier>>)> = Vec::new();
+    for outlier in outliers {
+        for reason in &outlier.reasons {
+            let is_same = |(other, _): &(&Reason, _)| {
+                (&other.cause, other.remedy) == (&reason.cause, reason.remedy)
+            };
+            let known = groups.iter().position(is_same).unwrap_or_else(|| {
+                groups.push((reason, BTreeMap::new()));
+                groups.len() - 1
+            });
+            let same_detail = groups[known].1.entry(&*reason.detail).or_default();
+            same_detail.push(outlier);
+        }
+    }
+    let described = groups.into_iter().map(|(reason, details)| {
+        if details.len() > 1 {
+            return (format!("{}{}", reason.cause, reason.remedy), details);
+        }
+        let all = details.into_values().flatten().collect();
+        (reason.text(), BTreeMap::from([("", all)]))
+    });
+    described.collect()
+}
+
+impl Reason {
+    fn text(&self) -> String {
+        with_detail(&self.cause, &self.detail) + self.remedy
+    }
 }
 
 impl Outlier {
@@ -126,14 +186,18 @@ impl ClassSummary {
         let (sections, failed) = failure_rates(class);
         ClassSummary {
             schema: SCHEMA,
-            exam: class.exam.clone(),
-            exam_hash: class.exam_hash.clone(),
-            isolation: class.isolation.clone(),
+            exam: class.settings.exam.clone(),
+            exam_hash: class.settings.exam_hash.clone(),
+            isolation: class.settings.isolation.clone(),
             graded: scores.len(),
             nothing_to_grade: count(has_nothing),
             not_graded: class.fault_count(),
             missing: class.missing.len(),
             unclear_times: count(|row| matches!(row.problem(), Some(GradeProblem::UnclearTime(_)))),
+            unclear_people: count(|row| {
+                matches!(row.problem(), Some(GradeProblem::UnclearPerson(_)))
+            }),
+            unlisted: count(|row| row.result.info.is_unlisted),
             superseded: count(ClassRow::is_superseded),
             undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
             undated: count(|row| row.grades.iter().any(|grade| grade.is_undated)),
@@ -166,12 +230,11 @@ fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
             points: Distribution::new(points, task.max_points)?,
         })
     };
-    (0..first.tasks.len())
-        .filter_map(task_distribution)
-        .collect()
+    let indices = 0..first.tasks.len();
+    indices.filter_map(task_distribution).collect()
 }
 
-/// Counts the submissions of each section and those that failed each task and item.
+/// Counts the submissions in each section, and those that failed each task and item.
 fn failure_rates(class: &GradedClass) -> (BTreeMap<String, usize>, Vec<FailureRate>) {
     let mut sections = BTreeMap::new();
     let mut rates: Vec<FailureRate> = Vec::new();
@@ -185,9 +248,7 @@ fn failure_rates(class: &GradedClass) -> (BTreeMap<String, usize>, Vec<FailureRa
         let parts = score.tasks.iter().flat_map(|task| {
             let items = task.items.iter();
             let items = items.map(|item| (&item.id, item.points < item.max_points));
-            [(&task.id, task.points < task.max_points)]
-                .into_iter()
-                .chain(items)
+            iter::once((&task.id, task.points < task.max_points)).chain(items)
         });
         for (id, is_failed) in parts {
             let known = rates.iter().position(|rate| rate.id == *id);
@@ -209,30 +270,17 @@ fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
     let mut causes: BTreeMap<String, Cause> = BTreeMap::new();
     for score in scores {
         let mut found = BTreeSet::new();
-        for item in score.items() {
-            if item.points == item.max_points || item.blocked_by.is_some() {
-                continue;
+        for task in &score.tasks {
+            for (text, item) in task_causes(task) {
+                let cause = causes.entry(text.clone()).or_insert_with(|| Cause {
+                    text: text.clone(),
+                    items: BTreeSet::new(),
+                    count: 0,
+                });
+                cause.items.extend(item);
+                // Each cause is counted once per submission.
+                cause.count += usize::from(found.insert(text));
             }
-            let task = item.id.split('.').next().unwrap_or_default();
-            // Only the most likely hint is counted.
-            let (text, own) = match (item.hints.first(), item.verdict.as_str()) {
-                (Some(hint), _) => (hint.hint.clone(), Some(&item.id)),
-                (None, "not_compiled") => (format!("{task} does not compile"), None),
-                (None, "unimplemented") => (format!("{task} is not written yet"), None),
-                // The rest of the task has the same verdict because it wasn't run.
-                (None, "timed_out") => (format!("{task} takes too long"), None),
-                (None, "crashed") => (format!("{task} ends the program"), None),
-                (None, "out_of_memory") => (format!("{task} needs too much memory"), None),
-                (None, _) => (item.title.clone(), Some(&item.id)),
-            };
-            let cause = causes.entry(text.clone()).or_insert_with(|| Cause {
-                text: text.clone(),
-                items: BTreeSet::new(),
-                count: 0,
-            });
-            cause.items.extend(own.cloned());
-            // Each cause is counted once per submission.
-            cause.count += usize::from(found.insert(text));
         }
     }
     let mut causes: Vec<Cause> = causes.into_values().collect();
@@ -241,55 +289,116 @@ fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
     causes
 }
 
-/// Returns the submissions without a score, without points, far below the others (Tukey's fence),
-/// or with files that look like task files but were not graded.
+/// Returns the causes of a task's lost points, each with the item that shows it, unless the cause
+/// concerns the entire task.
+fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
+    let is_cause = |item: &&ItemScore| item.points < item.max_points && item.blocked_by.is_none();
+    let failed = task.items.iter().filter(is_cause);
+    // Only the most likely hint is counted.
+    let hint = |item: &ItemScore| Some((item.hints.first()?.hint.clone(), Some(item.id.clone())));
+    let known: Vec<_> = failed.clone().filter_map(hint).collect();
+    // A known mistake also fails items, such as pictures, that cannot tell it from other mistakes.
+    if !known.is_empty() {
+        return known;
+    }
+    let id = &task.id;
+    let cause = |item: &ItemScore| match item.verdict.as_str() {
+        "not_compiled" => (format!("{id} does not compile"), None),
+        "unimplemented" => (format!("{id} is not written yet"), None),
+        // The rest of the task has the same verdict because it wasn't run.
+        "timed_out" => (format!("{id} takes too long"), None),
+        "crashed" => (format!("{id} ends the program"), None),
+        "out_of_memory" => (format!("{id} needs too much memory"), None),
+        _ if task.points == 0 && task.items.len() > 1 => {
+            (format!("nothing in {id} is right"), None)
+        }
+        _ => (item.title.clone(), Some(item.id.clone())),
+    };
+    failed.map(cause).collect()
+}
+
+/// Returns the submissions that have no score or no points, are far below the others (by Tukey's
+/// fence), or contain files that look like task files but were not graded.
 fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> {
     let fence = points.map_or(0.0, |points| {
-        let (lower, upper) = (points.lower_quartile.into(), points.upper_quartile.into());
-        let (lower, upper): (f64, f64) = (lower, upper);
+        let [lower, upper] = [points.lower_quartile, points.upper_quartile].map(f64::from);
         lower - 1.5 * (upper - lower)
     });
-    let problem = |row: &ClassRow| {
-        let grade = row.grades.iter().find(|grade| grade.counted.is_none())?;
-        let advice = match (&row.result.outcome, &grade.problem) {
-            (EntryOutcome::NothingToGrade(_), None) if row.result.info.needs_staff => {
-                "; or give points by hand"
-            }
-            (EntryOutcome::NothingToGrade(_), None) => {
-                "; ask for the files, with the text in hand-in-again, or give points by hand"
-            }
-            (EntryOutcome::Fault(_), _) => "; run this again",
-            (_, _) => "",
-        };
-        Some(format!("{}: {}{advice}", row.status(grade), row.why(grade)))
-    };
-    let why = |row: &ClassRow| match row.result.score() {
-        _ if row.is_superseded() => None,
-        None => problem(row),
-        Some(_) if row.problem().is_some() => problem(row),
-        Some(score) if score.items().all(|item| item.verdict == "not_compiled") => {
-            Some("0 points: nothing compiles; the report has the errors".to_owned())
-        }
-        Some(score) if score.items().all(|item| item.verdict == "unimplemented") => {
-            Some("0 points: nothing is written yet; ask for the right files".to_owned())
-        }
-        Some(score) if score.points == 0 => Some("0 points; read the report".to_owned()),
-        Some(score) if f64::from(score.points) < fence => Some(format!(
-            "{} points, far below the others; read the report",
-            score.points
-        )),
-        Some(_) => None,
-    };
     let outlier = |row: &ClassRow| {
-        let copies = row.result.ignored_copies().iter().cloned();
-        let copies = copies.filter(|_| !row.is_superseded());
-        let all: Vec<String> = why(row).into_iter().chain(copies).collect();
-        (!all.is_empty()).then(|| Outlier {
+        let copies = row.result.ignored_copies().iter().map(|note| Reason {
+            cause: "some files are copies or have other names".to_owned(),
+            detail: note.clone(),
+            remedy: "; check which of them should be graded",
+        });
+        let problem = match row.result.score().filter(|_| row.problem().is_none()) {
+            Some(score) => low_score(score, fence),
+            None => missing_grade(row),
+        };
+        let is_unclear = matches!(row.problem(), Some(GradeProblem::UnclearPerson(_)));
+        let unlisted = (row.result.info.is_unlisted && !is_unclear).then(|| Reason {
+            cause: "nobody in the lists has this name or identifier".to_owned(),
+            detail: String::new(),
+            remedy: "; correct the name or the list, unless these people aren't in the course",
+        });
+        let problem: Vec<Reason> = problem.into_iter().chain(unlisted).collect();
+        let why = problem.iter().map(Reason::text);
+        let why: Vec<String> = why.chain(copies.clone().map(|copy| copy.detail)).collect();
+        (!row.is_superseded() && !why.is_empty()).then(|| Outlier {
             id: row.result.id.clone(),
             names: row.result.info.display_names(),
-            why: all.join("; "),
+            why: why.join("; "),
             has_report: row.result.score().is_some(),
+            reasons: problem.into_iter().chain(copies).collect(),
         })
     };
     class.rows.iter().filter_map(outlier).collect()
+}
+
+/// If one of the people has no final points, returns the reason.
+fn missing_grade(row: &ClassRow) -> Option<Reason> {
+    let grade = row.grades.iter().find(|grade| grade.counted.is_none())?;
+    let remedy = match (&row.result.outcome, &grade.problem) {
+        (EntryOutcome::NothingToGrade(_), None) if row.result.info.needs_staff => {
+            "; correct this in the input, or give manual points"
+        }
+        (EntryOutcome::NothingToGrade(_), None) => {
+            "; ask for the files, using the message in hand-in-again, or give manual points"
+        }
+        (EntryOutcome::Fault(_), _) => "; run this command again",
+        (_, _) => "",
+    };
+    Some(Reason {
+        cause: row.status(grade).to_owned(),
+        detail: row.why(grade),
+        remedy,
+    })
+}
+
+/// Returns the reason that a score of 0 points, or one below the fence, needs attention.
+fn low_score(score: &ScoreSummary, fence: f64) -> Option<Reason> {
+    let is_uncompiled = |item: &ItemScore| item.verdict == "not_compiled";
+    let is_unwritten = |item: &ItemScore| item.verdict == "unimplemented";
+    let (cause, remedy) = match score.points {
+        _ if score.items().all(is_uncompiled) => (
+            "0 points: nothing compiles",
+            "; the report shows the errors",
+        ),
+        // The code that students get for building and traversing a BVH already runs.
+        0 if score.items().any(is_unwritten) => (
+            "0 points: some code is not written yet",
+            "; ask for the right files",
+        ),
+        0 => ("0 points", "; read the report"),
+        points if f64::from(points) < fence => ("far below the others", "; read the report"),
+        _ => return None,
+    };
+    let detail = match score.points {
+        0 => String::new(),
+        points => format!("{points} points"),
+    };
+    Some(Reason {
+        cause: cause.to_owned(),
+        detail,
+        remedy,
+    })
 }

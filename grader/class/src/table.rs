@@ -1,5 +1,5 @@
-//! CSV tables as platforms export them: separated by commas, semicolons or tabs, with or without a byte
-//! order mark.
+//! CSV tables as platforms export them: separated by commas, semicolons or tabs, with or without a
+//! byte order mark.
 
 use std::path::Path;
 
@@ -53,15 +53,11 @@ impl Table {
         let (mut rows, mut row_numbers) = (Vec::new(), Vec::new());
         let mut record = csv::StringRecord::new();
         let mut number = 0;
-        loop {
-            let read = usize::try_from(reader.position().byte()).unwrap_or(bytes.len());
-            if !reader
-                .read_record(&mut record)
-                .map_err(|error| error.to_string())?
-            {
-                break;
-            }
-            number += blank_lines(bytes, read) + 1;
+        let read = |error: csv::Error| error.to_string();
+        while reader.read_record(&mut record).map_err(read)? {
+            let start = record.position().map_or(0, csv::Position::byte);
+            let start = usize::try_from(start).unwrap_or(bytes.len());
+            number += blank_lines(bytes, start) + 1;
             row_numbers.push(number);
             rows.push(record.iter().map(str::to_owned).collect::<Vec<String>>());
         }
@@ -82,7 +78,7 @@ impl Table {
         })
     }
 
-    /// Creates a table with this header and without rows.
+    /// Creates a table with this header and no rows.
     pub fn new(header: &[&str]) -> Self {
         Table {
             header: header.iter().map(|name| (*name).to_owned()).collect(),
@@ -91,6 +87,19 @@ impl Table {
             delimiter: b',',
             has_byte_order_mark: false,
         }
+    }
+
+    /// Returns the table that begins this many rows below the header.
+    pub fn below(&self, rows: usize) -> Option<Self> {
+        let Some(above) = rows.checked_sub(1) else {
+            return Some(self.clone());
+        };
+        Some(Table {
+            header: self.rows.get(above)?.clone(),
+            rows: self.rows[rows..].to_vec(),
+            row_numbers: self.row_numbers[rows..].to_vec(),
+            ..*self
+        })
     }
 
     /// Returns the index of the column with this name, ignoring case.
@@ -111,7 +120,7 @@ impl Table {
         self.rows.first()?.get(self.column(name)?).cloned()
     }
 
-    /// Returns the table with only these columns, in this order.
+    /// Returns a table with only these columns, in the order of `columns`.
     pub fn select_columns(&self, columns: &[usize]) -> Self {
         let pick = |row: &Vec<String>| {
             let cell = |column: &usize| row.get(*column).cloned().unwrap_or_default();
@@ -125,7 +134,7 @@ impl Table {
         }
     }
 
-    /// Returns the rows, each with its row number as in spreadsheets.
+    /// Returns the rows and their row numbers, as in spreadsheets.
     pub fn numbered_rows(&self) -> impl Iterator<Item = (usize, &Vec<String>)> {
         self.row_numbers.iter().copied().zip(&self.rows)
     }
@@ -137,21 +146,21 @@ impl Table {
             .flexible(true)
             .from_writer(Vec::new());
         for row in [&self.header].into_iter().chain(&self.rows) {
-            writer
-                .write_record(row)
-                .expect("writing to memory succeeds");
+            let written = writer.write_record(row);
+            written.expect("writing to memory succeeds");
         }
         let bytes = writer.into_inner().expect("writing to memory succeeds");
         let text = String::from_utf8(bytes).expect("cells are UTF-8");
-        if self.has_byte_order_mark {
-            format!("\u{feff}{text}")
+        let mark = if self.has_byte_order_mark {
+            "\u{feff}"
         } else {
-            text
-        }
+            ""
+        };
+        format!("{mark}{text}")
     }
 }
 
-/// Returns an error about a column, with a remedy.
+/// Returns the error for a missing column, including a remedy.
 pub fn missing_column(path: &Path, column: &str, remedy: &str) -> Error {
     let path = path.display();
     Error::user(format!("{path} has no column {column}: {remedy}"))
@@ -175,7 +184,7 @@ fn blank_lines(bytes: &[u8], read: usize) -> usize {
 
 /// Characters that begin a formula in spreadsheets, including their wide and small forms.
 const FORMULA_SIGNS: &str = "=+-@|＝＋－＠｜﹦﹢﹣﹫−";
-/// Characters where spreadsheets in some languages split lines, regardless of the table's
+/// Characters at which spreadsheets in some languages split lines, regardless of the table's
 /// delimiter.
 const SPLITTING_SIGNS: [char; 2] = [';', '|'];
 
@@ -188,14 +197,9 @@ pub fn safe_cell(text: &str) -> String {
         // A formula may begin after spaces and quotation marks. Tabs have already been replaced by
         // spaces.
         let is_before = |sign: char| sign.is_whitespace() || sign == '"';
-        let begins = part
-            .trim_start_matches(is_before)
-            .starts_with(|sign| FORMULA_SIGNS.contains(sign));
-        if begins {
-            format!("'{part}")
-        } else {
-            part.to_owned()
-        }
+        let begin = part.trim_start_matches(is_before);
+        let is_formula = begin.starts_with(|sign| FORMULA_SIGNS.contains(sign));
+        format!("{}{part}", if is_formula { "'" } else { "" })
     };
     text.split_inclusive(SPLITTING_SIGNS).map(escape).collect()
 }

@@ -34,18 +34,22 @@ const MAX_EXPANSION: u64 = 4;
 pub const CLASS_FOLDER: &str = "class";
 
 /// The unpacked files of an archive.
-pub struct Unpacked {
-    /// The temporary folder, with the files in [`CLASS_FOLDER`].
+pub struct UnpackedArchive {
+    /// The temporary folder. The files are in its subfolder [`CLASS_FOLDER`].
     pub build_dir: BuildDir,
     /// The members that cannot be unpacked.
     pub problems: Vec<UnmatchedPath>,
-    /// The needed files that could not be unpacked and are empty instead, by their paths in the
-    /// folder.
+    /// The files that are needed but are empty because they could not be unpacked. Each is named by
+    /// its path in the folder.
     pub incomplete: Vec<UnmatchedPath>,
 }
 
 /// Unpacks an archive into a temporary folder in `parent`.
-pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpacked, Error> {
+pub fn unpack(
+    path: &Path,
+    parent: &Path,
+    handed_out: &HandedOut,
+) -> Result<UnpackedArchive, Error> {
     unpack_files(path, parent, handed_out).map_err(|error| match error {
         UnpackError::Archive(why) => {
             let path = path.display();
@@ -57,7 +61,7 @@ pub fn unpack(path: &Path, parent: &Path, handed_out: &HandedOut) -> Result<Unpa
     })
 }
 
-/// Why an archive cannot be unpacked.
+/// The reason that an archive cannot be unpacked.
 #[derive(Debug, thiserror::Error)]
 enum UnpackError {
     #[error(transparent)]
@@ -70,60 +74,55 @@ fn unpack_files(
     path: &Path,
     parent: &Path,
     handed_out: &HandedOut,
-) -> Result<Unpacked, UnpackError> {
+) -> Result<UnpackedArchive, UnpackError> {
     let bytes = fs::metadata(path).at("read", path)?.len();
     let mut archive = Archive::open(path, ArchiveLimits::class())?;
     let listing = archive.listing()?;
     let build_dir = BuildDir::new_in(parent)?;
     let folder = &build_dir.path().join(CLASS_FOLDER);
     files::create_dir_all(folder)?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let unmatched = |why: String| UnmatchedPath {
-        name: name.clone().into_owned(),
-        why,
-    };
     let errors = listing.errors.iter();
-    let mut problems: Vec<UnmatchedPath> = errors.map(|why| unmatched(why.to_string())).collect();
-    let wanted_folders = listing.folders.iter().filter(|path| is_wanted(path));
-    for path in wanted_folders {
+    let mut problems: Vec<String> = errors.map(ToString::to_string).collect();
+    for path in listing.folders.iter().filter(|path| is_wanted(path)) {
         let put = extract_to(folder, path, |target| files::create_dir_all(target));
-        problems.extend(put?.map(unmatched));
+        problems.extend(put?);
     }
 
-    let members = listing
-        .members
-        .iter()
-        .filter(|member| is_wanted(&member.path));
+    let members = listing.members.iter();
+    let members = members.filter(|member| is_wanted(&member.path));
     let (read, not_read) = select(members, MAX_TOTAL_BYTES + MAX_EXPANSION * bytes, handed_out);
     let mut incomplete = Vec::new();
     let mut put = |member: &Member, bytes: Result<&[u8], String>| {
-        if let Err(why) = &bytes {
-            let (name, why) = (member.path.clone(), why.clone());
-            incomplete.push(UnmatchedPath { name, why });
-        }
-        let put = extract_to(folder, &member.path, |target| {
-            files::write_with_parents(target, bytes.as_deref().unwrap_or_default())
+        let bytes = bytes.unwrap_or_else(|why| {
+            incomplete.push(UnmatchedPath::new(&member.path, why));
+            &[]
         });
-        problems.extend(put?.map(unmatched));
+        let put = extract_to(folder, &member.path, |target| {
+            files::write_with_parents(target, bytes)
+        });
+        problems.extend(put?);
         Ok::<_, UnpackError>(())
     };
     for (member, why) in not_read {
         put(member, why.map_or(Ok(&[]), Err))?;
     }
-    archive.read_each(&read, |slot, bytes| {
-        let bytes = bytes.map_err(|why| why.to_string());
-        let bytes = bytes.as_deref().map_err(Clone::clone);
-        put(read[slot].0, bytes)
+    archive.read_each(&read, |slot, bytes| match bytes {
+        Ok(bytes) => put(read[slot].0, Ok(&bytes)),
+        Err(why) => put(read[slot].0, Err(why.to_string())),
     })?;
-    Ok(Unpacked {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let problems = problems.into_iter();
+    let problems = problems.map(|why| UnmatchedPath::new(name.clone(), why));
+    Ok(UnpackedArchive {
         build_dir,
-        problems,
+        problems: problems.collect(),
         incomplete,
     })
 }
 
-/// The members of an archive to read, each with its maximum number of bytes, and the members to
-/// create as empty files, each with the reason if it is needed.
+/// The archive members to read (and how many bytes of each), and the members to create as empty
+/// files. If the contents of one of the latter are needed, the string is the reason that they
+/// aren't read.
 type Selection<'a> = (Vec<(&'a Member, u64)>, Vec<(&'a Member, Option<String>)>);
 
 /// Selects the members whose contents are needed. The smallest come first, so that only the largest
@@ -141,23 +140,23 @@ fn select<'a>(
     let mut total = 0;
     for (member, bytes) in needed {
         total += bytes;
-        let size = member.size >> 20;
-        if bytes == 0 {
-            not_read.push((member, None));
+        let (size, most) = (member.size >> 20, MAX_FILE_BYTES >> 20);
+        let why = if bytes == 0 {
+            None
         } else if bytes == MAX_FILE_BYTES && member.size > MAX_FILE_BYTES {
-            let most = MAX_FILE_BYTES >> 20;
-            let why = format!(
-                "it has {size} MiB, and more than {most} MiB are not unpacked: ask for the task files alone"
-            );
-            not_read.push((member, Some(why)));
+            Some(format!(
+                "it is {size} MiB, and the limit is {most} MiB: ask for only the task files"
+            ))
         } else if total > max_total {
-            let why = format!(
-                "it has {size} MiB, for which there is no room beside the smaller files of the class: unpack the archive yourself, and pass the folder"
-            );
-            not_read.push((member, Some(why)));
+            Some(format!(
+                "it is {size} MiB, too large to unpack along with the class's smaller files: \
+                 unpack the archive yourself and pass the folder"
+            ))
         } else {
             read.push((member, bytes));
-        }
+            continue;
+        };
+        not_read.push((member, why));
     }
     (read, not_read)
 }
@@ -166,7 +165,7 @@ fn is_wanted(path: &str) -> bool {
     !path.split('/').any(is_skipped_name)
 }
 
-/// Returns the maximum number of a file's bytes that are needed later. This is 0 for most files,
+/// Returns the maximum number of bytes of a file that are needed later. This is 0 for most files,
 /// since only their names matter.
 fn max_bytes(path: &str, handed_out: &HandedOut) -> u64 {
     let name = path.rsplit('/').next().unwrap_or(path);
@@ -187,14 +186,15 @@ fn extract_to(
 ) -> Result<Option<String>, PathError> {
     let mut parts = Path::new(path).components();
     if !parts.all(|part| matches!(part, Component::Normal(_))) {
-        return Ok(Some(format!("{path} in it is not a valid path")));
+        return Ok(Some(format!("it contains the invalid path {path}")));
     }
     match put(&folder.join(path)) {
         Ok(()) => Ok(None),
         // The archive is at fault, e.g. a name is too long, or a path is both a file and a folder.
-        Err(error) if !is_machine_fault(error.source.kind()) => {
-            Ok(Some(format!("{path} in it: {}", error.reason())))
-        }
+        Err(error) if !is_machine_fault(error.source.kind()) => Ok(Some(format!(
+            "it contains {path}, which cannot be unpacked: {}",
+            error.reason()
+        ))),
         Err(error) => Err(error),
     }
 }

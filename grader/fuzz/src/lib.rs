@@ -6,13 +6,10 @@
 //! needed.
 
 mod answers;
-mod archive;
-mod diagnostics;
 mod exam;
-mod mesh;
 mod scene;
 mod score;
-mod source;
+mod submission;
 mod wire;
 
 use peak_alloc::PeakAlloc;
@@ -38,13 +35,13 @@ pub const TARGETS: [Target; 9] = [
     Target::new("wire", wire::read, 128),
     Target::new("answers", answers::read, 1024),
     // A megabyte of the same letter compresses to a kilobyte.
-    Target::new("archive", archive::read, 2048),
+    Target::new("archive", submission::read_archive, 2048),
     Target::new("exam", exam::read, 512),
-    Target::new("scene", scene::read, 512),
-    Target::new("mesh", mesh::read, 512),
+    Target::new("scene", scene::read_scene, 512),
+    Target::new("mesh", scene::read_mesh, 512),
     Target::new("score", score::read, 1024),
-    Target::new("source", source::read, 64),
-    Target::new("diagnostics", diagnostics::read, 512),
+    Target::new("source", submission::read_source, 64),
+    Target::new("diagnostics", submission::read_diagnostics, 512),
 ];
 
 impl Target {

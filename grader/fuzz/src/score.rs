@@ -1,11 +1,12 @@
-//! Score files that `cargo class` reads back, from other machines or from a killed run.
+//! Score files that `cargo class` reads back. They may come from other machines or from a killed
+//! run.
 
 use class::entry::EntryInfo;
 use class::graded_class::{ClassRow, GradedClass};
 use class::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
 use class::regrade_diff::Changes;
 use class::report::{grades, page, text};
-use class::run::Run;
+use class::run::{Run, Settings};
 use class::summary::ClassSummary;
 use grader::policy::Policy;
 
@@ -29,9 +30,7 @@ pub fn read(bytes: &[u8]) {
     };
     let policy = Policy::default();
     let class = GradedClass {
-        exam: "any".to_owned(),
-        exam_hash: "any".to_owned(),
-        isolation: "none".to_owned(),
+        settings: Settings::default(),
         rows: ["alice", "bob"]
             .map(|id| ClassRow::new(row(id), &policy, vec![Vec::new(); info.people.len()], &[]))
             .into(),

@@ -16,7 +16,7 @@ const CASES: u32 = 300;
 /// The maximum length of a noise input, in bytes.
 const MAX_NOISE_BYTES: usize = 300;
 
-/// Returns the target's inputs, in the order of their names.
+/// Returns the target's inputs, sorted by name.
 fn corpus(target: &Target) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
     let file = folder.join(target.name).with_extension("tar");

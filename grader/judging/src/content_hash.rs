@@ -1,14 +1,15 @@
 //! Hashes of a result's inputs. These are the only hashes in the grader and the tools around it.
 
-/// The number of hexadecimal digits of a hash: 128 bits.
+/// The number of hexadecimal digits in a hash, which has 128 bits.
 const DIGITS: usize = 32;
 
-/// A hash of several parts, used as a cache key for a result made from them.
+/// A hash of several parts, used as the cache key for a result that is computed from them.
 #[derive(Clone, Debug, Default)]
 pub struct ContentHash(blake2b_simd::State);
 
 impl ContentHash {
-    /// Adds a part. Its length is hashed too, so that `ab`, `c` and `a`, `bc` differ.
+    /// Adds a part. Its length is hashed too, so that the parts `ab` and `c` give a different hash
+    /// than `a` and `bc`.
     pub fn add(&mut self, part: &[u8]) {
         self.0.update(&(part.len() as u64).to_le_bytes());
         self.0.update(part);

@@ -1,7 +1,8 @@
-//! Data for drawings that explain the correct answer, such as a correct traversal's order of nodes.
+//! Data for drawings that explain the correct answer, such as the order in which a correct
+//! traversal visits the nodes.
 //!
 //! The data is stored in the exam file because the grader contains no solution that could compute
-//! it. It isn't judged and not sent to the probe.
+//! it. It isn't judged and isn't sent to the probe.
 
 use glam::Vec3;
 use protocol::{Geometry, Interval, Question, Rows, packed};
@@ -14,22 +15,23 @@ pub enum DrawingData {
     /// No data.
     #[default]
     None,
-    /// Data for tables of `BBox::hit`: for each query, the interval the ray spends between each
-    /// axis's two planes, ignoring the query's `times` and the ray's range. If the ray is parallel
-    /// to the planes, the interval is unbounded or empty.
+    /// Data for tables of `BBox::hit`: for each query, the interval that the ray spends between the
+    /// two planes of each axis, ignoring the query's `times` and the ray's range. If the ray is
+    /// parallel to the planes, the interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),
     /// Data for tables of hits in a tree from the exam: one correct traversal per ray.
     Traversals(#[serde(with = "packed::text")] Vec<Vec<TraversalStep>>),
     /// Data for `Build` questions: the tree of the exact SAH sweep.
-    Sweep(#[serde(with = "packed::text")] Sweep),
+    Sweep(#[serde(with = "packed::text")] UpperLevels),
 }
 
 /// One node that a traversal reaches. Steps are listed in order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TraversalStep {
-    /// Index of the node in the tree's nodes.
+    /// Index of the node in the tree's list of nodes.
     pub node: u32,
-    /// Whether the node is entered, i.e. its children are visited or its primitives tested.
+    /// Whether the node is entered, i.e. whether its children are visited or its primitives are
+    /// tested.
     pub is_entered: bool,
     /// Interval where the ray is inside the node's box, ignoring the ray's range.
     pub span: Option<Interval>,
@@ -37,15 +39,16 @@ pub struct TraversalStep {
 
 /// The upper levels of a tree, and the split of its root.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sweep {
-    /// The nodes down to level [`Sweep::LEVELS`] - 1, in any order.
+pub struct UpperLevels {
+    /// The nodes down to level [`UpperLevels::LEVELS`] - 1, in any order.
     pub nodes: Vec<LevelNode>,
-    /// The plane that splits the root's primitives: its axis, and a coordinate between the centres
-    /// of the two sides. `None` if the root is a leaf, or if no plane separates the centres.
+    /// The plane that splits the root's primitives, as its axis and a coordinate between the
+    /// centres of the primitives on either side. `None` if the root is a leaf, or if no plane
+    /// separates the centres.
     pub plane: Option<(u8, f32)>,
 }
 
-impl Sweep {
+impl UpperLevels {
     /// Number of stored levels, including the root's.
     pub const LEVELS: u32 = 6;
 }
@@ -66,8 +69,8 @@ pub struct LevelNode {
     pub cost: f32,
 }
 
-/// The problem if the data belongs to a different kind of question.
-const OTHER_KIND: &str = "the drawing data is of another kind than the question";
+/// The message if the data belongs to a different kind of question.
+const OTHER_KIND: &str = "the drawing data is for a different kind of question";
 
 impl DrawingData {
     /// Returns whether this is [`DrawingData::None`].
@@ -78,7 +81,7 @@ impl DrawingData {
         }
     }
 
-    /// Returns why the data doesn't fit `question`, or `None` if it fits.
+    /// Returns the reason that the data doesn't fit `question`, or `None` if it fits.
     pub fn problem(&self, question: &Question) -> Option<String> {
         let count = question.count();
         match (self, question) {
@@ -99,7 +102,7 @@ impl DrawingData {
                 let mut steps = traversals.iter().flatten();
                 match steps.find(|step| step.node as usize >= nodes.len()) {
                     Some(step) => Some(format!(
-                        "the drawing data visits node {} of {}",
+                        "the drawing data visits node {} of a tree with {} nodes",
                         step.node,
                         nodes.len()
                     )),
@@ -121,17 +124,18 @@ impl DrawingData {
     }
 }
 
-impl Sweep {
+impl UpperLevels {
     fn problem(&self, primitives: usize) -> Option<String> {
         let is_wrong = |node: &&LevelNode| {
             let end = u64::from(node.start) + u64::from(node.count);
-            node.level >= Sweep::LEVELS || end > primitives as u64 || !node.cost.is_finite()
+            node.level >= UpperLevels::LEVELS || end > primitives as u64 || !node.cost.is_finite()
         };
         let axis = self.plane.map_or(0, |(axis, _)| usize::from(axis));
         match self.nodes.iter().find(is_wrong) {
             Some(node) => Some(format!("the drawing data has an invalid node {node:?}")),
-            None => (axis >= Vec3::AXES.len())
-                .then(|| format!("the drawing data splits along axis {axis} of 3")),
+            None => (axis >= Vec3::AXES.len()).then(|| {
+                format!("the drawing data splits along axis {axis}, which does not exist")
+            }),
         }
     }
 }
@@ -164,7 +168,7 @@ mod tests {
     }
 
     fn sweep(node: LevelNode, axis: u8) -> DrawingData {
-        DrawingData::Sweep(Sweep {
+        DrawingData::Sweep(UpperLevels {
             nodes: vec![node],
             plane: Some((axis, 0.0)),
         })
@@ -213,9 +217,13 @@ mod tests {
             (
                 DrawingData::Traversals(vec![vec![step]]),
                 traverse(),
-                "node 7 of 0",
+                "node 7 of a tree with 0 nodes",
             ),
-            (DrawingData::Traversals(vec![]), bbox(), "another kind"),
+            (
+                DrawingData::Traversals(vec![]),
+                bbox(),
+                "a different kind of question",
+            ),
             (sweep(high, 0), build(), "level: 6"),
             (sweep(many, 0), build(), "invalid node"),
             (sweep(not_finite, 0), build(), "NaN"),

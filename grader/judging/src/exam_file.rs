@@ -77,8 +77,8 @@ pub fn parse(path: &Path, bytes: &[u8], assignment: &Assignment) -> Result<ExamF
         problem,
     };
     let exam: Exam = serde_json::from_slice(bytes).map_err(|source| {
-        // A file in another format may have other fields, so a mismatched version is a better
-        // message than the parser's error.
+        // A file in another format may have other fields, so a message about the version is more
+        // helpful than the parser's error.
         let format: Option<Format> = serde_json::from_slice(bytes).ok();
         let other = format.and_then(|format| format_problem(format.schema));
         other.map_or_else(
@@ -104,14 +104,14 @@ struct Format {
     schema: u32,
 }
 
-/// The assignment of an exam file.
+/// The assignment that an exam file is for.
 #[derive(Deserialize)]
 struct ForAssignment {
     assignment: String,
 }
 
-/// Returns the id of the assignment that an exam file is for, or `None` if it names none. The exam need
-/// not be valid.
+/// Returns the id of the assignment that an exam file is for, or `None` if the file doesn't name
+/// one. The exam need not be valid.
 pub fn assignment_id(bytes: &[u8]) -> Option<String> {
     let exam: Option<ForAssignment> = serde_json::from_slice(bytes).ok();
     exam.map(|exam| exam.assignment)
@@ -132,7 +132,7 @@ fn problem(exam: &Exam, assignment: &Assignment) -> Option<String> {
     }
     if exam.assignment != assignment.id {
         return Some(format!(
-            "it is for the assignment `{}`, and this grader grades `{}`",
+            "it is for the assignment `{}`, but this grader grades `{}`",
             exam.assignment, assignment.id
         ));
     }
@@ -152,7 +152,7 @@ fn problem(exam: &Exam, assignment: &Assignment) -> Option<String> {
     None
 }
 
-/// Returns a message if the item's task is not one of the assignment's.
+/// Returns a message if the item's task doesn't belong to the assignment.
 fn unknown_task(item: &Item, assignment: &Assignment) -> Option<String> {
     if assignment.find(item.task.id()).is_some() {
         return None;
@@ -196,7 +196,7 @@ fn item_problem(item: &Item, ids_before: &BTreeSet<&str>) -> Option<String> {
         let count = question.question.count();
         match (fits, keys == count) {
             (false, _) => Some(format!(
-                "question {number} and its key are of different kinds"
+                "question {number} has a key for a different kind of question"
             )),
             (true, false) => Some(format!(
                 "question {number} has {count} elements, but its key has {keys}"
@@ -210,7 +210,7 @@ fn item_problem(item: &Item, ids_before: &BTreeSet<&str>) -> Option<String> {
     (1..).zip(&item.questions).find_map(question_problem)
 }
 
-/// Returns why the item's signatures are invalid, or `None` if they are valid.
+/// Returns the reason that the item's signatures are invalid, or `None` if they are valid.
 fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
     let count: usize = item
         .questions

@@ -4,7 +4,7 @@
 //! It is a separate package so that it can be compiled with optimisations, because grading spends
 //! most of its time here. The rest of the grader is built for fast compilation.
 //!
-//! Layers, from top to bottom. A module imports only from layers below its own:
+//! These are the layers, from top to bottom. A module imports only from layers below its own:
 //!
 //! | layer | modules |
 //! |---|---|
@@ -13,7 +13,7 @@
 //! | comparison | [`judge`] |
 //! | text | [`describe`] |
 //! | types of fields | `types` |
-//! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`scene`], [`section`]; [`content_hash`], [`sanitize`] |
+//! | data | [`exam`], [`assignment`], [`signatures`], [`drawing_data`], [`scene`], [`section`], [`symptom`]; [`content_hash`], [`sanitize`] |
 
 pub mod assignment;
 pub mod content_hash;
@@ -29,6 +29,7 @@ pub mod sanitize;
 pub mod scene;
 pub mod section;
 pub mod signatures;
+pub mod symptom;
 mod types;
 
 #[cfg(test)]

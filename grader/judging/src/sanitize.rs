@@ -24,7 +24,7 @@ pub fn sanitize(text: &str, longest: usize) -> String {
     sanitized
 }
 
-/// Sanitizes a text like [`sanitize`], and also escapes line breaks.
+/// Sanitizes text like [`sanitize`], and also escapes line breaks.
 pub fn sanitize_line(text: &str, longest: usize) -> String {
     sanitize(text, longest).replace('\n', "\\n")
 }
@@ -42,8 +42,8 @@ pub fn affects_surroundings(c: char) -> bool {
 }
 
 /// Returns whether a character is invisible and doesn't affect the text around it: soft hyphens,
-/// zero width spaces, fillers, tags and variation selectors. Such a character makes two names
-/// differ that look the same.
+/// zero width spaces, fillers, tags and variation selectors. With such a character, two names that
+/// look the same can differ.
 fn is_invisible(c: char) -> bool {
     matches!(
         c,

@@ -1,4 +1,5 @@
-//! The scene of a question: the geometry it is about, found among its subject's fields.
+//! The scene of a question: the geometry that the question is about, taken from the fields of its
+//! subject.
 
 use std::borrow::Cow;
 
@@ -20,7 +21,7 @@ pub struct QuestionScene<'a> {
 }
 
 impl<'a> QuestionScene<'a> {
-    /// Returns the scene of a question. Returns `None` for a path-traced picture, which has a scene
+    /// Returns the scene of a question. Returns `None` for a rendered picture, which has a scene
     /// file, and for a question that isn't about shapes or a box.
     pub fn of(question: &'a Question) -> Option<Self> {
         if let Question::Build {

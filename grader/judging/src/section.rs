@@ -37,7 +37,7 @@ impl Section {
     }
 
     /// Returns the heading's text, such as `Zero and minus zero`. Anchors don't preserve
-    /// punctuation and capitals, so this only works for headings that consist of plain words and
+    /// punctuation or capitals, so this only works for headings that consist of plain words and
     /// capitalise only the first letter. A test ensures that only such headings are referenced.
     pub fn heading(&self) -> String {
         let mut heading = self.anchor().replace('-', " ");

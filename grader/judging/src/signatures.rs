@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::section::Section;
 
-/// A known mistake and its texts for the report.
+/// A known mistake and what the report says about it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KnownMistake {
@@ -20,7 +20,7 @@ pub struct KnownMistake {
     pub section: Option<Section>,
 }
 
-/// The answers to some elements of one item that a task's known mistakes produce.
+/// The answers that a task's known mistakes produce for some elements of one item.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MistakeSignatures {
@@ -61,18 +61,18 @@ pub enum ObservedAnswer {
     Numbers(Vec<f32>),
     /// No hit, or no interval inside the box.
     NoHit,
-    /// The defect of a tree and its amount, which may be 0. `None` for a correct tree.
+    /// The name and the amount of a tree's defect. The amount may be 0. `None` for a correct tree.
     Tree(Option<(String, f32)>),
     /// The code panicked with an unclassified message.
     Panicked,
-    /// The entire item was not answered.
+    /// The entire item is unanswered.
     NoAnswer(NoAnswerReason),
-    // Last, so that exams from before this variant can still be read.
+    // This variant is last, so that exams from before it existed can still be read.
     /// The code panicked with an error of this kind.
     PanickedBy(PanicKind),
 }
 
-/// Why there is no answer.
+/// The reason there is no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NoAnswerReason {
     /// The time limit was exceeded.
@@ -91,14 +91,15 @@ pub enum NoAnswerReason {
 pub enum PanicKind {
     /// An index or a range outside a list.
     Index,
-    /// An overflow of integers, or a division of integers by zero.
+    /// An integer overflow, or an integer division by zero.
     Arithmetic,
-    /// `unwrap` without a value.
+    /// `unwrap` called on a missing value.
     NoValue,
 }
 
 impl PanicKind {
-    /// Returns the kind of a panic with this message, if it is one of the standard library's.
+    /// Returns the kind of a panic with this message, if the message is one of the standard
+    /// library's.
     pub fn of(message: &str) -> Option<Self> {
         let kinds = [
             ("index out of bounds", PanicKind::Index),
@@ -117,12 +118,13 @@ impl PanicKind {
 }
 
 impl ObservedAnswer {
-    /// Maximum difference between the amounts of two tree defects, such as SAH costs, that may come
-    /// from the same mistake, relative or absolute below 1. It is larger than for other numbers
-    /// because builders with the same mistake produce slightly different trees.
+    /// Maximum difference between the amounts, such as SAH costs, of two tree defects that may come
+    /// from the same mistake. It is relative for amounts of at least 1, and absolute for smaller
+    /// ones. It is larger than for other numbers because builders with the same mistake produce
+    /// slightly different trees.
     const COST: f32 = 0.08;
 
-    /// Returns the observation of a panic with this message.
+    /// Returns the observation for a panic with this message.
     pub fn of_panic(message: &str) -> Self {
         PanicKind::of(message).map_or(ObservedAnswer::Panicked, ObservedAnswer::PanickedBy)
     }
@@ -144,8 +146,8 @@ impl ObservedAnswer {
     }
 
     /// Returns whether the answer may come from a submission with several mistakes, given the
-    /// correct answer and the answers of the mistakes that change it. If several mistakes change a
-    /// number, it can be anything.
+    /// correct answer and the answers produced by the mistakes that change it. If several mistakes
+    /// change a number, it can be anything.
     pub fn is_made_of(&self, correct: &ObservedAnswer, wrong: &[&ObservedAnswer]) -> bool {
         if let [] | [_] = wrong {
             return self.matches(wrong.first().unwrap_or(&correct));
@@ -191,7 +193,7 @@ impl ObservedAnswer {
         }
     }
 
-    /// Returns the name of a tree's defect.
+    /// Returns the name of the tree's defect.
     pub fn tree_defect(&self) -> Option<&str> {
         match self {
             ObservedAnswer::Tree(defect) => defect.as_ref().map(|(name, _)| name.as_str()),

@@ -1,12 +1,13 @@
-//! Determines which files of a submission cannot be compiled, and why.
+//! Determines which files in a submission cannot be compiled, and why.
 
 use std::collections::BTreeMap;
 
+use crate::build::compiler_help::SECTION_LABEL;
 use crate::build::diagnostics::Diagnostic;
 use crate::handed_out::{ChangedDeclaration, TaskFile, changed_declaration};
 use crate::submission::{Submission, TaskFileError};
 
-/// Why a file isn't part of the program.
+/// The reason a file isn't part of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCompiled {
     /// The file is missing or unreadable.
@@ -25,11 +26,26 @@ pub enum NotCompiled {
 }
 
 impl NotCompiled {
-    /// Returns a file's errors as a reason, if any.
+    /// Combines a file's errors into the reason the file isn't compiled. Returns `None` if
+    /// there are no errors.
     fn of_errors<'a>(file: &str, errors: impl Iterator<Item = &'a Diagnostic>) -> Option<Self> {
         let errors: Vec<&Diagnostic> = errors.collect();
         let first = errors.first()?;
-        let texts: Vec<&str> = errors.iter().map(|error| error.text()).collect();
+        let mut texts = Vec::new();
+        let mut sections = Vec::new();
+        for error in &errors {
+            texts.push(error.text().to_owned());
+            // Name a section only after the first error that it explains.
+            let section = error
+                .section()
+                .filter(|section| !sections.contains(section));
+            texts.extend(
+                section
+                    .iter()
+                    .map(|section| format!("{SECTION_LABEL}{}", section.location())),
+            );
+            sections.extend(section);
+        }
         Some(NotCompiled::Error {
             text: texts.join("\n\n"),
             line: first.line_in(file),
@@ -55,8 +71,8 @@ pub(super) fn unreadable_files(submission: &Submission) -> BTreeMap<&'static str
     why.collect()
 }
 
-/// Returns the files that seem to lack a declaration that other files use. The errors in the other
-/// files would hide the cause.
+/// Returns the files that seem to lack a declaration that other files use. The resulting errors in
+/// those files would hide the cause.
 pub(super) fn incomplete_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
     let why = |(file, text): &(TaskFile, Result<String, TaskFileError>)| {
         let text = text.as_ref().ok()?;
@@ -67,8 +83,8 @@ pub(super) fn incomplete_files(submission: &Submission) -> BTreeMap<&'static str
     submission.files.iter().filter_map(why).collect()
 }
 
-/// Replaces the reason for each of these files with the errors in it, e.g. a misspelt `struct`,
-/// which are more helpful.
+/// Replaces the reason for each of these files with the compiler's errors in that file, if there
+/// are any. An error, e.g. about a misspelt `struct`, is a more helpful reason.
 pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, errors: &[Diagnostic]) {
     for (name, why) in incomplete {
         let in_file = errors.iter().filter(|error| error.originates_in(name));
@@ -78,8 +94,8 @@ pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, erro
     }
 }
 
-/// Records each file mentioned in the errors, with all errors in it. Returns whether any of these
-/// files had not been recorded before.
+/// Records each file that the errors mention, together with all errors in that file. Returns
+/// whether any of these files had not been recorded before.
 pub(super) fn blame(
     errors: &[Diagnostic],
     submission: &Submission,
@@ -102,8 +118,8 @@ pub(super) fn blame(
         if let (NotCompiled::Error { text, .. }, Some(changed)) = (&mut why, changed) {
             let ChangedDeclaration { now, handed_out } = changed;
             *text += &format!(
-                "\n\nGiven code calls {} as it was handed out. Change the declaration back:\n  \
-                 now         {now}\n  handed out  {handed_out}",
+                "\n\nThe given code relies on the starter's declaration of {}. Restore it:\n  now         \
+                 {now}\n  handed out  {handed_out}",
                 file.name
             );
         }
@@ -112,7 +128,7 @@ pub(super) fn blame(
     not_compiled.len() > before
 }
 
-/// Records all remaining files with the same reason.
+/// Records the same reason for all remaining files.
 pub(super) fn blame_all(
     submission: &Submission,
     why: &str,

@@ -1,6 +1,6 @@
 //! Temporary directories for building a submission, or for unpacking a class from an archive. Each
-//! directory is newly created, so that it contains nothing from an earlier build. It is removed
-//! after use. If a grader is killed, the next grader removes its directory.
+//! directory is newly created, so it contains nothing from an earlier build. It is removed after
+//! use. If a grader is killed, the next grader removes its directory.
 
 use std::fs::{self, File, TryLockError};
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::machine::files::{self, AtPath, PathError};
 /// A file that is locked while the directory is in use. The system releases the lock when the
 /// grader ends, even if it is killed.
 const LOCK_FILE: &str = "lock";
-/// Name of the file until it is locked, so that another grader cannot lock it first.
+/// Temporary name of the file until it is locked, so that another grader cannot lock it first.
 const UNLOCKED_FILE: &str = "lock.new";
 
 /// A temporary directory, which is removed when this value is dropped.
@@ -48,8 +48,8 @@ impl BuildDir {
 /// Removes the directories of graders that were killed.
 pub fn remove_abandoned(all: &Path) {
     for entry in fs::read_dir(all).into_iter().flatten().flatten() {
-        // A directory that cannot be opened, locked or removed may belong to someone else. It does
-        // no harm.
+        // A directory that cannot be opened, locked or removed may belong to someone else. Leaving
+        // it there does no harm.
         let Ok(lock) = File::open(entry.path().join(LOCK_FILE)) else {
             continue;
         };

@@ -13,7 +13,7 @@ use crate::handed_out::HandedOut;
 /// File name of the crate's root, which contains the given root and a `main` function.
 const ROOT: &str = "probe.rs";
 
-/// Compiles the task files, given as pairs of name and text, together with the given files in
+/// Compiles the task files, passed as pairs of name and text, together with the given files in
 /// `folder`.
 pub fn compile(
     files: &[(&str, &str)],
@@ -32,8 +32,8 @@ pub fn compile(
     })
 }
 
-/// Compiles the starter, which shows whether the machine is why a submission doesn't compile or
-/// start. Returns the program, or why there is none.
+/// Compiles the starter, which shows whether the machine is the reason a submission doesn't
+/// compile or start. Returns the program, or the reason there is none.
 pub(super) fn compile_starter(
     handed_out: &HandedOut,
     folder: &Path,

@@ -14,14 +14,14 @@ pub(super) struct CompileTime {
 }
 
 impl CompileTime {
-    /// The time for a submission. An ordinary submission takes a second or two of CPU time per
-    /// compiler call and rarely needs more than three calls. The wall time limit ends a compiler
-    /// that waits.
+    /// The time limits for a submission. An ordinary submission takes a second or two of CPU time
+    /// per compiler call and rarely needs more than three calls. The wall time limit stops a
+    /// compiler that only waits.
     pub(super) const MOST: Self = CompileTime {
         cpu: Duration::from_secs(60),
         wall: Duration::from_secs(180),
     };
-    /// If less than this time remains, starting a compiler makes no sense.
+    /// If less than this time remains, there is no point in starting a compiler.
     const LEAST: Duration = Duration::from_secs(1);
 }
 
@@ -47,7 +47,7 @@ impl CompileBudget {
         (left.cpu.min(left.wall) >= CompileTime::LEAST).then_some(left)
     }
 
-    /// Records the time of a call.
+    /// Records the time used by a call.
     pub(super) fn spend(&self, time: CompileTime) {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) += time;
     }
@@ -57,8 +57,8 @@ impl CompileBudget {
 pub(super) fn used_up_message() -> String {
     let CompileTime { cpu, wall } = CompileTime::MOST;
     format!(
-        "the compiler was stopped: compiling all files of a submission may take {} s of CPU time \
-         and {} s in all. Look for a constant, a macro or a type that grows or never ends",
+        "the compiler was stopped: a submission may take at most {} s of CPU time and {} s overall \
+         to compile. Look for a constant, a macro or a type that grows without end",
         cpu.as_secs(),
         wall.as_secs()
     )

@@ -1,5 +1,5 @@
-//! The compiler's access to files in a sandbox: its own files, the linker's files and those of one
-//! crate. It cannot read the workspace, other submissions or home directories.
+//! The files that the compiler can access in a sandbox: its own files, the linker's files and those
+//! of one crate. It cannot read the workspace, other submissions or home directories.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -27,8 +27,8 @@ const SYSTEM_PATHS: [&str; 14] = [
     "/etc/ld.so.conf",
 ];
 
-/// Adds arguments with information that the compiler usually reads from `/proc`, which the sandbox
-/// hides.
+/// Adds arguments that replace the information the compiler usually reads from `/proc`, which the
+/// sandbox hides.
 pub(super) fn arguments(sysroot: &Path, source: &Crate, command: &mut Command) {
     command
         .env("LD_LIBRARY_PATH", sysroot.join("lib"))

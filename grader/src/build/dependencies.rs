@@ -26,8 +26,8 @@ use crate::workspace::Workspace;
 
 /// The crates that a submission may import.
 const EXTERNS: [&str; 3] = ["framework", "glam", "protocol"];
-/// Cargo arguments for the package that depends on all of these crates, with the probe's features,
-/// and for the package that enables the same features as the grader.
+/// Cargo arguments that select two packages. One depends on all of these crates, with the probe's
+/// features. The other enables the same features as the grader.
 const FRAMEWORK_PACKAGES: [&str; 5] = [
     "--package",
     "framework",
@@ -54,7 +54,8 @@ impl Dependencies {
         let cache = cache_folder(workspace).join(&key[..16]);
         prepare_once(&cache, &EXTERNS, || {
             print_error_line(
-                "Compiling the dependencies of submissions, which takes a few seconds and is done only once.",
+                "Compiling the submissions' dependencies, which takes a few seconds and happens \
+                 only once.",
             );
             build(&FRAMEWORK_PACKAGES, workspace, toolchain)
         })
@@ -78,8 +79,8 @@ impl Dependencies {
         })
     }
 
-    /// Returns the dependencies together with a crate of this workspace, whose package is in
-    /// `folder`. Everything is built in one cargo call, so that they share one `framework`.
+    /// Returns the dependencies together with a crate from this workspace, whose package is in
+    /// `folder`. Everything is built in one cargo call, so that all crates share one `framework`.
     pub fn with_package(
         name: &str,
         folder: &Path,
@@ -179,7 +180,7 @@ fn list_sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
 }
 
 /// Builds packages with cargo. Uses the network only if necessary. `package` contains the cargo
-/// arguments that select them. Returns the name and the library of each crate.
+/// arguments that select the packages. Returns the name and the library of each crate.
 fn build(
     package: &[&str],
     workspace: &Workspace,
@@ -231,8 +232,8 @@ fn build(
     Ok(libraries(&String::from_utf8_lossy(&output.stdout)))
 }
 
-/// Runs the command and returns its output. Its standard input is kept open until it ends, because
-/// the command is killed when its standard input closes.
+/// Runs the command and returns its output. The command's standard input is kept open until the
+/// command ends, because closing it would kill the command.
 fn output(cargo: &mut Command) -> io::Result<Output> {
     let mut child = cargo.stdout(Stdio::piped()).spawn()?;
     let tie = child.stdin.take();

@@ -2,9 +2,12 @@
 
 use serde::Deserialize;
 
+use judging::section::Section;
+
+use super::compiler_help;
 use crate::handed_out::TaskFile;
 
-/// A message of `rustc --error-format=json`.
+/// A message from `rustc --error-format=json`.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Diagnostic {
     message: String,
@@ -19,7 +22,7 @@ pub struct Diagnostic {
     rendered: Option<String>,
 }
 
-/// The code of an error, such as `E0308`. Syntax errors don't have one.
+/// The code of an error, such as `E0308`. Syntax errors come without a code.
 #[derive(Clone, Debug, Deserialize)]
 struct ErrorCode {
     code: String,
@@ -41,19 +44,41 @@ struct SourceLine {
     text: String,
 }
 
-/// Returns the errors among the compiler's messages. Warnings don't affect grading.
+/// The warnings that can explain a wrong answer or an infinite loop. The compiler is told to report
+/// only these.
+pub const WARNINGS: [&str; 8] = [
+    "path_statements",
+    "unconditional_recursion",
+    "unreachable_code",
+    "unused_assignments",
+    "unused_comparisons",
+    "unused_must_use",
+    "unused_mut",
+    "unused_variables",
+];
+
+/// Returns the errors among the compiler's messages.
 pub fn errors(messages: &str) -> Vec<Diagnostic> {
+    of_level(messages, "error")
+}
+
+/// Returns the warnings among the compiler's messages. They don't affect points.
+pub fn warnings(messages: &str) -> Vec<Diagnostic> {
+    of_level(messages, "warning")
+}
+
+fn of_level(messages: &str, level: &str) -> Vec<Diagnostic> {
     messages
         .lines()
         .filter_map(|line| serde_json::from_str::<Diagnostic>(line).ok())
-        .filter(|diagnostic| diagnostic.level.starts_with("error"))
+        .filter(|diagnostic| diagnostic.level.starts_with(level))
         .collect()
 }
 
 impl Diagnostic {
     /// Returns the task file to fix, which is usually the file with the error. For an error in a
     /// given file, it is the task file that the message refers to ("method not found for this
-    /// struct") or, failing that, the one whose name appears first in the error's line.
+    /// struct") or, failing that, the one whose name appears first in the line with the error.
     pub fn blamed_file(&self, task_files: &[TaskFile]) -> Option<&'static str> {
         let mut spans = self.spans_in_order();
         let named =
@@ -97,6 +122,20 @@ impl Diagnostic {
     /// Returns whether the message is about source code, rather than the linker or the machine.
     pub fn is_about_source(&self) -> bool {
         self.spans_in_order().next().is_some()
+    }
+
+    /// Returns the section of the handout that explains an error, if any.
+    pub fn section(&self) -> Option<Section> {
+        let code = self.code.as_ref().map(|code| code.code.as_str());
+        compiler_help::section(code, self.text())
+    }
+
+    /// Returns one line with the message's location in this file and the message itself. Returns
+    /// `None` if the message is about another file.
+    pub fn line_of_text(&self, file: &str) -> Option<String> {
+        let is_in_file = self.primary().any(|span| span.file_name == file);
+        let line = self.line_in(file).filter(|_| is_in_file)?;
+        Some(format!("{file}:{line}: {}", self.message))
     }
 
     /// Returns the complete message as printed by the compiler.
@@ -156,7 +195,9 @@ mod tests {
     }
 
     #[test]
-    fn ignores_warnings_and_noise() {
-        assert!(errors("{\"message\":\"m\",\"level\":\"warning\"}\nnot json").is_empty());
+    fn ignores_noise_and_separates_warnings() {
+        let messages = "{\"message\":\"m\",\"level\":\"warning\"}\nnot json";
+        assert!(errors(messages).is_empty());
+        assert_eq!(warnings(messages).len(), 1);
     }
 }

@@ -22,7 +22,8 @@ const WRAPPERS: [&str; 4] = ["ccache", "sccache", "distcc", "icecc"];
 /// The system's linker.
 #[derive(Clone, Debug, Default)]
 pub struct SystemLinker {
-    /// The C compilers on the PATH, in its order. If there are none, `rustc` reports that.
+    /// The C compilers on the PATH, in the order of the PATH's folders. If there are none, `rustc`
+    /// reports that.
     drivers: Vec<PathBuf>,
     /// The linkers on the PATH, which a C compiler calls.
     linkers: Vec<PathBuf>,
@@ -54,7 +55,7 @@ impl SystemLinker {
     /// which isn't worth the time for a program that is deleted soon after. The system's linker may
     /// lack these options, and compiling takes a third longer with it.
     ///
-    /// `is_readable` says which programs the compiler can read.
+    /// `is_readable` returns whether the compiler can read a program.
     pub(super) fn arguments(
         &self,
         sysroot: &Path,
@@ -86,7 +87,7 @@ impl SystemLinker {
     }
 }
 
-/// Returns a compiler option that ends in a path.
+/// Returns a compiler option that ends with a path.
 pub(super) fn option_with_path(option: &str, path: &Path) -> OsString {
     let mut argument = OsString::from(option);
     argument.push(path);

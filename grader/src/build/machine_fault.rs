@@ -16,7 +16,7 @@ const LINKER_KILLED: &str = "signal: 9 (SIGKILL)";
 
 /// The message for a compiler that was killed, most likely because the machine ran out of memory.
 pub(super) const KILLED: &str = "the system killed the compiler (signal 9), even for a small program: \
-                                 give this machine more memory, or grade fewer submissions at once";
+                                 give this machine more memory, or grade fewer submissions at a time";
 
 /// Returns an error if the disk is full. `folder` is the build directory of a failed compile. It is
 /// removed first, so that source code that fills the disk itself isn't excused.

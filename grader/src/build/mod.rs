@@ -1,10 +1,11 @@
 //! Builds a probe from a submission's task files. A file that doesn't compile is replaced by the
-//! starter's, so that only its own tasks fail.
+//! starter's version, so that only its own tasks fail.
 
 mod blame;
 pub mod build_dir;
 mod compile;
 mod compile_budget;
+pub mod compiler_help;
 mod compiler_sandbox;
 mod dependencies;
 pub mod diagnostics;
@@ -25,6 +26,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
 use std::time::Instant;
 
+use judging::assignment::Task;
 use judging::content_hash::ContentHash;
 
 use crate::build::blame::{blame, blame_all, explain, incomplete_files, unreadable_files};
@@ -36,7 +38,7 @@ use crate::build::source_crate::CompileOutcome;
 use crate::build::substitution::{ReferenceParts, Substitution};
 use crate::build::toolchain::Toolchain;
 use crate::error::Error;
-use crate::handed_out::{HandedOut, TaskFile};
+use crate::handed_out::{HandedOut, TaskFile, TaskMethod};
 use crate::machine::files::{self, AtPath};
 use crate::probe::Interrupt;
 use crate::sandbox::{Isolation, Sandbox};
@@ -108,7 +110,7 @@ impl Builder {
         Ok(builder)
     }
 
-    /// Finds the compiler and builds the dependencies together with a crate of this workspace,
+    /// Finds the compiler and builds the dependencies together with a crate from this workspace,
     /// which programs can import. The crate's package is in `folder`. Not for grading.
     pub fn prepare_with_package(
         name: &str,
@@ -158,7 +160,7 @@ impl Builder {
         Ok(self)
     }
 
-    /// Builds a submission. Each file that doesn't compile is replaced by the starter's.
+    /// Builds a submission. Each file that doesn't compile is replaced by the starter's version.
     pub fn build(&self, submission: &Submission) -> Result<Build, Error> {
         self.build_with_progress(submission, |_| {})
     }
@@ -175,15 +177,15 @@ impl Builder {
         let rustc = &self.rustc.for_submission();
         let handed_out = submission.handed_out;
         let mut not_compiled = unreadable_files(submission);
-        let mut probe = None;
+        let mut compiled = None;
         let mut incomplete = incomplete_files(submission);
         if !incomplete.is_empty() {
             let files = with_starter_files(submission, &not_compiled);
             let folder = build_dir.path().join("as handed in");
             match compile(&files, handed_out, &folder, rustc).at("build in", &self.folder)? {
                 // The declaration exists, but is written in an unusual way.
-                CompileOutcome::Done(path) => {
-                    probe = Some(path);
+                CompileOutcome::Done { path, warnings } => {
+                    compiled = Some((path, warnings));
                     incomplete.clear();
                 }
                 CompileOutcome::Errors(errors) => explain(&mut incomplete, &errors),
@@ -192,13 +194,13 @@ impl Builder {
             not_compiled.append(&mut incomplete);
             report_errors(&not_compiled);
         }
-        let attempts = if probe.is_some() { 0 } else { MAX_ATTEMPTS };
+        let attempts = if compiled.is_some() { 0 } else { MAX_ATTEMPTS };
         for attempt in 0..attempts {
             let files = with_starter_files(submission, &not_compiled);
             let folder = build_dir.path().join(attempt.to_string());
             match compile(&files, handed_out, &folder, rustc).at("build in", &self.folder)? {
-                CompileOutcome::Done(path) => {
-                    probe = Some(path);
+                CompileOutcome::Done { path, warnings } => {
+                    compiled = Some((path, warnings));
                     break;
                 }
                 CompileOutcome::Errors(errors) => {
@@ -213,24 +215,27 @@ impl Builder {
                 break;
             }
         }
-        if probe.is_none() {
+        if compiled.is_none() {
             // If the starter doesn't compile either, the cause is the machine (a full disk, a
             // broken linker or too little memory), not the submission.
             let folder = build_dir.path().join("starter");
             let starter = compile_starter(handed_out, &folder, &self.rustc);
             starter.map_err(|why| {
                 Error::Machine(format!(
-                    "not even the starter compiles on this machine: is the disk full, or the linker \
+                    "even the unmodified starter code fails to compile on this machine: is the disk full, or is the linker \
                      missing?\n{why}"
                 ))
             })?;
             let why = "the remaining files do not compile together";
             blame_all(submission, why, &mut not_compiled);
         }
+        let (probe, warnings) = compiled.unzip();
         Ok(Build {
             handed_out,
             substitutions: self.substitutions(submission, &not_compiled, rustc, build_dir.path()),
             probe,
+            methods: task_methods(submission),
+            warnings: warnings.unwrap_or_default(),
             not_compiled,
             took: started_at.elapsed(),
             interrupt: Interrupt::default(),
@@ -260,6 +265,7 @@ impl Builder {
                 rustc: rustc.clone(),
                 folder: build_dir.join("substitution").join(file.name),
                 program: OnceLock::new(),
+                compiling: Mutex::default(),
             })
         };
         self.reference_parts
@@ -267,6 +273,19 @@ impl Builder {
             .filter_map(substitution)
             .collect()
     }
+}
+
+/// Returns a submission's method for each task. Methods that aren't found are left out.
+fn task_methods(submission: &Submission) -> BTreeMap<Task, TaskMethod> {
+    let handed_out = submission.handed_out;
+    let method = |task: Task| {
+        let name = handed_out.assignment.info(task).file;
+        let mut files = submission.files.iter();
+        let (_, text) = files.find(|(file, _)| file.name == name)?;
+        let method = handed_out.task_method(task, text.as_ref().ok()?).ok()?;
+        Some((task, method))
+    };
+    handed_out.assignment.tasks().filter_map(method).collect()
 }
 
 fn with_starter_files<'a>(

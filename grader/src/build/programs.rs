@@ -6,13 +6,16 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use judging::assignment::Task;
+
 use crate::build::blame::NotCompiled;
 use crate::build::build_dir::BuildDir;
 use crate::build::compile::compile_starter;
+use crate::build::diagnostics::Diagnostic;
 use crate::build::rustc::Rustc;
 use crate::build::substitution::Substitution;
 use crate::build::trial;
-use crate::handed_out::HandedOut;
+use crate::handed_out::{HandedOut, TaskMethod};
 use crate::probe::{Interrupt, Launcher, START_LIMITS};
 use crate::sandbox::Isolation;
 
@@ -25,24 +28,29 @@ pub struct Build {
     pub probe: Option<PathBuf>,
     /// Files whose tasks cannot be graded, with the reasons.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
+    /// The submission's method for each task. Methods that aren't found are left out.
+    pub methods: BTreeMap<Task, TaskMethod>,
+    /// The compiler's warnings.
+    pub warnings: Vec<Diagnostic>,
     /// How long the build took.
     pub took: Duration,
     /// Stops the programs early.
     pub interrupt: Interrupt,
     pub(super) substitutions: Vec<Substitution>,
-    /// The programs that cannot be started although the starter's can.
+    /// The programs that cannot be started although the starter's program can.
     pub(super) unstartable: Mutex<BTreeSet<PathBuf>>,
-    /// The compiler, for control programs that show whether the machine is the reason for a
+    /// The compiler, used for control programs that show whether the machine is the reason for a
     /// failure.
     pub(super) rustc: Rustc,
     /// The directory that contains the programs. It is removed when this value is dropped.
     pub(super) build_dir: BuildDir,
 }
 
-/// A submission's file compiled with the reference's parts in place of its other files.
+/// The result of compiling a submission's file with the reference's parts in place of the
+/// submission's other files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SubstitutedProgram<'a> {
-    /// The program, by its path.
+    /// The path of the program.
     Program(&'a Path),
     /// The submission's file doesn't compile with these parts.
     NotCompiled,
@@ -64,7 +72,7 @@ impl Build {
     }
 
     /// Returns an error unless the control program can be compiled and run. If it can, the machine
-    /// isn't why another program was killed.
+    /// isn't the reason another program was killed.
     pub fn check_run(&self) -> io::Result<()> {
         trial::check_run(&self.rustc, &self.build_dir.path().join("control"))
     }
@@ -79,8 +87,8 @@ impl Build {
     }
 
     /// Returns an error unless the starter, compiled in the same way as this program, can be
-    /// started. If it can, the machine isn't why the program can't. `cpu` is the starter's CPU time
-    /// limit.
+    /// started. If it can, the machine isn't the reason the program cannot be started. `cpu` is
+    /// the starter's CPU time limit.
     pub fn check_start(&self, program: &Path, cpu: Duration) -> io::Result<()> {
         let mut substitutions = self.substitutions.iter();
         let is_of = |substitution: &&Substitution| {
@@ -97,7 +105,7 @@ impl Build {
         let started = self.launcher(&starter).start(cpu)?.ask([], START_LIMITS);
         started.map_err(|fault| {
             io::Error::other(format!(
-                "not even the starter's program can be started: {fault}; see `cargo grade --doctor`"
+                "even the unmodified starter code fails to run: {fault}; see `cargo grade --doctor`"
             ))
         })?;
         self.unstartable().insert(program.to_owned());
@@ -114,7 +122,7 @@ impl Build {
         known.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the program where the reference's parts replace all files except this one. It is
+    /// Returns the program in which the reference's parts replace all files except this one. It is
     /// compiled on the first call.
     pub fn substituted_program(&self, file: &str) -> io::Result<SubstitutedProgram<'_>> {
         let mut substitutions = self.substitutions.iter();

@@ -15,7 +15,7 @@ use tempfile::TempDir;
 use crate::build::compile_budget::{CompileBudget, CompileTime, used_up_message};
 use crate::build::compiler_sandbox;
 use crate::build::dependencies::Dependencies;
-use crate::build::diagnostics::{self, Diagnostic};
+use crate::build::diagnostics::{self, Diagnostic, WARNINGS};
 use crate::build::linker::option_with_path;
 use crate::build::machine_fault::{KILLED, check_disk, is_killed};
 use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
@@ -38,14 +38,13 @@ const NEEDED_MEMORY: u64 = 512 << 20;
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
 /// The message for a crate whose compiler is killed even when nothing else runs.
-const KILLED_ALONE: &str = "the system killed the compiler (signal 9), and again when nothing else \
-                            was running, but not when it compiled another program: this code makes \
-                            it use too much memory";
+const KILLED_ALONE: &str = "the system killed the compiler (signal 9) twice, the second time while nothing \
+    else was running, but the compiler works for a different program: this code makes it use too much memory";
 
 /// Result of an attempt to compile.
 #[derive(Debug)]
 enum CompileAttempt {
-    /// The outcome. The machine isn't the cause.
+    /// An outcome that wasn't caused by the machine.
     Certain(CompileOutcome),
     /// The compiler failed without an error that says why.
     Unexplained(CompileOutcome),
@@ -60,13 +59,13 @@ pub struct Rustc {
     pub toolchain: Toolchain,
     /// The crates that everything is linked with.
     pub dependencies: Dependencies,
-    /// The cache of compiled programs, by the hashes of their inputs, for tools that build the same
-    /// submissions repeatedly. `None` for normal grading, which always compiles.
+    /// The cache of compiled programs, keyed by the hashes of their inputs. It is for tools that
+    /// build the same submissions repeatedly. `None` for normal grading, which always compiles.
     pub cache: Option<PathBuf>,
     /// The sandbox that the compiler runs in. Programs are linked so that they can run in it.
     pub sandbox: Sandbox,
-    /// The remaining time for a submission. `None` for the course's own code, where all failures
-    /// are the machine's.
+    /// The remaining time for a submission. `None` for the course's own code, where every failure
+    /// is caused by the machine.
     pub(super) budget: Option<CompileBudget>,
 }
 
@@ -100,16 +99,24 @@ impl Rustc {
         };
         let kept = cache.join(content.hex());
         if kept.is_file() {
-            return Ok(CompileOutcome::Done(kept));
+            // Tools that use the cache don't show warnings.
+            let warnings = Vec::new();
+            return Ok(CompileOutcome::Done {
+                path: kept,
+                warnings,
+            });
         }
         let compiled = compile()?;
-        let CompileOutcome::Done(program) = compiled else {
+        let CompileOutcome::Done { path, warnings } = compiled else {
             return Ok(compiled);
         };
         // Move the file instead of copying it, so that it is always complete and never executed
         // while open for writing.
-        fs::rename(program, &kept)?;
-        Ok(CompileOutcome::Done(kept))
+        fs::rename(path, &kept)?;
+        Ok(CompileOutcome::Done {
+            path: kept,
+            warnings,
+        })
     }
 
     /// Returns a compiler for one submission.
@@ -130,10 +137,10 @@ impl Rustc {
 
     /// Compiles one crate. A failure of the machine is returned as an error rather than an outcome.
     ///
-    /// If a submission's compiler fails without an error that explains why, the crate is compiled
-    /// again while this process runs nothing else. If the system kills the compiler again but the
-    /// control program compiles, the crate is the reason. For all other unexplained failures, the
-    /// starter is compiled for comparison once nothing else is left to try.
+    /// If the compiler fails on a submission without an error that explains why, the crate is
+    /// compiled again while this process runs nothing else. If the system kills the compiler again
+    /// but the control program compiles, the crate is the reason. For all other unexplained
+    /// failures, the starter is compiled for comparison once nothing else is left to try.
     pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
         let attempt = match self.budget {
             Some(_) => decide(
@@ -161,7 +168,8 @@ impl Rustc {
     }
 
     /// Compiles the control program in a new folder next to `folder`. It shows whether the machine
-    /// is the reason for a failure. Returns the program and the guard of its folder.
+    /// is the reason for a failure. Returns the program and a guard that removes its folder when
+    /// dropped.
     pub(super) fn compile_honest(&self, folder: &Path) -> io::Result<(TempDir, PathBuf)> {
         const NAME: &str = "control";
         const SOURCE: &str = include_str!("../../trial/control.rs");
@@ -171,7 +179,7 @@ impl Rustc {
         Ok((folder, program))
     }
 
-    /// Compiles a program or library of the grader's own in a new folder in `work`.
+    /// Compiles one of the grader's own programs or libraries in a new folder inside `work`.
     pub(super) fn compile_text(
         &self,
         work: &Path,
@@ -198,6 +206,7 @@ impl Rustc {
         command
             .env("TMPDIR", source.folder)
             .args(FLAGS)
+            .args(WARNINGS.map(|lint| format!("--force-warn={lint}")))
             .args(self.link_arguments(source))
             .args(["--crate-name", source.name])
             .args(match source.kind {
@@ -262,7 +271,10 @@ impl Rustc {
 
         if exit_reason.is_success() {
             return Ok(CompileAttempt::Certain(match self.output_file(source)? {
-                OutputFile::Verified(path) => CompileOutcome::Done(path),
+                OutputFile::Verified(path) => CompileOutcome::Done {
+                    path,
+                    warnings: diagnostics::warnings(&messages.head()),
+                },
                 OutputFile::TooLarge(bytes) => CompileOutcome::Failed(too_large_message(bytes)),
                 OutputFile::Missing => CompileOutcome::Failed(failure_message(exit_reason)),
             }));
@@ -323,15 +335,15 @@ impl Rustc {
     }
 }
 
-/// Returns the result of a call when no time is left.
+/// Returns the result of an attempt for which no time is left.
 fn stopped() -> CompileAttempt {
     CompileAttempt::Certain(CompileOutcome::Failed(used_up_message()))
 }
 
 fn too_large_message(bytes: u64) -> String {
     format!(
-        "the compiled program has {} MiB, but may have {} MiB at most: make its `static` variables \
-         and constants smaller, or fill them when the program runs",
+        "the compiled program is {} MiB, but the limit is {} MiB: make its `static` variables and \
+         constants smaller, or fill them at run time",
         bytes.div_ceil(1 << 20),
         verified_copy::MAX_BYTES >> 20
     )
@@ -339,8 +351,8 @@ fn too_large_message(bytes: u64) -> String {
 
 fn failure_message(exit_reason: ExitReason) -> String {
     match exit_reason {
-        ExitReason::Code(0) => "the compiler reported no error, but made no program".to_owned(),
-        ExitReason::Code(code) => format!("the compiler ended with exit code {code}"),
+        ExitReason::Code(0) => "the compiler reported no error but produced no program".to_owned(),
+        ExitReason::Code(code) => format!("the compiler exited with code {code}"),
         ExitReason::Signal(signal) => format!(
             "the compiler was killed by signal {signal}: it used too much time or memory, or crashed on this code"
         ),
@@ -348,10 +360,13 @@ fn failure_message(exit_reason: ExitReason) -> String {
 }
 
 /// Compiler flags. They are the same for students, TAs and CI.
-const FLAGS: [&str; 10] = [
+const FLAGS: [&str; 11] = [
     "--edition=2024",
     "-Copt-level=2",
-    "-Ccodegen-units=1",
+    // Two threads each optimise half of the code. Inlining across the halves (`lto`) would take
+    // more processor time than optimising them together.
+    "-Ccodegen-units=2",
+    "-Clto=off",
     "-Cdebuginfo=0",
     // The crates have no debug info, and copying the standard library's would take a third of the
     // linking time.

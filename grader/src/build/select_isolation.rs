@@ -8,7 +8,7 @@ use crate::sandbox::{Isolation, Sandbox};
 /// The minimum level for other people's code unless a different level is requested.
 pub const MIN_FOR_UNTRUSTED: Isolation = Isolation::NoNamespaces;
 
-/// The requested isolation of a submission's code.
+/// The requested isolation for a submission's code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IsolationRequest {
     /// No isolation, for grading your own work.
@@ -16,7 +16,7 @@ pub enum IsolationRequest {
     OwnWork,
     /// The best available level, which must be good enough for other people's code.
     Untrusted,
-    /// This level.
+    /// Exactly this level.
     Level(Isolation),
 }
 

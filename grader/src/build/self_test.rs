@@ -18,10 +18,10 @@ const END: &str = "end";
 /// Contents of a file that the sandbox must hide.
 const SECRET: &str = "a secret that no submission may read";
 
-/// Why an isolation level isn't available.
+/// The reason an isolation level isn't available.
 #[derive(Debug, thiserror::Error)]
 pub enum SelfTestError {
-    /// A part of the sandbox cannot be set up, or a file of the test cannot be written.
+    /// A part of the sandbox cannot be set up, or a file for the test cannot be written.
     #[error("{0}")]
     Setup(String),
     /// The compiler fails in the sandbox.
@@ -57,7 +57,7 @@ impl Builder {
         let reads = format!("pub const KEY: &str = include_str!({key:?});");
         match compile("reads", &reads, CrateKind::Library)? {
             CompileOutcome::Errors(errors) if !errors[0].text().contains(SECRET) => {}
-            CompileOutcome::Done(_) | CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
+            CompileOutcome::Done { .. } | CompileOutcome::Errors(_) | CompileOutcome::Failed(_) => {
                 let why = "the compiler can read files that submissions must not see";
                 return Err(SelfTestError::Unsafe(why.to_owned()));
             }

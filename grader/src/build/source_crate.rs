@@ -11,15 +11,15 @@ pub struct Crate<'a> {
     pub name: &'a str,
     /// Whether to compile the crate to a program or to a library.
     pub kind: CrateKind,
-    /// Folder of the sources. The output is also written there.
+    /// Folder that contains the sources. The output is also written there.
     pub folder: &'a Path,
     /// File of the root module, relative to the folder.
     pub root: &'a str,
-    /// Names and libraries of the crates it may import, in addition to those that every submission
-    /// may import.
+    /// Names and libraries of the crates that this crate may import, in addition to those that
+    /// every submission may import.
     pub links: &'a [(&'a str, &'a Path)],
-    /// Folder with the dependencies of `links`, if any, besides the dependencies of every
-    /// submission.
+    /// Folder that contains the dependencies of `links` that submissions don't have, if there are
+    /// any.
     pub dependency_folder: Option<&'a Path>,
 }
 
@@ -59,8 +59,13 @@ impl CrateKind {
 /// Result of a compiler call.
 #[derive(Debug)]
 pub enum CompileOutcome {
-    /// The crate was compiled to this program or library.
-    Done(PathBuf),
+    /// The crate was compiled.
+    Done {
+        /// The program or library.
+        path: PathBuf,
+        /// The compiler's warnings.
+        warnings: Vec<Diagnostic>,
+    },
     /// The source code has errors.
     Errors(Vec<Diagnostic>),
     /// The compiler didn't finish, or it failed and no error could be parsed from its messages.
@@ -68,10 +73,10 @@ pub enum CompileOutcome {
 }
 
 impl CompileOutcome {
-    /// Returns the program or library, or why there is none.
+    /// Returns the program or library, or the reason there is none.
     pub fn into_result(self) -> Result<PathBuf, String> {
         match self {
-            CompileOutcome::Done(path) => Ok(path),
+            CompileOutcome::Done { path, .. } => Ok(path),
             CompileOutcome::Errors(errors) => Err(errors[0].text().to_owned()),
             CompileOutcome::Failed(why) => Err(why),
         }
@@ -80,7 +85,7 @@ impl CompileOutcome {
     /// Returns whether the compiler failed without any error about the source code.
     pub(super) fn is_unexplained(&self) -> bool {
         match self {
-            CompileOutcome::Done(_) => false,
+            CompileOutcome::Done { .. } => false,
             CompileOutcome::Errors(errors) => !errors.iter().any(Diagnostic::is_about_source),
             CompileOutcome::Failed(_) => true,
         }

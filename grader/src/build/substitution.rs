@@ -1,16 +1,16 @@
 //! Compiles a file of a submission with the reference's parts in place of the other files, so that
-//! a mistake in the box test doesn't also cost the points for traversing a tree.
+//! no points for traversing a tree are lost because of a mistake in the box test.
 //!
 //! The parts are some of the reference's files, compiled once. The submission's file is compiled
 //! only against their metadata, and linked with them in a step that reads none of its source. The
-//! reference's own version of the file isn't used. The scaffold around the file may replace some of
+//! reference's own version of the file isn't used. The harness around the file may replace some of
 //! the file's functions: around `bvh.rs`, it replaces the submission's `build` with a plain one, so
-//! that a mistake in building doesn't also cost the points for traversal.
+//! that no points for traversal are lost because of a mistake in building.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use judging::content_hash::ContentHash;
 use tempfile::TempDir;
@@ -23,7 +23,7 @@ use crate::machine::files::{self, AtPath};
 use crate::sandbox::Sandbox;
 
 /// The root of the crate around a submission's file.
-const AROUND: &str = "around.rs";
+const HARNESS: &str = "harness.rs";
 /// The root of the crate that answers questions.
 const PROBE: &str = "probe.rs";
 
@@ -40,7 +40,7 @@ pub struct ReferenceParts {
     root: String,
     /// The root of the crate that answers questions, compiled separately from the submission.
     probe: String,
-    /// The module of that crate that wraps the submission's file and shares its name.
+    /// The module in that crate that wraps the submission's file and has the same name as the file.
     wrapper: String,
 }
 
@@ -63,14 +63,14 @@ impl ReferenceParts {
         let read = |name: &'static str| Ok((name, files::read_to_string(reference.join(name))?));
         let parts = handed_out.parts(spec).map(read);
         let parts: Vec<(&str, String)> = parts.collect::<Result<_, Error>>()?;
-        let scaffold = reference.join("..").join(spec.folder());
+        let harness = reference.join("..").join(spec.folder());
         let root = parts_root(handed_out.parts(spec));
         let parts_of_file = ReferenceParts {
             spec,
             folder: cache.join(cache_key(&parts, &root, rustc)),
-            root: files::read_to_string(scaffold.join(AROUND))?,
-            probe: files::read_to_string(scaffold.join(PROBE))?,
-            wrapper: files::read_to_string(scaffold.join(spec.file))?,
+            root: files::read_to_string(harness.join(HARNESS))?,
+            probe: files::read_to_string(harness.join(PROBE))?,
+            wrapper: files::read_to_string(harness.join(spec.file))?,
         };
         let folder = &parts_of_file.folder;
         if folder.is_dir() {
@@ -87,7 +87,7 @@ impl ReferenceParts {
         Ok(parts_of_file)
     }
 
-    /// Returns a hash of everything the parts and the scaffold depend on.
+    /// Returns a hash of everything the parts and the harness depend on.
     pub fn content_hash(&self) -> ContentHash {
         ContentHash::default()
             .with(self.folder.as_os_str().as_encoded_bytes())
@@ -147,11 +147,11 @@ fn compile_parts(
     files::write(folder.join("parts.rs"), root)?;
     let library = Crate::new("parts", CrateKind::Library, folder, "parts.rs");
     let compiled = rustc.compile(&library).at("compile in", folder)?;
-    let message = "the reference does not compile: see `cargo check -p reference`";
+    let message = "the reference does not compile: run `cargo check -p reference` to see why";
     compiled
         .into_result()
         .map_err(|_| Error::machine(message))?;
-    // The sources are no longer needed, and they would leave a solution on this machine.
+    // The sources are no longer needed, and keeping them would leave a solution on this machine.
     for (name, _) in parts {
         files::remove_if_exists(folder.join(name))?;
     }
@@ -163,7 +163,7 @@ fn compile_parts(
 pub struct Substitution {
     /// The file.
     pub file: TaskFile,
-    /// The submission's text of the file.
+    /// The text of the submission's file.
     pub source: String,
     /// The assignment.
     pub handed_out: &'static HandedOut,
@@ -175,12 +175,16 @@ pub struct Substitution {
     pub folder: PathBuf,
     /// The result of compiling the program, once it has been requested.
     pub program: OnceLock<Option<PathBuf>>,
+    /// Locked while the program is compiled, since two tasks may request it at the same time.
+    pub compiling: Mutex<()>,
 }
 
 impl Substitution {
     /// Returns the program, or `None` if it doesn't compile, e.g. because the file uses helpers in
     /// the submission's other files.
     pub fn program(&self) -> io::Result<Option<&Path>> {
+        let compiling = self.compiling.lock();
+        let _guard = compiling.unwrap_or_else(PoisonError::into_inner);
         if self.program.get().is_none() {
             let program = self.compile()?;
             self.program.get_or_init(|| program);
@@ -194,7 +198,7 @@ impl Substitution {
             .rustc
             .compile_cached(&content, || self.compile_uncached());
         let is_explained = match compiled? {
-            CompileOutcome::Done(program) => return Ok(Some(program)),
+            CompileOutcome::Done { path, .. } => return Ok(Some(path)),
             CompileOutcome::Errors(errors) => errors
                 .iter()
                 .any(|error| error.blamed_file(self.handed_out.files).is_some()),
@@ -216,14 +220,15 @@ impl Substitution {
             handed_out: self.handed_out,
             parts: self.parts.clone(),
             rustc: self.rustc.for_own_code(),
-            // Not next to the submission's folder, because their compiled files would have the same
-            // path.
+            // This folder isn't next to the submission's folder, because the compiled files of both
+            // would have the same path.
             folder: self.folder.join("starter").join(self.file.name),
             program: OnceLock::new(),
+            compiling: Mutex::default(),
         };
         starter.compile_uncached()?.into_result().map_err(|why| {
             io::Error::other(format!(
-                "not even the starter's {} compiles with the reference's parts: {why}",
+                "even the unmodified starter version of {} fails to compile with the reference's parts: {why}",
                 self.file.name
             ))
         })
@@ -232,14 +237,14 @@ impl Substitution {
     fn compile_uncached(&self) -> io::Result<CompileOutcome> {
         fs::create_dir_all(&self.folder)?;
         let parts = &self.parts;
-        fs::write(self.folder.join(AROUND), &parts.root)?;
+        fs::write(self.folder.join(HARNESS), &parts.root)?;
         fs::write(self.folder.join(self.file.name), &self.source)?;
         let submission = self.rustc.compile(&Crate {
             links: &[("parts", &parts.metadata())],
-            ..Crate::new("submission", CrateKind::Library, &self.folder, AROUND)
+            ..Crate::new("submission", CrateKind::Library, &self.folder, HARNESS)
         })?;
         let submission = match submission {
-            CompileOutcome::Done(library) => library,
+            CompileOutcome::Done { path, .. } => path,
             failed @ (CompileOutcome::Errors(_) | CompileOutcome::Failed(_)) => return Ok(failed),
         };
 
@@ -247,8 +252,8 @@ impl Substitution {
         fs::create_dir_all(&joined)?;
         let given = self.handed_out.given.iter();
         let given = given.filter(|file| parts.spec.given.contains(&file.name));
-        let scaffold = [(PROBE, &*parts.probe), (self.file.name, &*parts.wrapper)];
-        for (name, text) in given.map(|file| (file.name, file.text)).chain(scaffold) {
+        let harness = [(PROBE, &*parts.probe), (self.file.name, &*parts.wrapper)];
+        for (name, text) in given.map(|file| (file.name, file.text)).chain(harness) {
             fs::write(joined.join(name), text)?;
         }
         self.rustc.compile(&Crate {

@@ -7,7 +7,7 @@ use crate::build::linker::SystemLinker;
 use crate::handed_out::RAYS;
 
 impl Build {
-    /// Returns a build without programs, in this folder. These files didn't compile.
+    /// Returns a build in this folder without programs, because these files didn't compile.
     pub fn without_programs(
         folder: &Path,
         not_compiled: BTreeMap<&'static str, NotCompiled>,
@@ -24,6 +24,8 @@ impl Build {
         Build {
             handed_out: &RAYS,
             probe: None,
+            methods: BTreeMap::new(),
+            warnings: Vec::new(),
             not_compiled,
             took: Duration::ZERO,
             interrupt: Interrupt::default(),

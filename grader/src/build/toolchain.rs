@@ -36,7 +36,7 @@ impl Toolchain {
         let sysroot = String::from_utf8_lossy(&output.stdout);
         let cargo = format!("cargo{}", env::consts::EXE_SUFFIX);
         toolchain_beside(&Path::new(sysroot.trim()).join("bin").join(cargo))
-            .ok_or_else(|| not_found(&format!("there is no toolchain in {:?}", sysroot.trim())))
+            .ok_or_else(|| not_found(&format!("no toolchain found in {:?}", sysroot.trim())))
     }
 
     /// Returns the toolchain's root folder.
@@ -54,8 +54,8 @@ impl Toolchain {
     }
 }
 
-/// Returns text that changes when a file or a folder's contents are replaced. It consists of the
-/// size and the modification time.
+/// Returns text that changes when a file or the contents of a folder are replaced. It consists of
+/// the size and the modification time.
 pub fn file_fingerprint(path: &Path) -> String {
     let metadata = fs::metadata(path);
     let size = metadata.as_ref().map_or(0, fs::Metadata::len);

@@ -11,14 +11,14 @@ use crate::machine::capture::Capture;
 use crate::machine::system::{self, Limits};
 use crate::sandbox::{Profile, Sandbox};
 
-/// The limits of a program.
+/// The limits for a program.
 const LIMITS: Limits = Limits {
     memory: 1 << 30,
     data: None,
     cpu: Duration::from_secs(10),
     file: 0,
 };
-/// Wall time limit of a program. It takes milliseconds, unless the machine is very busy.
+/// Wall time limit for a program, which takes only milliseconds unless the machine is very busy.
 const WALL_LIMIT: Duration = Duration::from_secs(30);
 /// Maximum length of a program's output, in bytes.
 const MAX_OUTPUT_BYTES: usize = 1 << 16;
@@ -34,9 +34,8 @@ pub(super) fn check_run(rustc: &Rustc, folder: &Path) -> io::Result<()> {
         return Ok(());
     }
     Err(io::Error::other(
-        "the system killed the program (signal 9) although it used little memory, and a small \
-         program of the grader, too: give this machine more memory, or grade fewer submissions \
-         at once",
+        "the system killed the program (signal 9) even though it used little memory, and it also killed a \
+         small test program: give this machine more memory, or grade fewer submissions at a time",
     ))
 }
 

@@ -1,5 +1,5 @@
-//! Copies a file from the folder that a submission's compiler could write to and that therefore
-//! cannot be trusted.
+//! Copies a file from a folder that cannot be trusted, because a submission's compiler could write
+//! to it.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek};
@@ -18,13 +18,13 @@ const MAGIC_NUMBERS: [&[u8]; 2] = [b"\x7fELF", b"!<arch>\n"];
 pub(super) enum OutputFile {
     /// The path of a program or library.
     Verified(PathBuf),
-    /// The file has this many bytes, which is too large.
+    /// The file has this many bytes, which is too many.
     TooLarge(u64),
     /// The file is missing, or it isn't a regular file that begins like a program or library.
     Missing,
 }
 
-/// Checks a file's size and leaves it in place.
+/// Checks a file's size and leaves the file in place.
 pub(super) fn check_size(path: PathBuf) -> io::Result<OutputFile> {
     Ok(match fs::metadata(&path) {
         Ok(file) if !file.is_file() => OutputFile::Missing,

@@ -1,15 +1,16 @@
-//! Checks packages that are folders: classroom50's, and a GitHub template repository.
+//! Checks the packages that are folders: the one for classroom50 and the template repository for
+//! GitHub.
 
 use std::fs;
 use std::path::Path;
 
-use crate::doctor::package_contents::{POLICY, PackageContents, policy_problem, read_package};
+use crate::doctor::package::{POLICY, PackageContents, policy_problem, read_package};
 use crate::handed_out::HandedOut;
 use crate::inputs::exam_source::ExamSource;
 
 /// The script that classroom50 runs, and the zip that the script unpacks.
 const CLASSROOM50: [&str; 2] = ["autograder.py", "pathtracing.zip"];
-/// Maximum total size of both files that classroom50 accepts, in bytes.
+/// The maximum total size that classroom50 accepts for both files, in bytes.
 const MAX_FOLDER_BYTES: u64 = 10 << 20;
 /// The folders in classroom50's zip that the grader is built from.
 const REQUIRED_FOLDERS: [&str; 2] = [
@@ -35,7 +36,8 @@ pub(super) fn problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
     }
     if !CLASSROOM50.iter().any(|name| path.join(name).exists()) {
         return vec![format!(
-            "it is not a package: a folder for classroom50 has {}, and a template for GitHub has {WORKFLOW}; Gradescope's package is a zip",
+            "it is not a package: a folder for classroom50 contains {}, a template for GitHub \
+             contains {WORKFLOW}, and a package for Gradescope is a zip",
             CLASSROOM50.join(" and ")
         )];
     }
@@ -49,14 +51,15 @@ fn classroom50_problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
         match fs::metadata(path.join(name)) {
             Ok(metadata) => size += metadata.len(),
             Err(_) => problems.push(format!(
-                "there is no {name}: `cargo author package classroom50` creates both files of this folder"
+                "{name} is missing: `cargo author package classroom50` creates both files that this \
+                 folder needs"
             )),
         }
     }
     if size > MAX_FOLDER_BYTES {
         let size = size >> 20;
         problems.push(format!(
-            "it has {size} MiB, but classroom50 accepts at most 10 MiB"
+            "it is {size} MiB, but classroom50 accepts at most 10 MiB"
         ));
     }
     if problems.is_empty() {
@@ -80,7 +83,7 @@ fn grader_zip_problems(contents: &PackageContents, handed_out: &HandedOut) -> Ve
         (Some(policy), Ok(practice)) => problems.extend(policy_problem(policy, &practice.exam)),
         (_, Err(error)) => problems.push(error.to_string()),
         (None, _) => problems.push(format!(
-            "there is no {POLICY}: `cargo author package classroom50` creates it"
+            "{POLICY} is missing: `cargo author package classroom50` creates it"
         )),
     }
     problems
@@ -94,10 +97,13 @@ fn template_problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
     let required = files.iter().map(String::as_str).chain(TEMPLATE_PATHS);
     let missing = required.filter(|name| !path.join(name).exists());
     let problems =
-        missing.map(|name| format!("there is no {name}: `cargo author package github` creates it"));
+        missing.map(|name| format!("{name} is missing: `cargo author package github` creates it"));
     let secret = PRIVATE_PATHS.iter().filter(|name| path.join(name).exists());
     let leaks = secret.map(|name| {
-        format!("it has {name}, which students must not read: push only what `cargo author package github` creates")
+        format!(
+            "it contains {name}, which students must not read: push only what `cargo author \
+                 package github` creates"
+        )
     });
     problems.chain(leaks).collect()
 }

@@ -1,12 +1,10 @@
-//! Checks Gradescope's package, which is a zip.
+//! Checks the package for Gradescope, which is a zip.
 
 use std::path::Path;
 
 use judging::exam_file::{self, ExamFile};
 
-use crate::doctor::package_contents::{
-    EXAM, GRADE, POLICY, PackageContents, SCRIPTS, policy_problem,
-};
+use crate::doctor::package::{EXAM, GRADE, POLICY, PackageContents, SCRIPTS, policy_problem};
 use crate::handed_out::HandedOut;
 use crate::inputs::exam_source::PRACTICE_ID;
 
@@ -73,13 +71,14 @@ impl PackageContents {
                 .find(|path| path.ends_with(&format!("/{name}")));
             return vec![match below {
                 Some(path) => format!(
-                    "{name} is at {path}, but Gradescope looks for it at the root of the zip: zip the contents of the folder, not the folder"
+                    "{name} is at {path}, but Gradescope looks for it at the root of the zip: zip \
+                     the contents of the folder, not the folder itself"
                 ),
                 None if name == GRADE => {
-                    format!("there is no {name}: `cargo author package gradescope` creates it")
+                    format!("{name} is missing: `cargo author package gradescope` creates it")
                 }
                 None => format!(
-                    "there is no {name} at the root of the zip, where Gradescope looks for it"
+                    "{name} is missing from the root of the zip, where Gradescope looks for it"
                 ),
             }];
         };
@@ -95,12 +94,13 @@ impl PackageContents {
             ),
             (
                 is_floating,
-                "installs whichever Rust is the newest, so scores may differ between two images: \
-                 name a version, such as 1.95.0",
+                "installs the newest Rust, so scores may differ between images: pin a version, \
+                 such as 1.95.0",
             ),
             (
                 text.contains(&b'\r'),
-                "has Windows line endings, on which bash fails: pack it on another system, or with `cargo author package`",
+                "has Windows line endings, which bash can't handle: pack it on a different system, or with \
+                 `cargo author package`",
             ),
             (
                 mode.is_some_and(|mode| !is_executable(mode)),
@@ -117,7 +117,7 @@ impl PackageContents {
             (exam, _) => {
                 let missing = if exam.is_none() { EXAM } else { POLICY };
                 return vec![format!(
-                    "there is no {missing}: `cargo author package gradescope` creates it"
+                    "{missing} is missing: `cargo author package gradescope` creates it"
                 )];
             }
         };
@@ -128,7 +128,9 @@ impl PackageContents {
         let mut problems = Vec::new();
         if exam.id == PRACTICE_ID {
             problems.push(
-                "it runs the practice exam, which students have with all its keys: choose another one with --exam-seed".to_owned(),
+                "it runs the practice exam, whose answers students already have: choose a \
+                 different exam with --exam-seed"
+                    .to_owned(),
             );
         }
         problems.extend(policy_problem(policy, &exam));

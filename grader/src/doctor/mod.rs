@@ -4,7 +4,6 @@
 mod folder;
 mod gradescope;
 pub mod package;
-mod package_contents;
 
 use std::fmt;
 
@@ -22,7 +21,7 @@ pub struct Diagnosis {
     levels: Vec<(Isolation, Result<(), SelfTestError>)>,
 }
 
-/// Finds the compiler and the dependencies of submissions. Tests every isolation level.
+/// Finds the compiler, prepares the submissions' dependencies and tests every isolation level.
 pub fn diagnose() -> Result<Diagnosis, Error> {
     let builder = Builder::prepare(&Workspace::find()?)?;
     let levels = Isolation::ALL.map(|level| (level, with_level(&builder, level).map(drop)));
@@ -72,11 +71,12 @@ impl fmt::Display for Diagnosis {
         match self.exit_code() {
             0 => writeln!(
                 f,
-                "\nOther people's work can be graded here, with --untrusted."
+                "\nYou can grade other people's work on this machine, with --untrusted."
             ),
             _ => writeln!(
                 f,
-                "\nOnly your own work can be graded here: to grade other people's, isolation level {MIN_FOR_UNTRUSTED} or better must be available."
+                "\nYou can only grade your own work on this machine: grading other people's work requires \
+                 isolation level {MIN_FOR_UNTRUSTED} or better."
             ),
         }
     }

@@ -1,5 +1,5 @@
-//! A ray through many primitives. They would hide each other, so only distances along the ray are
-//! drawn.
+//! Draws a ray through many primitives. The primitives would hide each other, so only distances
+//! along the ray are drawn.
 
 use judging::describe;
 use protocol::Interval;
@@ -10,7 +10,7 @@ use super::hit_comparison::{HitAnswer, HitComparison, hit_text};
 use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
 
-/// Draws the range of the ray and the parts of the range before the expected and before the
+/// Draws the ray's range and the parts of it that lie before the expected hit and before the
 /// submitted hit.
 pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     let range = comparison.ray.range;

@@ -1,4 +1,4 @@
-//! Intervals as bars, one below the other, above an axis of distances along a ray.
+//! Draws intervals as bars, one below the other, above an axis of distances along a ray.
 
 use glam::dvec2;
 use protocol::Interval;
@@ -18,13 +18,13 @@ const RIGHT: f64 = WIDTH - 12.0;
 /// The style of a bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BarStyle {
-    /// For a neutral interval, shown for comparison.
+    /// A neutral interval, shown for comparison.
     Plain,
-    /// For the range of the ray.
+    /// The range of the ray.
     Range,
-    /// For the expected interval.
+    /// The expected interval.
     Right,
-    /// For the submitted interval.
+    /// The submitted interval.
     Wrong,
 }
 
@@ -101,7 +101,7 @@ impl Axis {
     }
 
     /// Converts a distance to an x coordinate on the page. A distance outside the axis is clamped
-    /// to its ends. The result is never NaN.
+    /// to the nearer end. The result is never NaN.
     pub(super) fn page_position(&self, t: f64) -> f64 {
         let share = (t - self.first) / (self.last - self.first);
         if share.is_nan() {
@@ -186,7 +186,7 @@ fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &BarRow) {
     };
     let (min, max) = (f64::from(span.min), f64::from(span.max));
     let (from, to) = (axis.page_position(min), axis.page_position(max));
-    // Keeps an interval of a single point visible.
+    // Keeps an interval visible even if it is a single point.
     let to = to.max(from + 1.5);
     let corner = |x: f64, up: f64| dvec2(x, middle + up * HALF_BAR);
     let fill = Fill::Tint(ink, share);

@@ -1,6 +1,6 @@
-//! A ray and a box, drawn in two ways: in the plane of the two axes that decide whether the ray
-//! hits, and as the intervals where the ray is between each axis's two planes. The exam stores
-//! these intervals.
+//! Draws a ray and a box in two ways: in the plane of the two axes that decide whether the ray
+//! hits, and as one interval per axis in which the ray is between the box's two planes. The exam
+//! stores these intervals.
 
 use glam::{DVec2, Vec3};
 use judging::describe;
@@ -16,7 +16,7 @@ use super::sheet::{Sheet, Symbol};
 /// A question about one ray and one box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxQuery {
-    /// The minimum and maximum corner of the box.
+    /// The minimum and maximum corners of the box.
     pub(super) corners: [Vec3; 2],
     /// The ray that is tested against the box.
     pub(super) ray: Ray,
@@ -46,17 +46,17 @@ pub(super) fn draw(query: &BoxQuery) -> Option<Drawing> {
     let rows = rows(query);
     sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, axis_distances(query));
     draw_legend(&mut sheet, query);
-    let title = "The ray, the box, and the times between its planes";
+    let title = "The ray, the box, and the times when the ray is between the box's planes";
     Some(sheet.finish(title, caption(query)))
 }
 
-/// Returns the plane of the two axes that decide whether the ray hits: the axis whose slab it
-/// enters last and the axis whose slab it leaves first. In this plane, a hit looks like a hit and a
-/// miss like a miss.
+/// Returns the plane spanned by the two axes that decide whether the ray hits: the axis whose slab
+/// it enters last and the axis whose slab it leaves first. In this plane, a hit looks like a hit
+/// and a miss like a miss.
 fn deciding_plane(query: &BoxQuery) -> Plane {
     let Some(slabs) = query.slabs else {
-        // If the exam contains no slabs, look along the axis with the smallest component of the
-        // ray's direction.
+        // If the exam contains no slabs, look along the axis in which the ray's direction has its
+        // smallest component.
         let along = query.ray.dir.abs();
         let least = (0..3).min_by(|&a, &b| along[a].total_cmp(&along[b]));
         let least = least.unwrap_or(2);
@@ -66,8 +66,8 @@ fn deciding_plane(query: &BoxQuery) -> Plane {
     let last_in = last_in.unwrap_or(0);
     let others = [(last_in + 1) % 3, (last_in + 2) % 3];
     let [p, q] = others;
-    // If the ray leaves first the same slab that it enters last, use the slab it leaves next for
-    // the second axis.
+    // If the slab that the ray leaves first is also the one that it enters last, use the slab that
+    // it leaves next for the second axis.
     let first_out = if slabs[p].max <= slabs[q].max { p } else { q };
     Plane::of(last_in, first_out)
 }
@@ -162,7 +162,7 @@ fn draw_legend(sheet: &mut Sheet, query: &BoxQuery) {
     let start = format!("the ray starts at {}", describe::point(query.ray.origin));
     sheet.add_legend(Symbol::Mark(Mark::Origin), &start);
     if query.slabs.is_some() {
-        let text = "when the ray is between the planes of x, y, z";
+        let text = "when the ray is between the planes of x, y and z";
         sheet.add_legend(Symbol::Area(Fill::Tint(Ink::Text, 0.18)), text);
     }
 }
@@ -172,14 +172,16 @@ fn caption(query: &BoxQuery) -> String {
     match (query.wanted, query.got) {
         (_, None) => format!("The correct answer is {wanted}; your code gave no answer."),
         (Some(_), Some(None)) => {
-            format!("All bars overlap in {wanted}: the ray is in the box then. You answered None.")
+            format!(
+                "All bars overlap during {wanted}: that is when the ray is in the box. You answered None."
+            )
         }
         (Some(_), Some(Some(span))) => format!(
-            "All bars overlap in {wanted}: the ray is in the box then. You answered {}.",
+            "All bars overlap during {wanted}: that is when the ray is in the box. You answered {}.",
             describe::interval(span)
         ),
         (None, Some(Some(span))) => format!(
-            "The bars never all overlap, so the correct answer is None. You answered {}.",
+            "There is no time when all bars overlap, so the correct answer is None. You answered {}.",
             describe::interval(span)
         ),
         (None, Some(None)) => "The correct answer is None.".to_owned(),

@@ -1,7 +1,8 @@
 //! An SVG image, built element by element in page units: x to the right, y down.
 //!
-//! Coordinates may come from submissions, so elements with points that aren't finite or far off the
-//! page are skipped. An image that has reached [`MAX_BYTES`] accepts no more elements.
+//! Coordinates may come from submissions, so elements with points that aren't finite or that are
+//! far off the page are skipped. No more elements are added to an image that has reached
+//! [`MAX_BYTES`].
 
 use glam::{DVec2, dvec2};
 use maud::{Markup, PreEscaped, Render, html};
@@ -23,7 +24,7 @@ const MAX_COORDINATE: f64 = 1e4;
 /// The background colour of the page.
 const PAPER: &str = "var(--paper, Canvas)";
 
-/// The position of a text relative to its point.
+/// The position of text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     /// To the right of the point.
@@ -37,11 +38,11 @@ pub(super) enum Anchor {
 /// A mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mark {
-    /// A disc, for the expected answer.
+    /// A disc at the expected answer.
     Right,
-    /// A cross, for the submitted answer if it is wrong.
+    /// A cross at a wrong submitted answer.
     Wrong,
-    /// A ring, for the origin of a ray.
+    /// A ring at the origin of a ray.
     Origin,
 }
 
@@ -180,7 +181,8 @@ impl Canvas {
     }
 
     /// Draws a ray's line: its range, and the parts behind and ahead of its origin. `at` returns
-    /// the point at a distance, up to `far` in both directions.
+    /// the point at a distance along the ray. The line is drawn up to the distance `far` in both
+    /// directions.
     pub(super) fn ray(
         &mut self,
         window: &Window,

@@ -4,7 +4,7 @@
 //! A page may set the custom properties `--right`, `--wrong` and `--paper`, e.g. for a dark theme.
 //! The default colours are from Okabe and Ito, "Color Universal Design", 2008.
 
-/// A colour for lines, areas and texts in a drawing.
+/// A colour for lines, areas and text in a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
     /// The text colour of the page.
@@ -39,19 +39,19 @@ impl Ink {
 /// The style of a line, which depends on the line's meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LineStyle {
-    /// For the outline of a shape.
+    /// The outline of a shape.
     Outline,
-    /// For a guide line.
+    /// A guide line.
     Grid,
-    /// For a ray ahead of its origin.
+    /// The part of a ray's line ahead of its origin.
     Ray,
-    /// For the line of a ray behind its origin.
+    /// The part of a ray's line behind its origin.
     Behind,
-    /// For the range of a ray.
+    /// The range of a ray.
     Range,
-    /// For a line of the expected answer.
+    /// A line of the expected answer.
     Right,
-    /// For a line of the submitted answer if it is wrong.
+    /// A line of the submitted answer if it is wrong.
     Wrong,
 }
 

@@ -106,27 +106,12 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
             },
         });
     }
-    if let (
-        Question::Build {
-            shapes,
-            max_leaf_size,
-        },
-        Key::Tree { checks, sweep_cost },
-    ) = (asked, key)
-    {
-        let criteria = TreeCriteria {
-            checks,
-            sweep_cost: *sweep_cost,
-            shapes,
-            max_leaf_size: *max_leaf_size,
-        };
-        let sweep = match &question.drawing_data {
-            DrawingData::Sweep(sweep) => Some(sweep),
-            DrawingData::None | DrawingData::Slabs(_) | DrawingData::Traversals(_) => None,
-        };
-        return build::draw(&criteria, sweep, answer);
-    }
-    None
+    let criteria = TreeCriteria::of(question)?;
+    let sweep = match &question.drawing_data {
+        DrawingData::Sweep(sweep) => Some(sweep),
+        DrawingData::None | DrawingData::Slabs(_) | DrawingData::Traversals(_) => None,
+    };
+    build::draw(&criteria, sweep, answer)
 }
 
 /// Returns the value of an element, or `None` if it is missing, e.g. because the code panicked.

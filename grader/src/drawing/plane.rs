@@ -25,7 +25,7 @@ impl Plane {
         3 - self.0 - self.1
     }
 
-    /// Returns a text that says which axis points where.
+    /// Returns a label that says which axis points where.
     pub(super) fn name(self) -> String {
         let (a, b) = (AXIS_NAMES[self.0], AXIS_NAMES[self.1]);
         format!("{a} to the right, {b} up")

@@ -1,4 +1,4 @@
-//! A ray and several shapes. Only the relevant shape is drawn.
+//! Draws a ray and the relevant one of several shapes.
 
 use glam::DVec3;
 use protocol::Shape;
@@ -6,8 +6,8 @@ use protocol::Shape;
 use super::hit_comparison::HitComparison;
 use super::{Drawing, sphere, triangle};
 
-/// Draws the shape of the expected hit or, failing that, of the submitted hit or, failing that, the
-/// shape nearest to the ray.
+/// Draws the shape of the expected hit. If no hit is expected, draws the shape of the submitted hit
+/// or, if there is none either, the shape nearest to the ray.
 pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawing> {
     let hit = comparison.wanted.or(comparison.got.hit());
     let distance = |shape: &&Shape| match hit {

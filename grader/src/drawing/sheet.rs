@@ -37,14 +37,14 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// Adds a panel across the whole width, with a border.
+    /// Adds a full-width panel with a border.
     pub(super) fn panel(&mut self, height: f64) -> Panel {
         let panel = self.bordered_panel(1.0, WIDTH - 1.0, height);
         self.advance(height + 6.0);
         panel
     }
 
-    /// Adds a window across the whole width that shows these points, with a suitable height.
+    /// Adds a full-width window that shows these points and has a suitable height.
     pub(super) fn window(&mut self, seen: Vec<DVec2>) -> Window {
         let size = extent(seen.iter().copied()).map_or(DVec2::ONE, |(min, max)| max - min);
         // A single point has no proportions.

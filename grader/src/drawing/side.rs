@@ -1,4 +1,4 @@
-//! Draws a ray from the side. It points to the right, and distances along it are to scale.
+//! Draws a ray from the side. The ray points to the right, and distances along it are to scale.
 
 use glam::{DVec2, DVec3, dvec2};
 use judging::describe;
@@ -11,7 +11,8 @@ use super::numbers::{point, short};
 use super::sheet::{Sheet, Symbol};
 use super::window::{Window, extent};
 
-/// A side view of a ray: a plane that contains the ray, oriented so that the ray points right.
+/// A side view of a ray: a plane that contains the ray, oriented so that the ray points to the
+/// right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SideView<'a> {
     comparison: &'a HitComparison,
@@ -57,9 +58,9 @@ impl SideView<'_> {
         [wanted, self.comparison.got_point()].map(|point| Some(self.project(point?)))
     }
 
-    /// Returns the points that the drawing should show: the points of `shape`, the ray's origin, the
-    /// hits, and the ends of the ray's range. Points so far away that the shape would shrink to a dot
-    /// are left out.
+    /// Returns the points that the drawing should show: the points of `shape`, the ray's origin,
+    /// the hits, and the ends of the ray's range. Points so far away that the shape would shrink to
+    /// a dot are left out.
     pub(super) fn landmarks(&self, shape: &[DVec2]) -> Vec<DVec2> {
         /// The maximum distance from the shape, as a multiple of its size.
         const MAX_SIZES: f64 = 5.0;
@@ -77,7 +78,7 @@ impl SideView<'_> {
         seen
     }
 
-    /// Draws the ray's line, its origin and, if it is limited, its range.
+    /// Draws the ray's line and its origin and, if the ray's range is limited, the range as well.
     pub(super) fn draw_ray(&self, canvas: &mut Canvas, window: &Window) {
         let range = self.comparison.limited_range();
         canvas.ray(window, range, 1e7, |t| dvec2(t, 0.0));
@@ -141,7 +142,7 @@ impl SideView<'_> {
         };
         match (comparison.wanted, comparison.focus) {
             (None, _) => sheet.add_wanted(Symbol::None, "no hit"),
-            // The expected origin is the ray's, which has its own legend entry.
+            // The expected origin is that of the ray, which has its own legend entry.
             (Some(hit), Focus::Origin) => {
                 sheet.add_wanted(Symbol::Mark(Mark::Right), &hit_text(&hit))
             }
@@ -152,7 +153,7 @@ impl SideView<'_> {
         match (comparison.got, comparison.focus) {
             (HitAnswer::NoAnswer, _) => {}
             (HitAnswer::Miss, _) => sheet.add_got(Symbol::None, "no hit"),
-            // Nothing in the picture shows the number.
+            // Nothing in the picture shows the shape's number.
             (HitAnswer::Hit(hit), Focus::Shape) => {
                 sheet.add_got(Symbol::None, &field(&hit, Focus::Shape));
             }

@@ -1,4 +1,5 @@
-//! A ray and a sphere, in the plane through the ray and the centre, where the sphere is a circle.
+//! Draws a ray and a sphere in the plane through the ray and the sphere's centre, where the sphere
+//! is a circle.
 
 use glam::{DVec2, DVec3, dvec2};
 

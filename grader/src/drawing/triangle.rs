@@ -1,4 +1,4 @@
-//! A ray and a triangle, seen from two directions: along the ray, where the ray is a point inside
+//! Draws a ray and a triangle from two directions: along the ray, where the ray is a point inside
 //! or outside the triangle, and from the side, where the triangle's plane is a line.
 
 use glam::{DVec2, DVec3, dvec2};
@@ -79,7 +79,7 @@ const LABEL: DVec2 = dvec2(16.0, 12.0);
 /// Returns the positions of the corners' labels. They are placed away from the centre so that they
 /// don't cover an edge, and they never overlap, even if corners coincide.
 fn label_positions(corners: [DVec2; 3]) -> Vec<DVec2> {
-    /// Offsets to try, in label sizes. Two labels can block at most four of them.
+    /// Offsets to try, as multiples of the label's size. Two labels can block at most four of them.
     const STEPS: [DVec2; 9] = [
         dvec2(0.0, 0.0),
         dvec2(-1.0, 0.0),

@@ -1,4 +1,4 @@
-//! Texture coordinates: the square from (0, 0) to (1, 1).
+//! Draws texture coordinates in the square from (0, 0) to (1, 1).
 
 use glam::{DVec2, dvec2};
 

@@ -1,4 +1,5 @@
-//! Windows, which map a plane of the world to a panel of the page, to scale, with clipping.
+//! Windows, which map a plane of the world to a panel of the page. The mapping is to scale, and
+//! segments are clipped to the panel.
 
 use glam::{DVec2, dvec2};
 
@@ -63,7 +64,7 @@ impl Window {
         page.is_finite().then_some((inside, inside != page))
     }
 
-    /// Returns how far outside the panel a point is, in world units.
+    /// Returns the distance between the panel and a point outside it, in world units.
     pub(super) fn distance_outside(&self, at: DVec2) -> f64 {
         let page = self.page_position(at);
         self.world_length(page.distance(page.clamp(self.panel.min, self.panel.max)))
@@ -71,7 +72,7 @@ impl Window {
 
     /// Clips a segment to the panel, one side of the panel at a time (Sutherland and Hodgman,
     /// "Reentrant polygon clipping", Communications of the ACM 17, 1974). Returns the ends of the
-    /// visible part on the page, or `None` if no part is visible.
+    /// visible part in page coordinates, or `None` if no part is visible.
     pub(super) fn clip_segment(&self, from: DVec2, to: DVec2) -> Option<(DVec2, DVec2)> {
         let (from, to) = (self.page_position(from), self.page_position(to));
         if !(from.is_finite() && to.is_finite()) {

@@ -22,7 +22,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
 };
 
 /// The maximum size in bytes. Gradescope doesn't document a limit, but similar platforms truncate
-/// at half this size.
+/// files at half this size.
 const MAX_BYTES: usize = 256 << 10;
 
 /// Renders `results.json`.

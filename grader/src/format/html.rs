@@ -1,4 +1,4 @@
-//! A page for students who don't have the exam.
+//! A page for students without the exam.
 
 use crate::format::{FormatContext, FormatSpec, StudentView};
 use crate::report::html::{feedback, with_counted};

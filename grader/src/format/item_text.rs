@@ -17,7 +17,7 @@ pub fn item_text(view: &StudentView, item: &ItemScore, context: &FormatContext) 
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns what happened, in one sentence. The text is empty if the item's message is missing or
+/// Returns one sentence that says what happened. It is empty if the item's message is missing or
 /// hidden.
 pub fn item_message(item: &ItemScore) -> String {
     match (item.verdict == Verdict::Pending, item.message.is_empty()) {

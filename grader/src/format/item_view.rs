@@ -8,7 +8,7 @@ use crate::score::ItemScore;
 /// An item and its visibility to students.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ItemView {
-    /// The task of the item.
+    /// The task that the item belongs to.
     pub task: Task,
     /// The item, without the parts that the policy hides.
     pub item: ItemScore,

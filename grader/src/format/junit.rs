@@ -1,8 +1,8 @@
 //! JUnit XML with a suite for each task and a test case for each item.
 //!
-//! The file is written with `maud`, whose escaping is valid XML. A crate for JUnit would bring in
-//! seven other crates and add a tenth to the compile time of the first `cargo grade`. Every element
-//! is closed explicitly with `{}`, since XML has no void elements.
+//! The file is written with `maud`, whose escaped text is valid XML. A crate for JUnit would bring
+//! in seven other crates and add a tenth to the compile time of the first `cargo grade`. Every
+//! element is closed explicitly with `{}`, since XML has no void elements.
 
 use maud::{Markup, PreEscaped, html};
 
@@ -106,8 +106,8 @@ enum Status {
 }
 
 impl Status {
-    /// Maps a verdict. A wrong answer becomes a failure, a missing answer becomes an error, and an
-    /// item that was not graded becomes a skipped test case.
+    /// Returns the result for a verdict. A wrong answer becomes a failure, a missing answer becomes
+    /// an error, and an item that was not graded becomes a skipped test case.
     fn from_verdict(verdict: &Verdict) -> Self {
         match verdict.kind() {
             VerdictKind::Passed => Status::Passed,

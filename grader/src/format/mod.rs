@@ -2,7 +2,7 @@
 //! [`StudentView`] and a [`FormatContext`]. It never gets the score itself, so no format can leak
 //! what the policy hides.
 //!
-//! A format is one file, which declares its [`FormatSpec`], and an entry in [`FORMATS`].
+//! A format consists of a file that declares its [`FormatSpec`] and of an entry in [`FORMATS`].
 
 mod check50;
 mod classroom50;
@@ -26,7 +26,7 @@ pub use item_view::ItemView;
 pub use spec::{FormatContext, FormatSpec, MethodLocation, OutputSpec};
 pub use student_view::StudentView;
 
-/// All formats, in the order of `--help`.
+/// All formats, in the order in which `--help` lists them.
 pub static FORMATS: [&FormatSpec; 9] = [
     &json::FORMAT,
     &text::FORMAT,

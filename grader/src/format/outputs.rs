@@ -33,9 +33,9 @@ struct Output {
 }
 
 impl Outputs {
-    /// Resolves the path of each requested output: the path in the request, else the platform's
-    /// path, else a file in `folder`. Fails if the environment lacks a variable that a format
-    /// needs.
+    /// Resolves the path of each requested output: the path in the request or, if there is none,
+    /// the platform's path or, failing that, a file in `folder`. Fails if the environment lacks a
+    /// variable that a format needs.
     pub fn new(
         specs: &[OutputSpec],
         folder: &Path,
@@ -158,7 +158,7 @@ fn folder_in_checkout(submitted: &Path, checkout: &Path, handed_out: &HandedOut)
     relative.unwrap_or_default()
 }
 
-/// Finds the method of each task in the submission's files.
+/// Finds the method for each task in the submission's files.
 fn find_methods(submission: &Submission) -> BTreeMap<Task, MethodLocation> {
     let location = |task: &TaskInfo| {
         let line = submission.task_method(task).map(|method| method.line);

@@ -53,6 +53,12 @@ fn visible_task(task: &TaskScore, items: &[ItemView]) -> TaskScore {
         points: task.points,
         max_points: task.max_points,
         items: items_shown_now(task, &of_task),
+        method: task.method.clone(),
+        warnings: task
+            .warnings
+            .iter()
+            .map(|warning| sanitize_line(warning, usize::MAX))
+            .collect(),
         // Printed text may repeat the questions.
         printed: task
             .printed
@@ -62,7 +68,7 @@ fn visible_task(task: &TaskScore, items: &[ItemView]) -> TaskScore {
     }
 }
 
-/// Removes everything from an item that students may not see at this visibility, including the ids
+/// Removes from an item everything that students may not see at this visibility, including the ids
 /// of `hidden` items. Every field is listed here, so that a new field isn't shown before someone
 /// decides who may see it.
 pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]) -> ItemScore {
@@ -70,8 +76,8 @@ pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]
     let sentence = sentence(&verdict, item.carried_forward);
     match visibility {
         Visibility::All => {
-            let names_hidden = hidden.iter().any(|id| item.message.contains(id));
-            let message = if names_hidden {
+            let names_hidden = |text: &str| hidden.iter().any(|id| text.contains(id));
+            let message = if names_hidden(&item.message) {
                 &sentence
             } else {
                 &item.message
@@ -79,6 +85,7 @@ pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]
             ItemScore {
                 message: sanitize(message, usize::MAX),
                 verdict,
+                symptom_clue: (item.symptom_clue.clone()).filter(|clue| !names_hidden(clue)),
                 evidence: item.evidence.as_ref().map(sanitized_evidence),
                 staff: None,
                 ..item.clone()
@@ -97,6 +104,9 @@ pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]
             // A program could choose which clue it gets.
             clue: None,
             section: item.section.clone(),
+            symptom_clue: None,
+            clue_section: None,
+            symptom: None,
             hints: item.hints.clone(),
             evidence: None,
             carried_forward: item.carried_forward,
@@ -133,7 +143,7 @@ fn sanitized_build(build: &BuildReport) -> BuildReport {
     }
 }
 
-/// Replaces the id of a hidden item with its task's.
+/// Replaces the id of a hidden item with the id of its task.
 fn without_hidden_id(verdict: &Verdict, hidden: &[String]) -> Verdict {
     if let Verdict::Blocked { by } = verdict
         && hidden.contains(by)
@@ -163,7 +173,7 @@ fn verdict_from_points(is_pending: bool, points: u32, max_points: u32) -> Verdic
     }
 }
 
-/// Returns the items of a task that students may see now and one item that sums up the others.
+/// Returns the items of a task that students may see now and one item that combines the others.
 fn items_shown_now(task: &TaskScore, of_task: &[&ItemView]) -> Vec<ItemScore> {
     let (open, hidden): (Vec<&ItemView>, Vec<&ItemView>) = of_task
         .iter()

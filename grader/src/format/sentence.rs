@@ -1,16 +1,16 @@
-//! The sentences that students read about the items of an exam they don't have.
+//! The sentences that students read about the items in an exam that they don't have.
 //!
-//! When a submission's program is graded, it sees the questions. Anything it can influence and a
-//! student later reads could leak them: the text of a panic, an exit code or the number of wrong
-//! answers. So the sentence about an item depends only on its verdict, and contains nothing else
-//! except an item's id.
+//! When a submission's program is graded, it sees the questions. Anything that it can influence and
+//! that a student later reads could leak the questions: the text of a panic, an exit code or the
+//! number of wrong answers. So the sentence about an item depends only on its verdict, and contains
+//! nothing else except an item's id.
 
 use crate::score::Verdict;
 
-/// Returns the sentence about an item with this verdict. `by_reference` says whether it was graded with
-/// the reference's parts.
+/// Returns the sentence about an item with this verdict. `by_reference` says whether the item was
+/// graded with the reference's parts.
 pub fn sentence(verdict: &Verdict, by_reference: bool) -> String {
-    const BY_REFERENCE: &str = "graded with the reference's other files, because an item that it \
+    const BY_REFERENCE: &str = "graded with the reference's other files because an item that it \
                                 depends on failed";
     let reason = match verdict {
         Verdict::Pass | Verdict::Pending => "",
@@ -18,11 +18,9 @@ pub fn sentence(verdict: &Verdict, by_reference: bool) -> String {
         Verdict::Wrong => "an answer is wrong",
         Verdict::Panicked => "the code panicked",
         Verdict::Unimplemented => "the method still contains `todo!`",
-        Verdict::TimedOut => "the code took too long: is there an endless loop?",
+        Verdict::TimedOut => "the code took too long: is there an infinite loop?",
         Verdict::OutOfMemory => "out of memory: does something grow without limit?",
-        Verdict::Crashed => {
-            "the program crashed: is there an endless recursion, or a huge `static`?"
-        }
+        Verdict::Crashed => "the program crashed: is there infinite recursion, or a huge `static`?",
         Verdict::Protocol => "the program sent an invalid answer",
         Verdict::NotCompiled => "the file is missing or does not compile",
         Verdict::Blocked { by } => &format!("depends on {by}: fix that first"),

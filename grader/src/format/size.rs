@@ -1,6 +1,6 @@
 //! Keeps files within the size limits of platforms, no matter how much text a submission produces.
 
-/// The limits on the number of characters per text, in the order they are tried.
+/// The limits on the number of characters per text, in the order in which they are tried.
 const TEXT_LIMITS: [usize; 5] = [4_000, 1_000, 250, 60, 0];
 
 /// Renders a file with smaller and smaller text limits until it is at most `max_bytes` long. If it
@@ -11,7 +11,7 @@ pub fn fit(max_bytes: usize, render: impl Fn(usize) -> String) -> String {
     fitting.unwrap_or_else(|| render(0))
 }
 
-/// Truncates a text to `max_chars` characters. Appends a mark if anything was cut off.
+/// Truncates text to `max_chars` characters. Appends a mark if anything was cut off.
 pub fn truncate(text: &str, max_chars: usize) -> String {
     match text.char_indices().nth(max_chars) {
         None => text.to_owned(),

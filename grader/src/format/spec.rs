@@ -54,8 +54,8 @@ pub struct MethodLocation {
 }
 
 impl FormatContext {
-    /// Returns the name of the file with a task's method. It is empty if the task isn't one of the
-    /// assignment's.
+    /// Returns the name of the file with a task's method. The name is empty if the task isn't part
+    /// of the assignment.
     pub fn file_of(&self, task: Task) -> &str {
         self.methods.get(&task).map_or("", |method| method.file)
     }
@@ -71,7 +71,7 @@ pub struct OutputSpec {
 }
 
 impl FormatSpec {
-    /// A format with only a name and a default file, as a base for the others.
+    /// A format with empty values, as a base for the others.
     pub const EMPTY: FormatSpec = FormatSpec {
         id: "",
         file: "",

@@ -1,21 +1,21 @@
-//! The part of a score that students may see, with sanitized texts. All formats are rendered from
+//! The part of a score that students may see, with sanitized text. All formats are rendered from
 //! it.
 
 use crate::format::item_view::{ItemView, shows_everything};
 use crate::format::redact::{redact, visible_score};
-use crate::policy::{CountedPoints, ItemPoints, Lateness, Policy, TaskPoints, Visibility};
+use crate::policy::{FinalPoints, ItemPoints, Lateness, Policy, TaskPoints, Visibility};
 use crate::score::{ItemScore, Score, TaskScore, Timings, Verdict};
 
 /// A score without the parts that the policy hides, and without notes for staff.
 #[derive(Clone, Debug)]
 pub struct StudentView {
-    /// The score as students may see it now. The hidden items of each task are summed up in a
+    /// The score as students may see it now. The hidden items of each task are combined into a
     /// single item.
     pub visible: Score,
     /// All items, for platforms that can show some of them later.
     pub all_items: Vec<ItemView>,
     /// The final points in the course.
-    pub counted: CountedPoints,
+    pub counted: FinalPoints,
 }
 
 impl StudentView {
@@ -56,7 +56,7 @@ impl StudentView {
         self.counted.explanation_if_changed()
     }
 
-    /// Returns how long grading took, in milliseconds. `None` if students may not see every
+    /// Returns the duration of grading in milliseconds, or `None` if students may not see every
     /// question, since a program can influence this number by waiting.
     pub fn milliseconds(&self) -> Option<u64> {
         let Timings {
@@ -78,8 +78,9 @@ impl StudentView {
         } else {
             "only some".to_owned()
         };
-        (!self.visible.complete)
-            .then(|| format!("UNFINISHED: {count} items are graded; the others have no points yet"))
+        (!self.visible.complete).then(|| {
+            format!("UNFINISHED: {count} items have been graded; the others have no points yet")
+        })
     }
 
     /// Returns whether none of the submission's task files compiled.
@@ -115,9 +116,9 @@ fn item_points(item: &ItemScore) -> ItemPoints<'_> {
     }
 }
 
-/// Returns whether students may see everything about all items of a task. If not, they see
-/// everything about none: one process answers the whole task, so its answer to an open item can
-/// repeat the question of another one.
+/// Returns whether students may see everything about all items of a task. Otherwise, they don't see
+/// everything about any of them: one process answers the whole task, so its answer to an open item
+/// can repeat a question of another item.
 fn is_open(task: &TaskScore, policy: &Policy, score: &Score) -> bool {
     let mut items = task.items.iter();
     items.all(|item| policy.visibility(&score.exam, &item.id) == Visibility::All)
@@ -135,7 +136,8 @@ mod tests {
     use super::*;
     use crate::format::tests::sample;
 
-    /// Returns the students' view of the sample as a final exam, with these exceptions.
+    /// Returns the students' view of the sample, treated as a final exam. `items` lists the
+    /// exceptions to full visibility.
     fn view(items: &str) -> StudentView {
         let policy = format!("[visibility]\nfinal = 'all'\n[visibility.items]\n{items}");
         sample::view(&sample::of_final_exam(sample::score()), &policy, 0)
@@ -186,7 +188,7 @@ mod tests {
             ("", "13 of 14"),
             ("[visibility.items]\nbbox = 'hidden'", "only some"),
         ] {
-            let end = "items are graded; the others have no points yet";
+            let end = "items have been graded; the others have no points yet";
             let expected = format!("UNFINISHED: {count} {end}");
             assert_eq!(notice(policy), Some(expected));
         }

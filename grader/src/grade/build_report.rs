@@ -1,4 +1,4 @@
-//! Reports compiler errors and notes on a submission's files in the score.
+//! Collects the compiler errors and the notes on a submission's files for the score.
 
 use crate::build::Build;
 use crate::score::{BuildReport, FileReport};
@@ -36,9 +36,9 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
         for (methods, what) in [
             (
                 missing,
-                "are missing, which other code may need; put them back",
+                "are missing, but other code may need them, so put them back",
             ),
-            (changed, "were changed, which by itself costs no points"),
+            (changed, "were changed (this alone doesn't cost any points)"),
         ] {
             if !methods.is_empty() {
                 let names: Vec<&str> = methods.iter().map(|method| method.name).collect();

@@ -1,6 +1,7 @@
-//! The grader of submissions: an exam, a builder and a policy, prepared once.
+//! Grades submissions with an exam, a builder and a policy that are prepared once.
 
 use std::io;
+use std::num::NonZero;
 use std::path::Path;
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
@@ -10,7 +11,8 @@ use judging::exam_file::{ExamFile, ExamName};
 
 use super::build_report::build_report;
 use super::prepared::{
-    Prepared, builder, collect, default_folder, lateness, policy, source_paths, submission_path,
+    PreparedSubmission, builder, collect, default_folder, lateness, policy, source_paths,
+    submission_path,
 };
 use super::print_compile_errors;
 use crate::build::select_isolation::{IsolationRequest, with_requested_level};
@@ -51,7 +53,9 @@ pub struct Grader<'a> {
 impl<'a> Grader<'a> {
     /// Loads the exam, prepares the builder and builds the submission. Reading the exam takes a
     /// tenth as long as compiling and is done in parallel.
-    pub(super) fn build_prepared(prepared: &mut Prepared<'a>) -> Result<(Self, Build), Error> {
+    pub(super) fn build_prepared(
+        prepared: &mut PreparedSubmission<'a>,
+    ) -> Result<(Self, Build), Error> {
         let options = prepared.options;
         let report_errors = print_compile_errors(prepared.source_paths());
         let (builder, build, file) = thread::scope(|scope| {
@@ -113,8 +117,8 @@ impl<'a> Grader<'a> {
         StudentView::new(score, &self.policy, self.lateness)
     }
 
-    /// Returns the requested output formats. They are written to `folder` unless they have their
-    /// own location.
+    /// Returns the requested output formats. They are written to `folder` unless another location
+    /// is specified for them.
     pub(super) fn outputs(&self, submission: &Submission, folder: &Path) -> Result<Outputs, Error> {
         let submitted = submission_path(self.options, &self.workspace);
         let (formats, hints) = (&self.options.formats, self.options.hints);
@@ -168,7 +172,7 @@ impl<'a> Grader<'a> {
         collect(self.options, &self.workspace)
     }
 
-    /// Builds a submission. Files that don't compile are replaced by the starter's.
+    /// Builds a submission. Files that don't compile are replaced by the starter's versions.
     pub fn build(&self, submission: &Submission) -> Result<Build, Error> {
         self.builder.build(submission)
     }
@@ -193,6 +197,16 @@ impl<'a> Grader<'a> {
         score.book = Book::find(&self.workspace);
         score.isolation = build.isolation();
         score.build = build_report(submission, build);
+        for task in &mut score.tasks {
+            let file = self.options.handed_out.assignment.info(task.id).file;
+            if let Some(method) = build.methods.get(&task.id) {
+                task.method = format!("{file}:{}", method.line);
+            }
+            let warnings = build.warnings.iter();
+            task.warnings = warnings
+                .filter_map(|warning| warning.line_of_text(file))
+                .collect();
+        }
         let notes = &mut score.build.notes;
         notes.extend(mixed_versions(&self.workspace));
         notes.extend(given_files::changed(self.workspace.root()));
@@ -212,10 +226,26 @@ impl<'a> Grader<'a> {
     ) -> Result<(), E> {
         let started_at = Instant::now();
         let budget = self.options.budget;
-        run_exam(exam, build, budget, score, |score, answers| {
-            score.timings.exam_ms = millis(started_at.elapsed());
-            progress(score, answers)
-        })
+        run_exam(
+            exam,
+            build,
+            budget,
+            self.threads(),
+            score,
+            |score, answers| {
+                score.timings.exam_ms = millis(started_at.elapsed());
+                progress(score, answers)
+            },
+        )
+    }
+
+    /// Returns the number of tasks that may run at the same time. Other people's submissions run
+    /// one process at a time, since grading a class already uses every core.
+    fn threads(&self) -> usize {
+        match self.options.isolation {
+            IsolationRequest::OwnWork => thread::available_parallelism().map_or(1, NonZero::get),
+            IsolationRequest::Untrusted | IsolationRequest::Level(_) => 1,
+        }
     }
 
     /// Returns the report's files, or `None` if only some tasks are graded, since their points

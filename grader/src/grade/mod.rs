@@ -24,7 +24,7 @@ use crate::workspace::source_paths::SourcePaths;
 
 pub use build_report::build_report;
 pub use grader::Grader;
-pub use prepared::{Prepared, default_folder};
+pub use prepared::{PreparedSubmission, default_folder};
 
 /// The score of a submission and the files it was written to.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ pub struct GradedSubmission {
     pub files: Option<ReportFiles>,
     /// The part of the score that students may see.
     pub student_view: StudentView,
-    /// Hashes of everything the score depends on, or `None` if its report must not be cached.
+    /// Hashes of everything the score depends on, or `None` if the report must not be cached.
     pub cache_key: Option<CacheKey>,
 }
 
@@ -51,11 +51,11 @@ impl GradedSubmission {
 
 /// Grades the submission named in the options and writes its reports.
 pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
-    grade_prepared(&mut Prepared::new(options)?)
+    grade_prepared(&mut PreparedSubmission::new(options)?)
 }
 
-/// Grades a submission that has been read and writes its reports.
-pub fn grade_prepared(prepared: &mut Prepared) -> Result<GradedSubmission, Error> {
+/// Grades a submission that has already been read, and writes its reports.
+pub fn grade_prepared(prepared: &mut PreparedSubmission) -> Result<GradedSubmission, Error> {
     let (grader, build) = Grader::build_prepared(prepared)?;
     let (options, submission) = (prepared.options, &prepared.submission);
     let preparation = prepared.started_at.elapsed().saturating_sub(build.took);

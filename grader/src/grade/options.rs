@@ -12,31 +12,31 @@ use crate::report::text::HintDetail;
 
 /// Options for grading a submission. The default is a student's own work on the practice exam.
 ///
-/// Code that depends on all options, such as a cache key, destructures this type without `..`, so
-/// that a new option cannot be forgotten there.
+/// Code that depends on all options, e.g. to compute a cache key, destructures this type without
+/// `..`, so that a new option cannot be forgotten there.
 #[derive(Clone, Debug)]
 pub struct GradeOptions {
     /// The assignment.
     pub handed_out: &'static HandedOut,
-    /// The submission's folder or archive. `None` is the folder of students' own work.
+    /// The submission's folder or archive, or `None` for the student's own work.
     pub submission: Option<PathBuf>,
     /// The exam to grade the submission with.
     pub exam: ExamSource,
     /// The tasks to grade.
     pub tasks: TaskSelection,
-    /// The course's policy file. `None` is the default policy.
+    /// The course's policy file, or `None` for the default policy.
     pub policy: Option<PathBuf>,
     /// Gradescope's `submission_metadata.json`, which contains the submission time.
     pub gradescope_metadata: Option<PathBuf>,
     /// The treatment of items that depend on a failed task.
     pub dependents: Dependents,
-    /// The requested isolation of the submission's code.
+    /// The requested isolation for the submission's code.
     pub isolation: IsolationRequest,
-    /// The time budget of an item.
+    /// The time budget for an item.
     pub budget: Budget,
     /// The level of detail of hints.
     pub hints: HintDetail,
-    /// The folder for the report. `None` is `target/grade/NAME`.
+    /// The folder for the report. `None` means `target/grade/NAME`.
     pub out: Option<PathBuf>,
     /// The requested output formats.
     pub formats: Vec<OutputSpec>,
@@ -44,7 +44,7 @@ pub struct GradeOptions {
 
 impl GradeOptions {
     /// Returns the value of `--assignment` in a command that repeats the grading, or `None` if the
-    /// exam file decides or it is the default.
+    /// exam file determines the assignment or if it is the default one.
     pub fn assignment_option(&self) -> Option<&'static str> {
         let is_default = self.handed_out == <&HandedOut>::default();
         let is_chosen = self.exam == ExamSource::Practice && !is_default;

@@ -15,26 +15,26 @@ use crate::submission::Submission;
 use crate::workspace::Workspace;
 use crate::workspace::source_paths::SourcePaths;
 
-/// A submission, and the workspace and the builder used to grade it.
-pub struct Prepared<'a> {
+/// A submission together with the workspace and the builder used to grade it.
+pub struct PreparedSubmission<'a> {
     /// The options that name the submission.
     pub options: &'a GradeOptions,
     /// The workspace.
     pub workspace: Workspace,
     /// The submission's files.
     pub submission: Submission,
-    /// The builder, once it is needed.
+    /// The builder, or `None` until it is needed.
     builder: Option<Builder>,
     /// The time when the command started.
     pub(super) started_at: Instant,
 }
 
-impl<'a> Prepared<'a> {
+impl<'a> PreparedSubmission<'a> {
     /// Finds the workspace and reads the submission named in the options.
     pub fn new(options: &'a GradeOptions) -> Result<Self, Error> {
         let started_at = Instant::now();
         let workspace = Workspace::find()?;
-        Ok(Prepared {
+        Ok(PreparedSubmission {
             submission: collect(options, &workspace)?,
             options,
             workspace,
@@ -67,7 +67,7 @@ pub(super) fn policy(options: &GradeOptions, exam: &Exam) -> Result<Policy, Erro
     Policy::for_exam(path, &Policy::read_text(path)?, items)
 }
 
-/// Returns how late the submission is, if the options name the platform's metadata.
+/// Returns the lateness of the submission if the options name the platform's metadata.
 pub(super) fn lateness(options: &GradeOptions, policy: &Policy) -> Result<Lateness, Error> {
     Ok(match &options.gradescope_metadata {
         Some(path) => policy.lateness_of(&SubmissionTime::read(path)?),
@@ -110,7 +110,7 @@ pub(super) fn submission_path(options: &GradeOptions, workspace: &Workspace) -> 
     }
 }
 
-/// Returns the paths of the task files of the submission named in the options.
+/// Returns the paths of the task files in the submission named in the options.
 pub(super) fn source_paths(options: &GradeOptions, workspace: &Workspace) -> SourcePaths {
     SourcePaths::of(&submission_path(options, workspace), options.handed_out)
 }

@@ -12,9 +12,9 @@ use crate::report::atomic_write;
 use crate::report::html::{self, Reload};
 use crate::score::Score;
 
-/// Minimum time between two writes of the score file during an exam. Writing a score takes about as
-/// long as most items: a millisecond. If the grader is killed, at most the results of one interval
-/// are missing from the file.
+/// Minimum time between two writes of the score file during an exam. Writing a score takes about a
+/// millisecond, which is as long as most items take. If the grader is killed, at most the results
+/// of one interval are missing from the file.
 const SCORE_INTERVAL: Duration = Duration::from_millis(100);
 /// Minimum time between two writes of the page. Writing it takes longer than testing most items.
 const PAGE_INTERVAL: Duration = Duration::from_secs(1);

@@ -10,7 +10,7 @@ use clap::Parser;
 use crate::build::Builder;
 use crate::error::Error;
 use crate::grade::options::GradeOptions;
-use crate::grade::{Prepared, build_report};
+use crate::grade::{PreparedSubmission, build_report};
 use crate::handed_out::{HandedOut, is_unwritten};
 use crate::machine::backup;
 use crate::machine::files;
@@ -24,10 +24,10 @@ pub use archive::archive_bytes;
 /// The name of the archive, in the workspace's root.
 const ARCHIVE: &str = "handin.zip";
 
-/// Makes the archive to hand in, checks it as the grader will, and says what it holds
+/// Packs the archive to hand in, checks it the way the grader will, and lists its contents
 ///
-/// Exit codes: 0 made; 1 made, but a file does not compile, or nothing is written yet; 2 invalid
-/// command line or folder; 3 the machine failed.
+/// Exit codes: 0 packed; 1 packed, but a file does not compile, or nothing has been written yet;
+/// 2 invalid command line or folder; 3 the machine failed.
 #[derive(Clone, Debug, Default, Parser)]
 #[command(name = "cargo handin", bin_name = "cargo handin", version)]
 pub struct HandInArguments {
@@ -55,7 +55,7 @@ pub struct HandIn {
     /// The compiler's errors and notes about files.
     build: BuildReport,
     /// The previous archive, if it contains work that the new one doesn't.
-    kept: Option<FormerArchive>,
+    kept: Option<PreviousArchive>,
 }
 
 impl HandIn {
@@ -68,7 +68,7 @@ impl HandIn {
             && Workspace::find()?.resolve(folder).is_file()
         {
             return Err(Error::User(format!(
-                "{} is a file: name the folder with the task files, such as `student`",
+                "{} is a file: pass the folder that contains the task files, such as `student`",
                 folder.display()
             )));
         }
@@ -77,18 +77,18 @@ impl HandIn {
             submission: folder,
             ..GradeOptions::default()
         };
-        let Prepared {
+        let PreparedSubmission {
             workspace,
             submission: original,
             ..
-        } = Prepared::new(&options)?;
+        } = PreparedSubmission::new(&options)?;
         let archive = match arguments.out {
             Some(path) => path,
             None => workspace.root().join(ARCHIVE),
         };
         if original.files.iter().all(|(_, text)| text.is_err()) {
             return Err(Error::User(format!(
-                "no task file in {} can be read: `cargo grade` says why",
+                "no task file in {} can be read: run `cargo grade` to see why",
                 original.name
             )));
         }
@@ -108,12 +108,12 @@ impl HandIn {
         })
     }
 
-    /// Returns whether some task has been started and everything compiles.
+    /// Returns whether at least one task has been started and everything compiles.
     pub fn is_ready(&self) -> bool {
         self.is_started() && self.build.not_compiled.is_empty()
     }
 
-    /// Returns whether a file differs from the one that was handed out.
+    /// Returns whether any file differs from the version that was handed out.
     fn is_started(&self) -> bool {
         let mut files = self.original.files.iter();
         files.any(|(file, text)| text.as_ref().is_ok_and(|text| !is_unwritten(file, text)))
@@ -122,17 +122,18 @@ impl HandIn {
 
 /// A copy of the previous archive.
 #[derive(Debug)]
-struct FormerArchive {
+struct PreviousArchive {
     /// The path of the copy.
     copy: PathBuf,
-    /// The task files with work in the old archive that are missing or unmodified in the new one.
+    /// The task files that contain work in the old archive but are missing or unmodified in the new
+    /// one.
     files: Vec<&'static str>,
 }
 
 /// Copies the archive at this path if it contains work in a file that is now missing or unmodified.
 /// Anything that cannot be read as an archive of the task files is simply replaced, since it
 /// doesn't contain work.
-fn keep_lost_work(archive: &Path, now: &Submission) -> Result<Option<FormerArchive>, Error> {
+fn keep_lost_work(archive: &Path, now: &Submission) -> Result<Option<PreviousArchive>, Error> {
     let Ok(former) = Submission::collect(archive, now.handed_out) else {
         return Ok(None);
     };
@@ -147,14 +148,14 @@ fn keep_lost_work(archive: &Path, now: &Submission) -> Result<Option<FormerArchi
         return Ok(None);
     }
     let copy = backup::keep(archive, &files::read(archive)?)?;
-    Ok(Some(FormerArchive { copy, files }))
+    Ok(Some(PreviousArchive { copy, files }))
 }
 
 /// Reads the archive as the grader will and compares it with the original.
 fn read_back(archive: &Path, original: &Submission, bytes: &[u8]) -> Result<Submission, Error> {
     let changed = || {
         Error::Machine(format!(
-            "{} changed while it was checked, or the disk is damaged: run `cargo handin` again",
+            "{} changed while it was being checked, or the disk is damaged: run `cargo handin` again",
             archive.display()
         ))
     };

@@ -10,7 +10,7 @@ use crate::machine::printing::counted;
 use crate::submission::TaskFileError;
 use crate::workspace::display_path;
 
-/// The maximum length of a compiler's message, in characters.
+/// The maximum length of a compiler message, in characters.
 const MAX_MESSAGE_CHARS: usize = 200;
 
 impl fmt::Display for HandIn {
@@ -33,13 +33,17 @@ impl fmt::Display for HandIn {
         if let Some(kept) = &self.kept {
             writeln!(
                 f,
-                "  note: the archive that was here had your work in {}. It is kept as {}.",
+                "  note: the previous archive contained your work in {}. A copy of that archive is \
+                 kept as {}.",
                 kept.files.join(", "),
                 display_path(&kept.copy)
             )?;
         }
         let given = given_files(self.original.handed_out);
-        writeln!(f, "  Nothing else is needed: {given} are given.")?;
+        writeln!(
+            f,
+            "  You don't need to hand in anything else: {given} are provided."
+        )?;
         writeln!(f, "\n  {}", self.next_step(&archive))
     }
 }
@@ -60,7 +64,7 @@ impl HandIn {
             return format!("does not compile: {first}{}", line.unwrap_or_default());
         }
         if is_unwritten(file, text) {
-            return "as handed out".to_owned();
+            return "unmodified".to_owned();
         }
         let lines = match own_lines(file, text).lines().count() {
             0 => "no lines of your own, but some were removed".to_owned(),
@@ -72,18 +76,18 @@ impl HandIn {
         }
     }
 
-    /// Returns what to do with the archive.
+    /// Returns the advice on how to continue with the archive.
     fn next_step(&self, archive: &str) -> String {
         if !self.is_started() {
-            return "Nothing is written yet: see handout/src/start.md.".to_owned();
+            return "You haven't written anything yet: see handout/src/start.md.".to_owned();
         }
         let upload = format!("{archive} where your course collects this assignment.");
         if self.build.not_compiled.is_empty() {
             format!("Upload {upload}")
         } else {
             format!(
-                "Correct these files (`cargo grade` shows why), and run `cargo handin` again.\n  \
-                 If you have no more time, the other files count: upload {upload}"
+                "Fix these files (`cargo grade` shows the errors), then run `cargo handin` \
+                 again.\n  If you are out of time, the other files still count: upload {upload}"
             )
         }
     }
@@ -96,7 +100,7 @@ fn line_with_todo(text: &str) -> Option<usize> {
     numbered.find_map(|(number, code)| code.contains("todo!(").then_some(number))
 }
 
-/// Returns the names of the given files as a list for a sentence.
+/// Returns the names of the given files as a list for use in a sentence.
 fn given_files(handed_out: &HandedOut) -> String {
     let names: Vec<&str> = handed_out.given.iter().map(|file| file.name).collect();
     format!("{} and {}", names.join(", "), handed_out.main.name)

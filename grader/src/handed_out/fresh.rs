@@ -1,4 +1,4 @@
-//! The methods of a submission, compared with the starter's.
+//! Compares the methods in a submission with the starter's.
 
 use judging::assignment::Task;
 
@@ -11,11 +11,11 @@ use super::{HandedOut, TaskFile, starter_methods};
 pub struct TaskMethod {
     /// The method's name, such as `Sphere::hit`.
     pub name: String,
-    /// The line of the method's name, counted from 1.
+    /// The number of the line with the method's name, counted from 1.
     pub line: u32,
-    /// Whether the method differs from the starter's in more than its format and comments.
+    /// Whether the method differs from the starter's in more than formatting and comments.
     pub is_changed: bool,
-    /// The file's text with the method replaced by the starter's.
+    /// The file's text with the method replaced by the starter's version.
     pub fresh_text: String,
 }
 
@@ -71,8 +71,8 @@ pub struct ChangedDeclaration {
     pub handed_out: String,
 }
 
-/// Returns the first declaration in a file that differs from the starter's in more than its format.
-/// Methods that aren't found are left to the compiler.
+/// Returns the first declaration in a file that differs from the starter's in more than formatting.
+/// Methods that aren't found are left for the compiler to report.
 pub fn changed_declaration(file: &TaskFile, text: &str) -> Option<ChangedDeclaration> {
     let own = methods(text).ok()?;
     starter_methods(file).into_iter().find_map(|given| {

@@ -1,5 +1,5 @@
-//! Finds a method in source code by its tokens, so that it can be replaced without touching anything
-//! else in the file.
+//! Finds a method in source code by its tokens, so that it can be replaced without touching
+//! anything else in the file.
 
 use std::mem;
 use std::ops::Range;
@@ -8,14 +8,15 @@ use ra_ap_rustc_lexer::{FrontmatterAllowed, Token, TokenKind, tokenize};
 
 use super::tokens::tokens;
 
-/// The reason given if a method cannot be found because a brace, bracket or parenthesis is missing
-/// or superfluous.
+/// The reason reported if a method cannot be found because a brace, bracket or parenthesis is
+/// missing or superfluous.
 const UNMATCHED_BRACES: &str = "its braces do not match";
 
 /// A method in an `impl` block at the top level of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MethodSpan<'a> {
-    /// The tokens between `impl` and the block's brace, separated by spaces, such as `Sphere`.
+    /// The tokens between `impl` and the block's opening brace, separated by spaces, such as
+    /// `Sphere`.
     pub implemented: String,
     /// The method's name.
     pub name: &'a str,
@@ -25,8 +26,8 @@ pub struct MethodSpan<'a> {
     pub bytes: Range<usize>,
 }
 
-/// Returns the method with this name in an `impl` block of the type `implemented`, or why it cannot be
-/// found.
+/// Returns the method with this name in an `impl` block of the type `implemented`, or the reason
+/// why it cannot be found.
 pub fn find_method<'a>(
     text: &'a str,
     implemented: &str,
@@ -37,7 +38,7 @@ pub fn find_method<'a>(
     match found.len() {
         0 => Err("it was renamed or removed"),
         1 => Ok(found.remove(0)),
-        _ => Err("there are several with this name"),
+        _ => Err("several methods have this name"),
     }
 }
 
@@ -70,9 +71,9 @@ struct Scan<'a> {
     text: &'a str,
     /// The expected closing delimiters, from the outermost to the innermost.
     open: Vec<&'static str>,
-    /// The end of the keyword `impl`, while reading its header.
+    /// The end of the keyword `impl`, while the block's header is being read.
     header: Option<usize>,
-    /// The header's tokens of the current `impl` block.
+    /// The tokens in the header of the current `impl` block.
     block: Option<String>,
     /// The start of the current item in the block, including its documentation.
     item: Option<usize>,
@@ -100,7 +101,7 @@ impl Scan<'_> {
             self.item.get_or_insert(bytes.start);
         }
         let is_after_fn = mem::take(&mut self.after_fn);
-        // The text is enough to tell tokens apart: a brace in a string or a character literal is
+        // A token's text is enough to recognise it: a brace in a string or a character literal is
         // part of a token with quotation marks.
         match word {
             "impl" if self.open.is_empty() => self.header = Some(bytes.end),
@@ -121,7 +122,8 @@ impl Scan<'_> {
                 if self.open.is_empty() && word == "}" {
                     self.block = None;
                 }
-                // An attribute ends with a bracket, a signature's arguments with a parenthesis.
+                // The other delimiters don't end an item: an attribute ends with a bracket, and a
+                // signature's arguments end with a parenthesis.
                 if self.open.len() <= 1 && word == "}" {
                     self.end_item(bytes.end);
                 }
@@ -174,7 +176,7 @@ mod tests {
 
     #[test]
     fn says_why_a_method_is_not_found() {
-        let [none, several, braces] = ["it was renamed", "there are several", "its braces"];
+        let [none, several, braces] = ["it was renamed", "several methods", "its braces"];
         for (text, error) in [
             ("impl Ball { fn hit_it() {} }", none),
             ("fn hit() {}", none),

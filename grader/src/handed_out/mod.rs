@@ -41,12 +41,13 @@ pub struct HandedOut {
     pub main: GivenFile,
     /// Source of a probe's `main` function, which is appended to the crate's root.
     pub entry: &'static str,
-    /// The folder of students' own work, relative to the workspace.
+    /// The folder where students do their own work, relative to the workspace.
     pub student: &'static str,
-    /// The folder of the starter embedded in this program, relative to the workspace.
+    /// The starter's folder, relative to the workspace. The starter's files are embedded in this
+    /// program.
     pub starter: &'static str,
-    /// The folder of the reference solution's files, relative to the workspace. Students don't have
-    /// it.
+    /// The folder with the reference solution's files, relative to the workspace. Students don't
+    /// have it.
     pub reference: &'static str,
     /// The files that can be graded with the reference's parts.
     pub substitutions: &'static [SubstitutedFile],
@@ -73,14 +74,14 @@ pub struct SubstitutedFile {
 }
 
 impl SubstitutedFile {
-    /// Returns the folder of sources that connect the file to the parts, relative to the parent of
-    /// the reference's `src`.
+    /// Returns the folder with the sources that connect the file to the parts. The path is relative
+    /// to the parent of the reference's `src`.
     pub fn folder(&self) -> String {
         format!("substitution/{}", self.file.trim_end_matches(".rs"))
     }
 }
 
-/// Returns whether the text of a task file is the starter's, token for token.
+/// Returns whether the text of a task file is the same as the starter's, token for token.
 pub fn is_unwritten(file: &TaskFile, text: &str) -> bool {
     tokens(text) == tokens(file.starter)
 }
@@ -102,7 +103,7 @@ impl HandedOut {
     ///
     /// # Errors
     ///
-    /// A message for the command line if there is none.
+    /// A message for the command line if there is no such assignment.
     pub fn find(id: &str) -> Result<&'static HandedOut, String> {
         let found = ASSIGNMENTS.into_iter().find(|it| it.assignment.id == id);
         found.ok_or_else(|| {
@@ -111,14 +112,14 @@ impl HandedOut {
         })
     }
 
-    /// Returns the folder of the assignment's solutions, relative to the workspace: the parent of
-    /// the reference's `src`.
+    /// Returns the folder with the assignment's solutions, which is the parent of the reference's
+    /// `src`. The path is relative to the workspace.
     pub fn solutions(&self) -> &'static str {
         self.reference.trim_end_matches("/src")
     }
 
-    /// Returns the names of the reference's files that make up the parts of a substituted file: all
-    /// files except the crate's root and the files that are compiled with the submission.
+    /// Returns the names of the reference's files that make up the parts for a substituted file:
+    /// all files except the crate's root and the files that are compiled with the submission.
     pub fn parts(&self, substituted: &SubstitutedFile) -> impl Iterator<Item = &'static str> {
         let given = self.given.iter().skip(1).map(|file| file.name);
         let all = self.file_names().chain(given);
@@ -142,7 +143,8 @@ impl HandedOut {
         self.files.iter().map(|file| file.name)
     }
 
-    /// Returns the names of the task files as a list for a sentence, such as `a.rs, b.rs and c.rs`.
+    /// Returns the names of the task files as a list for use in a sentence, such as `a.rs, b.rs and
+    /// c.rs`.
     pub fn file_list(&self) -> String {
         let names: Vec<&str> = self.file_names().collect();
         match names.split_last() {
@@ -152,8 +154,8 @@ impl HandedOut {
         }
     }
 
-    /// Returns the folders, relative to a submission's, where the assignment expects task files and
-    /// that contain some.
+    /// Returns the folders in which the assignment expects task files and which contain at least
+    /// one. The paths are relative to the submission's folder.
     pub fn folders_in(&self, submission: &Path) -> impl Iterator<Item = &'static str> {
         let has_task_file = move |below: &&str| {
             let folder = submission.join(below);
@@ -164,8 +166,8 @@ impl HandedOut {
         folders.filter(has_task_file)
     }
 
-    /// Returns the given methods of a task file that differ from the starter in `text`. They are
-    /// mentioned in a note.
+    /// Returns the given methods in a task file whose versions in `text` differ from the starter's.
+    /// A note mentions these methods.
     pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<ChangedMethod> {
         let text = tokens(text);
         let is_to_write = |task: &TaskInfo, name| task.file == file.name && task.method == name;

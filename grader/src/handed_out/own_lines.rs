@@ -3,10 +3,10 @@
 use crate::handed_out::TaskFile;
 use crate::handed_out::tokens::{tokens, without_comments};
 
-/// Returns the lines of a task file's text that aren't the starter's, without comments and empty
-/// lines. Two lines are equal if their tokens are. Only lines in the same order as in the starter
-/// are considered handed out, so that the braces of a student's own code are kept. A byte order
-/// mark, which some editors write, is ignored.
+/// Returns the lines in a task file's text that aren't the starter's, without comments and empty
+/// lines. Two lines are equal if their tokens are equal. Only lines in the same order as in the
+/// starter are considered handed out, so that the braces of a student's own code are kept. A byte
+/// order mark, which some editors write, is ignored.
 pub fn own_lines(file: &TaskFile, text: &str) -> String {
     let text = text.trim_start_matches('\u{feff}');
     let (text, starter) = (without_comments(text), without_comments(file.starter));
@@ -36,7 +36,8 @@ fn longest_common(lines: &[CodeLine], given: &[CodeLine]) -> Vec<bool> {
         let is_given = |line: &CodeLine| given.iter().any(|other| other.1 == line.1);
         return lines.iter().map(is_given).collect();
     }
-    // lengths[i][j] is the length for the lines from `i` on and the given lines from `j` on.
+    // lengths[i][j] is the length of the longest common subsequence of the lines from `i` on and
+    // the given lines from `j` on.
     let mut lengths = vec![vec![0u32; given.len() + 1]; lines.len() + 1];
     for i in (0..lines.len()).rev() {
         for j in (0..given.len()).rev() {

@@ -4,7 +4,7 @@ use judging::assignment;
 
 use super::{GivenFile, HandedOut, SubstitutedFile};
 
-/// Creates a given file of the starter embedded in this program.
+/// Creates a `GivenFile` from one of the starter's files and embeds its text in this program.
 macro_rules! given {
     ($name:literal) => {
         GivenFile {

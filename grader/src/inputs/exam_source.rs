@@ -1,4 +1,5 @@
-//! Reads examsfrom the practice exam embedded in this program, a file or standard input.
+//! Reads an exam: the practice exam embedded in this program, or an exam from a file or standard
+//! input.
 
 use std::borrow::Cow;
 use std::io::{self, Read};
@@ -14,12 +15,13 @@ use crate::machine::files::{self, AtPath};
 /// Maximum size of an exam file, in bytes. The committed exams are about 3,000,000 bytes long.
 const MAX_FILE_BYTES: u64 = 64 << 20;
 
-/// The id of the practice exam, which students have with its answer keys and can run themselves.
+/// The id of the practice exam, which students have, including its answer keys, and can run
+/// themselves.
 pub const PRACTICE_ID: &str = "practice";
 /// The name of the practice exam's file, for error messages.
 const PRACTICE_FILE: &str = "practice.json";
 
-/// The failed action if the file cannot be read, for error messages.
+/// The action that error messages name if the exam cannot be read.
 const ACTION: &str = "read the exam";
 
 /// The source of an exam.
@@ -55,7 +57,7 @@ impl ExamSource {
     }
 
     /// Returns the assignment named on the command line or, failing that, the assignment of the
-    /// exam file. If there is neither or the file's assignment is unknown, returns the default
+    /// exam file. If there is neither, or if the file's assignment is unknown, returns the default
     /// assignment.
     pub fn assignment(&self, option: Option<&'static HandedOut>) -> &'static HandedOut {
         let of_file = || {

@@ -1,4 +1,4 @@
-//! The inputs of a command, besides the submission and the policy, as people write them.
+//! The inputs that users pass to a command, except the submission and the policy.
 
 pub mod exam_source;
 pub mod nearest_name;

@@ -1,7 +1,8 @@
-//! The tasks to grade, as people write them.
+//! The tasks to grade, as selected by users.
 
 use judging::assignment::{Assignment, Task, TaskInfo};
 
+use crate::handed_out::HandedOut;
 use crate::inputs::nearest_name::suggestion;
 
 /// The tasks to grade.
@@ -15,17 +16,18 @@ pub enum TaskSelection {
 }
 
 impl TaskSelection {
-    /// Selects tasks by name: a task's id, or a file's name with or without `.rs`, which selects
-    /// all tasks in it. Names are case-insensitive. Several names are separated by commas.
+    /// Selects tasks by name. A name is a task's id, or a file's name with or without `.rs`, which
+    /// selects all tasks in that file. Names are case-insensitive. Several names are separated by
+    /// commas.
     ///
     /// # Errors
     ///
     /// A message for the command line if a name is unknown.
     pub fn parse(text: &str, assignment: &Assignment) -> Result<Self, String> {
-        let named = NamedTasks::parse_list(text, assignment)?;
+        let named = TaskOrFile::parse_list(text, assignment)?;
         let tasks = named.into_iter().flat_map(|named| match named {
-            NamedTasks::Task(task) => vec![task],
-            NamedTasks::File(file) => assignment.tasks_in(file).collect(),
+            TaskOrFile::Task(task) => vec![task],
+            TaskOrFile::File(file) => assignment.tasks_in(file).collect(),
         });
         Ok(TaskSelection::Only(tasks.collect()))
     }
@@ -44,16 +46,17 @@ impl TaskSelection {
     }
 }
 
-/// A task, or all tasks of a file, as people write them.
+/// A task or a file, as named by users.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NamedTasks {
+pub enum TaskOrFile {
     /// The task with this id.
     Task(Task),
-    /// All tasks in the file with this name.
+    /// The file with this name. It stands for all tasks in the file. If it is to be reset, it may
+    /// also be a given file.
     File(&'static str),
 }
 
-impl NamedTasks {
+impl TaskOrFile {
     /// Returns the tasks with these names, separated by commas. See [`TaskSelection::parse`].
     ///
     /// # Errors
@@ -64,15 +67,36 @@ impl NamedTasks {
         names.map(|name| Self::parse(name, assignment)).collect()
     }
 
+    /// Returns the tasks and files with these names, separated by commas, like
+    /// [`TaskOrFile::parse_list`]. The files may also be given files, such as `world.rs`.
+    ///
+    /// # Errors
+    ///
+    /// A message for the command line if a name is unknown.
+    pub fn parse_with_given_files(
+        text: &str,
+        handed_out: &'static HandedOut,
+    ) -> Result<Vec<Self>, String> {
+        let given = || handed_out.given.iter().chain([&handed_out.main]);
+        let named = |name: &str| {
+            let is = |known: &str| known.eq_ignore_ascii_case(name);
+            match given().find(|file| is(file.name) || is(file.name.trim_end_matches(".rs"))) {
+                Some(file) => Ok(TaskOrFile::File(file.name)),
+                None => Self::parse(name, handed_out.assignment),
+            }
+        };
+        text.split(',').map(str::trim).map(named).collect()
+    }
+
     /// Returns the task with this id or, failing that, the file with this name.
     fn parse(name: &str, assignment: &Assignment) -> Result<Self, String> {
         let is = |known: &str| known.eq_ignore_ascii_case(name);
         let tasks = || assignment.tasks.iter();
         if let Some(task) = tasks().find(|task| is(task.id)) {
-            return Ok(NamedTasks::Task(task.task()));
+            return Ok(TaskOrFile::Task(task.task()));
         }
         if let Some(task) = tasks().find(|task| is(task.file) || is(stem(task))) {
-            return Ok(NamedTasks::File(task.file));
+            return Ok(TaskOrFile::File(task.file));
         }
         let names = tasks().flat_map(|task| [task.id, stem(task)]);
         Err(format!(

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::machine::files::{AtPath, PathError};
 
-/// Writes a copy next to the file, with the first free number, such as `bvh.rs.bak-1`. Returns its
-/// path. Never replaces a file or follows a link.
+/// Writes a copy next to the file and returns the copy's path. The copy's name ends with the first
+/// free number, e.g. `bvh.rs.bak-1`. Never replaces a file or follows a link.
 pub(crate) fn keep(path: &Path, bytes: &[u8]) -> Result<PathBuf, PathError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut number = 1u32;

@@ -1,5 +1,5 @@
-//! Captures what a process prints, without waiting for the pipe to be closed: a child of the
-//! process may keep it open forever.
+//! Captures what a process prints, without waiting for the pipe to be closed, because a child of
+//! the process may keep it open forever.
 
 use std::io::Read;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

@@ -17,7 +17,7 @@ pub fn show(file: &Path) {
 ///
 /// # Errors
 ///
-/// The reason, as a message: there is no desktop, or no program for this type of file.
+/// Returns the reason as a message: there is either no desktop or no program for this type of file.
 pub fn open(file: &Path) -> Result<(), String> {
     if !has_desktop() {
         return Err("no desktop session is available".to_owned());
@@ -27,8 +27,8 @@ pub fn open(file: &Path) -> Result<(), String> {
 }
 
 /// Returns whether there is a desktop session. Windows and macOS always have one. On other systems
-/// there may be none, e.g. over a plain ssh connection. The program would then start and fail
-/// without the user noticing.
+/// there may be none, e.g. over a plain ssh connection. Without one, the program would start and
+/// fail without the user noticing.
 fn has_desktop() -> bool {
     let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(any(windows, target_os = "macos"))

@@ -1,7 +1,7 @@
 //! The interface between the grader and the disk. An installed [`Disk`] is called before every
-//! operation on the files of submissions, reports and classes and can make it fail. Tests install
-//! disks that are full, or that fail every operation from some point on, as if the process had been
-//! killed. Outside tests, none is installed.
+//! operation on the files of submissions, reports and classes, and can make the operation fail.
+//! Tests install disks that are full, or that fail every operation from some point on, as if the
+//! process had been killed. Outside tests, none is installed.
 //!
 //! It isn't called for the files of the compiler, its sandbox and the probes. They are separate
 //! processes, so tests make the processes fail instead.
@@ -39,8 +39,8 @@ pub trait Disk: Send + Sync {
 
 static INSTALLED: OnceLock<&'static dyn Disk> = OnceLock::new();
 
-/// Installs a disk for the rest of this process. Returns whether it is the first one. Later ones
-/// have no effect.
+/// Installs a disk for the rest of this process. Returns whether it is the first one. Any later
+/// ones have no effect.
 pub fn install(disk: &'static dyn Disk) -> bool {
     INSTALLED.set(disk).is_ok()
 }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use crate::machine::disk::{self, Operation};
 
-/// The error if a file, a folder or a program cannot be used.
+/// The error returned when a file, a folder or a program cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {action} {path}: {}", self.reason())]
 pub struct PathError {
@@ -24,7 +24,7 @@ pub struct PathError {
 
 /// Adds a path to the error of a system call.
 pub trait AtPath<T> {
-    /// Adds the path, and the words between "cannot" and the path.
+    /// Adds the path, and the words to put between "cannot" and the path.
     fn at(self, action: &'static str, path: impl AsRef<Path>) -> Result<T, PathError>;
 }
 
@@ -68,8 +68,8 @@ impl PathError {
 }
 
 /// Returns whether a read error is about the file itself: it is gone, or its permissions deny
-/// reading. Other errors, such as those of a network drive, are the machine's and must not cost a
-/// submission points.
+/// reading. Other errors, such as those of a network drive, are the machine's fault, and no
+/// submission may lose points because of them.
 pub fn is_about_file(error: &io::Error) -> bool {
     matches!(
         error.kind(),
@@ -146,7 +146,7 @@ pub fn write_with_parents(
     write(path, contents)
 }
 
-/// Copies a file with its permissions.
+/// Copies a file and its permissions.
 pub fn copy(from: impl AsRef<Path>, to: impl AsRef<Path>) -> Result<(), PathError> {
     // The error of `fs::copy` doesn't say which of the two paths is at fault.
     File::open(&from).at("read", &from)?;

@@ -1,15 +1,15 @@
-//! Prints to standard output and standard error. All programs print here, because a CI system
-//! executes commands that it finds in a log, and logs contain students' names and texts.
+//! Prints to standard output and standard error. All programs print through this module, because a
+//! CI system executes commands that it finds in a log, and logs contain students' names and texts.
 //!
-//! These are commands: `::name …::` at the start of a line on GitHub, `##[name …]` anywhere in a
-//! line on GitHub and Azure, `##vso[name …]` on Azure, `##teamcity[name …]` on TeamCity.
+//! The commands are `::name …::` at the start of a line on GitHub, `##[name …]` anywhere in a line
+//! on GitHub and Azure, `##vso[name …]` on Azure, and `##teamcity[name …]` on TeamCity.
 
 use std::fmt::Display;
 
 use console::AnsiCodeIterator;
 use judging::sanitize::sanitize;
 
-/// Prints a text to standard output.
+/// Prints text to standard output.
 pub fn print(text: impl Display) {
     anstream::print!("{}", without_commands(&text.to_string()));
 }
@@ -35,7 +35,7 @@ pub fn print_commands(commands: &str) {
     anstream::print!("{commands}");
 }
 
-/// Returns a number of things, such as `1 file` or `3 files`.
+/// Returns a count and the thing counted, such as `1 file` or `3 files`.
 pub fn counted(count: usize, thing: &str) -> String {
     match count {
         1 => format!("1 {thing}"),
@@ -43,7 +43,7 @@ pub fn counted(count: usize, thing: &str) -> String {
     }
 }
 
-/// Wraps a text into lines of at most this many characters, unless a single word is longer.
+/// Wraps text into lines of at most this many characters, unless a single word is longer.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     for paragraph in text.lines() {
@@ -63,7 +63,7 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Prints the help that the command line asks for, or the error in it, and exits.
+/// Prints the help that the command line asks for, or the error in the command line, and exits.
 #[expect(clippy::exit, reason = "clap exits in the same way")]
 pub fn exit_with(error: &clap::Error) -> ! {
     let text = error.render().ansi().to_string();
@@ -75,15 +75,15 @@ pub fn exit_with(error: &clap::Error) -> ! {
     std::process::exit(error.exit_code())
 }
 
-/// Returns the text with a backslash inserted in everything a CI system would execute. A shell
-/// ignores the backslash, so paths can still be copied. The text may contain colours, which may be
-/// removed later.
+/// Returns the text with a backslash inserted into everything that a CI system would execute. A
+/// shell ignores the backslash, so paths can still be copied. The text may contain colours, which
+/// may be removed later.
 pub fn without_commands(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     // The number of colons in the line so far, or `None` if it contains anything else.
     let mut colons = Some(0);
-    // The number of number signs just before this character, up to 2. Letters may follow the
-    // second.
+    // The number of `#` characters just before this character, up to 2. There may be letters after
+    // the second one.
     let mut number_signs = 0;
     for (piece, is_colour) in AnsiCodeIterator::new(text) {
         if is_colour {

@@ -1,5 +1,6 @@
 //! Decides whether the machine is the reason for a failure. The failed operation is repeated while
-//! this process runs nothing else, and then compared with one of the grader's own programs.
+//! this process runs nothing else, and then attempted with one of the grader's own programs for
+//! comparison.
 
 use std::io;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
@@ -45,7 +46,7 @@ fn alone() -> RwLockWriteGuard<'static, ()> {
 mod tests {
     use super::*;
 
-    /// Calls `decide` with attempts that are doubtful or not, in this order.
+    /// Calls `decide`. `doubtful` says for each attempt, in order, whether its outcome is doubtful.
     fn decided(doubtful: &[bool], control: io::Result<()>) -> io::Result<usize> {
         let mut attempts = 0;
         let attempt = || {

@@ -25,14 +25,14 @@ impl Policy {
         }
     }
 
-    /// Returns a name that doesn't fit these items and the problem with it.
+    /// Returns a name that doesn't fit these items, and the problem with it.
     fn name_problem(&self, items: &[&str]) -> Option<(&str, String)> {
         let mut tasks: Vec<&str> = items.iter().map(|item| task_of(item)).collect();
         tasks.dedup();
         let both = || items.iter().chain(&tasks).copied();
         let unknown = |name: &String, thing: &str, known: Vec<&str>| {
             let nearest = suggestion(name, known);
-            format!("the exam has no {thing} `{name}`{nearest}: correct it or remove it")
+            format!("the exam has no {thing} `{name}`{nearest}: correct the name or remove it")
         };
         let shown = self.visibility.items.keys().map(|name| {
             let is_known = both().any(|known| known == name);
@@ -42,7 +42,7 @@ impl Policy {
         let void = self.points.void.iter().map(|name| {
             let problem = if tasks.contains(&name.as_str()) {
                 Some(format!(
-                    "`{name}` is a task: name its items, or write `{name} = 0` under [points.tasks]"
+                    "`{name}` is a task: list its items, or write `{name} = 0` under [points.tasks]"
                 ))
             } else {
                 let is_known = items.contains(&name.as_str());
@@ -61,14 +61,14 @@ impl Policy {
             !self.points.is_void(item) && self.points.tasks.get(task_of(item)) != Some(&0)
         };
         let nothing = || {
-            let problem = "no item is left that counts: leave one in";
+            let problem = "no items would be left: keep at least one";
             ("void", problem.to_owned())
         };
         problem.or_else(|| (!items.is_empty() && !items.iter().any(counts)).then(nothing))
     }
 }
 
-/// Returns the task of an item's id.
+/// Returns the task named in an item's id.
 fn task_of(item: &str) -> &str {
     item.split('.').next().unwrap_or(item)
 }

@@ -1,5 +1,5 @@
-//! The points that final points are computed from: the exam's, without the items that the policy
-//! removes, and with the policy's points for tasks.
+//! The points that final points are computed from. They are the exam's points after the policy has
+//! removed items and changed the points for tasks.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +17,7 @@ pub struct TaskPoints<'a> {
     pub max_points: u32,
     /// The points that staff added or deducted manually.
     pub manual: i32,
-    /// The items, each after those that it depends on.
+    /// The items. Each one comes after the items that it depends on.
     pub items: Vec<ItemPoints<'a>>,
 }
 
@@ -38,11 +38,11 @@ pub struct ItemPoints<'a> {
 pub(super) struct Basis {
     /// The numerator of the share.
     pub earned: u128,
-    /// The denominator of the share: the same points for a perfect submission.
+    /// The denominator of the share. It equals the numerator for a perfect submission.
     pub all: u128,
-    /// The maximum in the course, unless the policy sets its own.
+    /// The maximum number of points in the course, unless the policy sets its own.
     pub out_of: u32,
-    /// Sentences without a full stop about the differences from the exam.
+    /// Sentences about the differences from the exam, without full stops.
     pub changes: Vec<String>,
 }
 
@@ -74,7 +74,7 @@ impl PointsPolicy {
         }
     }
 
-    /// Returns the share of a task without the items in `out`, or `None` if no items are left.
+    /// Returns a task's share without the items in `out`, or `None` if no items are left.
     fn share(&self, task: &TaskPoints, out: &BTreeSet<&str>) -> Option<Share> {
         let items = task.items.iter().filter(|item| out.contains(item.id));
         let sum = |points: fn(&ItemPoints) -> u32| items.clone().map(points).sum::<u32>();
@@ -116,7 +116,8 @@ impl PointsPolicy {
         self.void.iter().any(|void| void == item)
     }
 
-    /// Returns the maximum of a task in the course, which is the same for everybody.
+    /// Returns the maximum number of points for a task in the course, which is the same for
+    /// everybody.
     fn course_points(&self, task: &TaskPoints) -> u32 {
         let void = task.items.iter().filter(|item| self.is_void(item.id));
         let void: u32 = void.map(|item| item.max_points).sum();
@@ -134,9 +135,9 @@ impl PointsPolicy {
         for task in tasks {
             match self.tasks.get(task.id) {
                 Some(own) if *own == task.max_points => {}
-                Some(0) => changes.push(format!("{} does not count", task.id)),
+                Some(0) => changes.push(format!("{} doesn't count", task.id)),
                 Some(own) => changes.push(format!(
-                    "{} counts {own} instead of {}",
+                    "{} is worth {own} instead of {}",
                     task.id,
                     counted(task.max_points as usize, "point")
                 )),
@@ -144,12 +145,15 @@ impl PointsPolicy {
             }
         }
         let (result, blocked_result) = match self.void_points {
-            VoidPoints::Shrink => ("", "the other items count for it"),
+            VoidPoints::Shrink => ("", "the other items make up for it"),
             VoidPoints::Scale => (
-                ", and the other items count for it",
-                "the other items count for it",
+                ", and the other items make up for it",
+                "the other items make up for it",
             ),
-            VoidPoints::Give => (", and everybody gets its points", "its points are given"),
+            VoidPoints::Give => (
+                ", and everybody gets the points for it",
+                "its points are awarded",
+            ),
         };
         let items = tasks.iter().flat_map(|task| &task.items);
         for item in items.filter(|item| out.contains(item.id)) {
@@ -162,7 +166,7 @@ impl PointsPolicy {
                 Some(by) if !self.is_void(item.id) => {
                     format!("{who} could not be graded because of {by}, so {blocked_result}")
                 }
-                Some(_) | None => format!("{who} was taken out of the exam{result}"),
+                Some(_) | None => format!("{who} was removed from the exam{result}"),
             });
         }
         changes
@@ -181,7 +185,7 @@ fn lcm(one: i128, other: i128) -> i128 {
 #[cfg(test)]
 mod tests {
     use super::{ItemPoints, TaskPoints};
-    use crate::policy::{CountedPoints, Lateness, Policy};
+    use crate::policy::{FinalPoints, Lateness, Policy};
 
     fn item(id: &'static str, points: u32, max_points: u32) -> ItemPoints<'static> {
         ItemPoints {
@@ -192,8 +196,9 @@ mod tests {
         }
     }
 
-    /// An exam of 30 points: 7 of 10 for building and 4 of 20 for traversal. There, an item of 5
-    /// points is blocked by `build.town`, and that item blocks an item of 1 point.
+    /// Returns an exam worth 30 points. The submission earned 7 of 10 points for building and 4 of
+    /// 20 for traversal. In the traversal task, an item worth 5 points is blocked by `build.town`
+    /// and in turn blocks an item worth 1 point.
     fn tasks() -> [TaskPoints<'static>; 2] {
         let blocked = |id, max_points, by| ItemPoints {
             blocked_by: Some(by),
@@ -215,7 +220,7 @@ mod tests {
         [task("build", 0, build), task("traverse", 0, traverse)]
     }
 
-    fn count(policy: &str, tasks: &[TaskPoints]) -> CountedPoints {
+    fn count(policy: &str, tasks: &[TaskPoints]) -> FinalPoints {
         let policy = format!("[points]\n{policy}");
         let policy = Policy::from_text("policy.toml".as_ref(), &policy).unwrap();
         policy.count(tasks, Lateness::NONE)

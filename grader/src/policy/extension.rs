@@ -6,14 +6,14 @@ use serde::{Deserialize, Deserializer};
 use toml::Value;
 
 use crate::policy::lateness::after_days;
-use crate::policy::written_time::{
+use crate::policy::time_parser::{
     MOST_DAYS, TimeError, are_far_apart, has_plausible_year, read_time,
 };
 
 /// A later due time for a person or a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extension {
-    /// This number of days after everybody's due time.
+    /// This many days after the due time that applies to everybody.
     Days(u16),
     /// An individual due time.
     Until(Timestamp),
@@ -29,8 +29,8 @@ impl Extension {
         }
     }
 
-    /// Returns the due time with this extension. It is never before everybody's due time. With a time
-    /// zone, days are calendar days in that zone.
+    /// Returns the due time with this extension. The result is never earlier than everybody's due
+    /// time. With a time zone, days are calendar days in that zone.
     pub fn apply(self, due: Timestamp, zone: Option<&TimeZone>) -> Timestamp {
         match self {
             Extension::Days(days) => after_days(due, days.into(), zone),
@@ -38,8 +38,8 @@ impl Extension {
         }
     }
 
-    /// Returns whether the extension is so long, or so long before the due time, that it must be a
-    /// mistake.
+    /// Returns whether the extension is so long, or ends so long before the due time, that it must
+    /// be a mistake.
     pub fn is_far_from(self, due: Option<Timestamp>) -> bool {
         match self {
             Extension::Days(days) => i64::from(days) > MOST_DAYS,
@@ -65,7 +65,7 @@ impl<'de> Deserialize<'de> for Extension {
         };
         extension.ok_or_else(|| {
             serde::de::Error::custom(
-                "must be a number of days, or a date and time with an offset, such as \
+                "must be a whole number of days, or a date and time with an offset, such as \
                  2026-11-25T23:59:59+01:00",
             )
         })
@@ -111,7 +111,7 @@ mod tests {
         ] {
             let text = format!("[late.extensions]\nann = {bad}");
             let error = toml::from_str::<Policy>(&text).unwrap_err().to_string();
-            assert!(error.contains("a number of days, or"), "{error}");
+            assert!(error.contains("a whole number of days, or"), "{error}");
         }
     }
 
@@ -131,7 +131,7 @@ mod tests {
         let until = |text: &str| Extension::Until(text.parse().unwrap());
         for (extension, due, is_far) in [
             (Extension::Days(183), None, false),
-            // Spreadsheets write a date as the number of days since 1899.
+            // Spreadsheets represent a date as the number of days since 1899.
             (Extension::Days(46318), None, true),
             (until("2025-10-25T23:59:00Z"), due, true),
             (until("2027-10-25T23:59:00Z"), due, true),

@@ -2,22 +2,17 @@
 
 use jiff::Timestamp;
 
-use crate::policy::counted::{CountedPoints, Deduction};
+use crate::policy::final_points::{Deduction, FinalPoints};
 use crate::policy::{Extension, LatePolicy, Lateness, PercentBase, Policy, Rounding, TaskPoints};
 
 impl Policy {
-    /// Returns the final points for `points` of `max_points`: scaled, reduced for lateness, capped
-    /// and rounded.
-    pub fn counted_points(
-        &self,
-        points: u32,
-        max_points: u32,
-        lateness: Lateness,
-    ) -> CountedPoints {
+    /// Returns the final points for `points` out of `max_points`. They are scaled, reduced for
+    /// lateness, capped and rounded.
+    pub fn final_points(&self, points: u32, max_points: u32, lateness: Lateness) -> FinalPoints {
         self.counted_points_with(points, max_points, 0, lateness)
     }
 
-    /// Returns the final points like [`counted_points`](Self::counted_points). Points that staff
+    /// Returns the final points like [`final_points`](Self::final_points). Points that staff
     /// gave manually are added before anything else.
     pub fn counted_points_with(
         &self,
@@ -25,7 +20,7 @@ impl Policy {
         max_points: u32,
         manual: i32,
         lateness: Lateness,
-    ) -> CountedPoints {
+    ) -> FinalPoints {
         let whole_exam = TaskPoints {
             id: "",
             points: points.min(max_points),
@@ -36,14 +31,14 @@ impl Policy {
         self.count(&[whole_exam], lateness)
     }
 
-    /// Returns the final points for these tasks. First, items are removed and tasks reweighted,
-    /// including points that staff gave manually. Then lateness is considered.
-    pub fn count(&self, tasks: &[TaskPoints], lateness: Lateness) -> CountedPoints {
+    /// Returns the final points for these tasks. First, items are removed and tasks are reweighted,
+    /// together with the points that staff gave manually. Then lateness is considered.
+    pub fn count(&self, tasks: &[TaskPoints], lateness: Lateness) -> FinalPoints {
         let basis = self.points.basis(tasks);
         let out_of = self.points.out_of.unwrap_or(basis.out_of);
         let late_days = self.late.late_days(lateness);
         let (fraction, deduction) = self.late.apply(basis.earned, basis.all, late_days);
-        CountedPoints {
+        FinalPoints {
             points: fraction.of(out_of, self.points.rounding),
             max_points: out_of,
             earned: tasks.iter().map(|task| task.points).sum(),
@@ -55,14 +50,15 @@ impl Policy {
         }
     }
 
-    /// Returns how late a submission from the time `submitted` is with these extensions, or `None`
-    /// if the policy doesn't set a due time.
+    /// Returns the lateness of a submission that was handed in at `submitted` and has these
+    /// extensions. Returns `None` if the policy doesn't set a due time.
     pub fn lateness(&self, submitted: Timestamp, extensions: &[Extension]) -> Option<Lateness> {
         let due = self.extended_due(extensions)?;
         Some(Lateness::since(due, submitted, self.late.timezone.as_ref()))
     }
 
-    /// Returns the due time with these extensions, or `None` if the policy doesn't set one.
+    /// Returns the due time after applying these extensions, or `None` if the policy doesn't set
+    /// one.
     pub fn extended_due(&self, extensions: &[Extension]) -> Option<Timestamp> {
         Some(self.late.extended(self.late.due?, extensions))
     }
@@ -82,7 +78,7 @@ impl Policy {
 }
 
 impl LatePolicy {
-    /// Returns a due time with the latest of these extensions.
+    /// Returns a due time after applying the latest of these extensions.
     pub(super) fn extended(&self, due: Timestamp, extensions: &[Extension]) -> Timestamp {
         let extensions = extensions.iter();
         let extended = extensions.map(|extension| extension.apply(due, self.timezone.as_ref()));
@@ -98,7 +94,7 @@ impl LatePolicy {
         }
     }
 
-    /// Returns the share of the final points, and the consequence of being late.
+    /// Returns the share of the maximum points that is awarded, and the consequence of being late.
     fn apply(&self, points: u128, max_points: u128, late_days: u32) -> (Fraction, Deduction) {
         // Points are in hundredths here so that percentages of them are integers.
         let (points, all) = (points * 100, max_points * 100);
@@ -198,7 +194,7 @@ mod tests {
             (free.clone(), 100, 48, 100),
             (free, 100, 49, 50),
         ] {
-            let found = policy(&text).counted_points(points, 100, hours(hours_late));
+            let found = policy(&text).final_points(points, 100, hours(hours_late));
             assert_eq!(found.points, counted, "{text}");
         }
     }
@@ -208,7 +204,7 @@ mod tests {
         let policy = policy("[late]\nfree_days = 5\nclosed_after_days = 2");
         let closed = Deduction::Closed { after_days: 2 };
         for (late, expected) in [(48, (70, Deduction::FreeDays, 2)), (49, (0, closed, 3))] {
-            let found = policy.counted_points(70, 100, hours(late));
+            let found = policy.final_points(70, 100, hours(late));
             assert_eq!((found.points, found.deduction, found.late_days), expected);
         }
     }
@@ -223,7 +219,7 @@ mod tests {
             (0, 0, 0, 0),
         ] {
             let counted = Policy::default().counted_points_with(points, of, manual, Lateness::NONE);
-            let CountedPoints {
+            let FinalPoints {
                 earned,
                 manual: by_hand,
                 points: found,
@@ -267,7 +263,7 @@ mod tests {
                 percent,
             ),
         ] {
-            let found = policy(text).counted_points(100, 100, hours(late));
+            let found = policy(text).final_points(100, 100, hours(late));
             assert_eq!(found.deduction, deduction, "{text}");
         }
     }

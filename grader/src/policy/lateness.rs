@@ -28,8 +28,8 @@ impl Lateness {
         Lateness { seconds, days }
     }
 
-    /// Returns how long after `due` a submission was made, in full seconds. With a time zone, days
-    /// are its calendar days, some of which have 23 or 25 hours.
+    /// Returns the time from `due` to the submission, in full seconds. With a time zone, days are
+    /// calendar days in that zone, some of which have 23 or 25 hours.
     pub(super) fn since(due: Timestamp, submitted: Timestamp, zone: Option<&TimeZone>) -> Self {
         let seconds = u64::try_from(submitted.duration_since(due).as_secs()).unwrap_or(0);
         let by_hours = Lateness::of_seconds(seconds);
@@ -45,7 +45,8 @@ impl Lateness {
 }
 
 /// Returns the same time of day this number of days later. If clocks skip that time, a later one is
-/// returned. If they show it twice, the second one is returned. Both are better for students.
+/// returned. If they show it twice, the second one is returned. Both choices are in the student's
+/// favour.
 pub(super) fn after_days(due: Timestamp, days: i64, zone: Option<&TimeZone>) -> Timestamp {
     if days == 0 {
         return due;
@@ -66,7 +67,7 @@ mod tests {
         let days = |zone: &str, due: &str, submitted: &str| {
             let policy: Policy = toml::from_str(&format!("[late]\ndue = {due}\n{zone}")).unwrap();
             let lateness = policy.lateness(submitted.parse().unwrap(), &[]).unwrap();
-            policy.counted_points(1, 1, lateness).late_days
+            policy.final_points(1, 1, lateness).late_days
         };
         let berlin = "timezone = 'Europe/Berlin'";
         // Winter time begins on 25 October at 3:00, so this day has 25 hours.
@@ -80,7 +81,8 @@ mod tests {
         assert_eq!(days(berlin, due, "2027-03-28T23:59:00+02:00"), 1);
         assert_eq!(days(berlin, due, "2027-03-28T23:59:01+02:00"), 2);
         assert_eq!(days("", due, "2027-03-28T23:59:01+02:00"), 1);
-        // Clocks skip 2:30 on this day and show it twice on the other.
+        // Clocks skip 2:30 on the day after the first due time and show it twice on the day after
+        // the second.
         let due = "2027-03-27T02:30:00+01:00";
         assert_eq!(days(berlin, due, "2027-03-28T03:30:00+02:00"), 1);
         assert_eq!(days(berlin, due, "2027-03-28T03:30:01+02:00"), 2);

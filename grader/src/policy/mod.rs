@@ -1,18 +1,18 @@
-//! A course's policy: how final points are computed, the cost of lateness, and what students see.
+//! A course's policy: how final points are computed, what lateness costs, and what students see.
 //!
 //! A policy never changes a score. `score.json` contains the points of a submission regardless of
 //! its time. The final points are computed from them.
 
-mod counted;
 mod exam_names;
 mod exam_points;
 mod extension;
+mod final_points;
 mod late;
 mod lateness;
 mod read;
 mod submission_time;
+mod time_parser;
 mod visibility;
-mod written_time;
 
 use std::collections::BTreeMap;
 
@@ -20,15 +20,15 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 use serde::Deserialize;
 
-pub use counted::{CountedPoints, Deduction};
 pub use exam_points::{ItemPoints, TaskPoints};
 pub use extension::Extension;
+pub use final_points::{Deduction, FinalPoints};
 pub use lateness::Lateness;
 pub use submission_time::SubmissionTime;
+pub use time_parser::{TimeError, are_far_apart, read_time};
 pub use visibility::Visibility;
-pub use written_time::{TimeError, are_far_apart, read_time};
 
-/// The default policy, as a file with comments on every key.
+/// The default policy, as a file with a comment on every key.
 pub const DEFAULT: &str = include_str!("default.toml");
 
 /// A course's policy. `default.toml` explains every key.
@@ -39,7 +39,7 @@ pub struct Policy {
     pub points: PointsPolicy,
     /// Deductions for late submissions.
     pub late: LatePolicy,
-    /// The choice among several submissions of one person.
+    /// The choice among several submissions by one person.
     pub attempts: AttemptsPolicy,
     /// Visibility of results.
     pub visibility: VisibilityPolicy,
@@ -53,16 +53,16 @@ pub struct PointsPolicy {
     pub out_of: Option<u32>,
     /// Rounding of the final points.
     pub rounding: Rounding,
-    /// The ids of items that are removed from the exam after it was graded.
+    /// The ids of items that are removed from the exam after it has been graded.
     pub void: Vec<String>,
-    /// The consequence for the points of these items.
+    /// How the points of these items are treated.
     pub void_points: VoidPoints,
-    /// Points of tasks that differ from the exam's, by the task's id. A task with 0 points is left
-    /// out.
+    /// Points for the tasks whose points differ from the exam's, keyed by the task's id. A task
+    /// with 0 points is left out.
     pub tasks: BTreeMap<String, u32>,
 }
 
-/// The consequence of removing items for their points.
+/// How the points of removed items are treated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VoidPoints {
@@ -95,7 +95,7 @@ pub struct LatePolicy {
     /// The due time. If it isn't set, the platform's due time is used.
     #[serde(deserialize_with = "read::due_time")]
     pub due: Option<Timestamp>,
-    /// The time zone of days and of times without an offset from UTC.
+    /// The time zone for counting days and for times without an offset from UTC.
     #[serde(deserialize_with = "read::time_zone")]
     pub timezone: Option<TimeZone>,
     /// Grace period after the due time, in minutes.
@@ -110,11 +110,11 @@ pub struct LatePolicy {
     pub most_percent: u32,
     /// Number of days after which a submission gets no points, or `None` if there is no such limit.
     pub closed_after_days: Option<u32>,
-    /// Later due times, by a name or identifier of a person, or by the name of a group.
+    /// Later due times, keyed by a person's name or identifier, or by a group's name.
     pub extensions: BTreeMap<String, Extension>,
 }
 
-/// The choice among several submissions of one person.
+/// The choice among several submissions by one person.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttemptsPolicy {
@@ -139,7 +139,7 @@ pub enum AttemptRule {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PercentBase {
-    /// The submission's own points.
+    /// The points that the submission earned.
     #[default]
     Earned,
     /// The points of a perfect submission.
@@ -155,7 +155,7 @@ pub struct VisibilityPolicy {
     /// Visibility of all other exams.
     #[serde(rename = "final")]
     pub other_exams: Visibility,
-    /// Exceptions for individual tasks or items, by id.
+    /// Exceptions for individual tasks or items, keyed by id.
     pub items: BTreeMap<String, Visibility>,
 }
 

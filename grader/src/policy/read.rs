@@ -12,7 +12,7 @@ use toml::value::Datetime;
 use crate::error::Error;
 use crate::machine::files;
 use crate::policy::Policy;
-use crate::policy::written_time::has_plausible_year;
+use crate::policy::time_parser::has_plausible_year;
 
 impl Policy {
     /// Reads the policy at `path`.
@@ -25,7 +25,7 @@ impl Policy {
         files::read_to_string(path).map_err(|error| {
             let error = error.of_action("read the policy");
             Error::User(format!(
-                "{error}; `cargo grade --policy-default` prints one to start from"
+                "{error}; `cargo grade --policy-default` prints a policy to start from"
             ))
         })
     }
@@ -49,7 +49,7 @@ impl Policy {
         }
     }
 
-    /// Returns a key with an invalid value and the problem with it.
+    /// Returns a key that has an invalid value, and the problem with that value.
     fn problem(&self) -> Option<(&str, &'static str)> {
         let late = &self.late;
         let mut extensions = late.extensions.iter();
@@ -101,7 +101,7 @@ pub(super) fn time_zone<'de, D: Deserializer<'de>>(
     })
 }
 
-/// A problem at a byte offset of the text.
+/// A problem at a byte offset in the text.
 pub(super) struct Problem {
     pub(super) offset: usize,
     pub(super) problem: String,

@@ -9,16 +9,16 @@ use serde::Deserialize;
 
 use crate::error::Error;
 use crate::machine::files;
-use crate::policy::written_time::read_time;
+use crate::policy::time_parser::read_time;
 use crate::policy::{Extension, Lateness, Policy};
 
-/// The time of a submission and its due time.
+/// The time when a submission was handed in, and its due time.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SubmissionTime {
     submitted: Timestamp,
     /// The names and email addresses of the people who submitted.
     people: Vec<String>,
-    /// The due time, or `None` if the assignment doesn't have one.
+    /// The due time, or `None` if the assignment sets none.
     due: Option<Timestamp>,
 }
 
@@ -74,8 +74,8 @@ fn parse_time(text: &str) -> Result<Timestamp, String> {
 }
 
 impl Policy {
-    /// Returns how late a submission is, relative to the policy's due time or, if there is none, to
-    /// the platform's. For a group, the member with the latest extension decides.
+    /// Returns the lateness of a submission relative to the policy's due time or, if the policy has
+    /// none, to the platform's. For a group, the latest extension of any member applies.
     pub fn lateness_of(&self, submission: &SubmissionTime) -> Lateness {
         let people = submission.people.iter().map(String::as_str);
         let extensions: Vec<Extension> = self.extensions_of(people).collect();
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn reports_an_invalid_time() {
-        let expected = "\"tomorrow\": it is not a date and time in a known form, such as 2026-11-20 \
+        let expected = "\"tomorrow\": it is not a date and time in a recognised form, such as 2026-11-20 \
                         23:59:59 +0100";
         assert_eq!(parse_with_due(r#""tomorrow""#), Err(expected.to_owned()));
         let error = SubmissionTime::parse("{}").unwrap_err();

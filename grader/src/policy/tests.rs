@@ -7,8 +7,8 @@ use proptest::prelude::*;
 
 use super::{Policy, read_time};
 
-/// Time zones with different rules: whole hours, half an hour of daylight saving, an offset in quarter
-/// hours, and none.
+/// Time zones with different rules: an offset in whole hours, daylight saving by half an hour, an
+/// offset in quarter hours, and no offset.
 const ZONES: [&str; 5] = [
     "Europe/Berlin",
     "America/New_York",
@@ -106,7 +106,7 @@ proptest! {
         seconds in 0u64..1_000_000,
     ) {
         let lateness = super::Lateness::of_seconds(seconds);
-        let counts = |points| policy.counted_points(points, 100, lateness).points;
+        let counts = |points| policy.final_points(points, 100, lateness).points;
         let (few, many) = (points.0.min(points.1), points.0.max(points.1));
         prop_assert!(counts(few) <= counts(many));
     }

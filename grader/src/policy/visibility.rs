@@ -12,8 +12,9 @@ use crate::policy::Policy;
 pub enum Visibility {
     /// The question, the submission's answer and the expected answer.
     All,
-    /// The points, the kind of failure, and hints. No questions or answers, since students could
-    /// reconstruct the exam from them, and nothing that the submission's program wrote or chose.
+    /// The points, the kind of failure, and hints. Questions and answers are left out, since
+    /// students could reconstruct the exam from them. Everything that the submission's program wrote
+    /// or chose is left out too.
     Feedback,
     /// Title and points.
     Points,
@@ -36,7 +37,7 @@ impl Visibility {
 }
 
 impl Policy {
-    /// Returns how much students see of an item of this exam.
+    /// Returns the part of an item in this exam that students see.
     pub fn visibility(&self, exam: &ExamName, item: &str) -> Visibility {
         let task = item.split('.').next().unwrap_or(item);
         let exceptions = &self.visibility.items;

@@ -4,23 +4,23 @@ use std::time::Duration;
 
 use super::limits::{ItemLimits, TimeUsed};
 
-/// The total time that a submission may wait in all items. It is enough for all of its methods to
-/// wait until they are stopped.
+/// The total time that a submission may spend waiting in all items together. This is enough even if
+/// each of the submission's methods waits until it is stopped.
 const TOTAL_WAITING: Duration = Duration::from_secs(40);
 
 /// The time that a submission may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// The minimum CPU time limit of an item.
+    /// The minimum CPU time limit for an item.
     least: Duration,
-    /// The maximum CPU time limit of an item.
+    /// The maximum CPU time limit for an item.
     most: Duration,
 }
 
 impl Default for Budget {
     /// Returns a budget whose limit adapts to the submission's own speed. Correct items take
-    /// milliseconds, so an endless loop is usually noticed after two seconds. On a slow machine, or
-    /// for slow but correct code, the limit rises to ten.
+    /// milliseconds, so an infinite loop is usually noticed after two seconds. On a slow machine,
+    /// or for slow but correct code, the limit rises to ten seconds.
     fn default() -> Self {
         Budget {
             least: Duration::from_secs(2),
@@ -30,9 +30,9 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// The largest CPU time limit of an item that can be chosen, in seconds.
+    /// The largest CPU time limit that can be chosen for an item, in seconds.
     pub const MAX_SECONDS: u64 = 600;
-    /// An item may take this many times as long as the slowest item that has passed.
+    /// An item may take this many times as long as the slowest item of its task that has passed.
     pub const SLOWER_THAN_PASSED: u32 = 50;
 
     /// Returns a budget with a fixed CPU time limit for each item, in seconds.
@@ -49,7 +49,12 @@ impl Budget {
         12 * self.most
     }
 
-    /// Returns the limits of an item that is run on its own.
+    /// Returns whether a submission that has used this much time may use no more.
+    fn is_used_up(self, used: TimeUsed) -> bool {
+        used.cpu >= self.total_cpu() || used.waiting >= TOTAL_WAITING
+    }
+
+    /// Returns the limits for an item that is run on its own.
     pub fn single_item(self) -> ItemLimits {
         ItemLimits {
             cpu_if_printing: self.most,
@@ -58,20 +63,25 @@ impl Budget {
     }
 }
 
-/// The remaining budget of a submission while it is graded.
+/// The remaining budget of a submission while one of its tasks is graded.
 #[derive(Clone, Debug)]
 pub struct Allowance {
     budget: Budget,
+    /// The time that the tasks before this one have used, as far as known.
+    before: TimeUsed,
+    /// The time that this task has used.
     used: TimeUsed,
-    /// The CPU time of the slowest item that has passed.
+    /// The CPU time of the task's slowest item that has passed. Items of other tasks don't affect
+    /// its limits, because they may be running at the same time.
     slowest_passed: Duration,
 }
 
 impl Allowance {
-    /// Returns the whole budget.
-    pub fn new(budget: Budget) -> Self {
+    /// Returns the allowance for a task. `before` is the time that the tasks before it have used.
+    pub fn new(budget: Budget, before: TimeUsed) -> Self {
         Allowance {
             budget,
+            before,
             used: TimeUsed::default(),
             slowest_passed: Duration::ZERO,
         }
@@ -82,23 +92,29 @@ impl Allowance {
         self.budget
     }
 
-    /// Returns the limits of the next item, or `None` if the budget is used up. The last item may
+    /// Returns the time that the task has used.
+    pub fn used(&self) -> TimeUsed {
+        self.used
+    }
+
+    /// Returns the limits for the next item, or `None` if the budget is used up. The last item may
     /// exceed the budget.
     pub fn next_item(&self) -> Option<ItemLimits> {
-        let Allowance {
-            budget,
-            used,
-            slowest_passed,
-        } = *self;
-        if used.cpu >= budget.total_cpu() || used.waiting >= TOTAL_WAITING {
+        if self.budget.is_used_up(self.before + self.used) {
             return None;
         }
-        let own_speed = Budget::SLOWER_THAN_PASSED * slowest_passed;
-        let cpu = own_speed.clamp(budget.least, budget.most);
+        let Budget { least, most } = self.budget;
+        let own_speed = Budget::SLOWER_THAN_PASSED * self.slowest_passed;
         Some(ItemLimits {
-            cpu_if_printing: budget.most,
-            ..ItemLimits::from_cpu(cpu)
+            cpu_if_printing: most,
+            ..ItemLimits::from_cpu(own_speed.clamp(least, most))
         })
+    }
+
+    /// Returns whether all items that this task has run so far would also have been run if it had
+    /// been known from the start that the tasks before it use this much time.
+    pub fn holds_after(&self, before: TimeUsed) -> bool {
+        before == self.before || !self.budget.is_used_up(before + self.used)
     }
 
     /// Records the time used.
@@ -125,7 +141,7 @@ mod tests {
 
     #[test]
     fn the_limit_follows_the_slowest_passed_item() {
-        let mut allowance = Allowance::new(Budget::default());
+        let mut allowance = Allowance::new(Budget::default(), TimeUsed::default());
         let cpu = |allowance: &Allowance| allowance.next_item().unwrap().cpu.as_millis();
         assert_eq!(cpu(&allowance), 2_000);
         allowance.passed(Duration::from_millis(10));
@@ -139,7 +155,7 @@ mod tests {
 
     #[test]
     fn a_chosen_limit_does_not_change() {
-        let mut allowance = Allowance::new(Budget::from_seconds(1));
+        let mut allowance = Allowance::new(Budget::from_seconds(1), TimeUsed::default());
         allowance.passed(Duration::from_millis(900));
         assert_eq!(allowance.next_item().unwrap().cpu.as_secs(), 1);
     }
@@ -147,7 +163,7 @@ mod tests {
     #[test]
     fn a_budget_is_used_up_by_slow_items_and_by_waiting_ones() {
         for (item, most) in [(seconds(9, 0), 14), (seconds(0, 2), 20)] {
-            let mut allowance = Allowance::new(Budget::default());
+            let mut allowance = Allowance::new(Budget::default(), TimeUsed::default());
             let mut items = 0;
             while allowance.next_item().is_some() {
                 allowance.spend(item);
@@ -155,5 +171,19 @@ mod tests {
             }
             assert_eq!(items, most);
         }
+    }
+
+    #[test]
+    fn a_task_holds_unless_the_tasks_before_it_leave_too_little() {
+        let mut allowance = Allowance::new(Budget::default(), seconds(50, 0));
+        allowance.spend(seconds(20, 5));
+        assert!(allowance.holds_after(seconds(99, 34)));
+        assert!(!allowance.holds_after(seconds(100, 34)));
+        assert!(!allowance.holds_after(seconds(99, 35)));
+        // If the time used before was known from the start, the task has already kept to the
+        // budget.
+        allowance.spend(seconds(90, 0));
+        assert!(allowance.holds_after(seconds(50, 0)));
+        assert!(allowance.next_item().is_none());
     }
 }

@@ -12,8 +12,8 @@ use protocol::Question;
 
 use super::{ItemLimits, Launcher, TimeUsed};
 
-/// The time limits of each question. Most correct items take less than this in total, so a question
-/// that exceeds it is treated as hung.
+/// The time limits for each question. Most correct items take less time than this in total, so a
+/// question that takes longer is treated as hung.
 const LIMITS: ItemLimits = ItemLimits {
     waiting: Duration::from_millis(300),
     ..ItemLimits::from_cpu(Duration::from_millis(100))
@@ -32,7 +32,7 @@ pub struct Culprit {
 }
 
 impl Culprit {
-    /// Searches an item that crashed or hung.
+    /// Finds the culprit in an item that made the program crash or hang.
     pub fn find(launcher: &Launcher, item: &Item) -> io::Result<Self> {
         let mut culprit = Culprit::default();
         culprit.position = culprit.search(launcher, item)?;
@@ -47,7 +47,7 @@ impl Culprit {
         let question = &item.questions[number].question;
 
         // Use two steps of about √n questions each instead of one question per element. Each step
-        // ends at its first fault, because a hang uses up all of its question's time.
+        // ends at its first fault, because a hang uses up the entire time limit of its question.
         let mut suspects = 0..question.count();
         for length in [isqrt_up(suspects.len()), 1] {
             let parts: Vec<Range<usize>> = chunks(suspects, length).collect();
@@ -73,7 +73,7 @@ impl Culprit {
         for (number, question) in questions.enumerate() {
             match probe.ask([&question], LIMITS) {
                 Ok(_) => {}
-                // The fault isn't the question's.
+                // The question isn't the reason for the fault.
                 Err(fault) if fault.is_doubtful() => break,
                 Err(_) => {
                     faulty = Some(number);

@@ -1,10 +1,10 @@
-//! Faults: why a probe gives no answer.
+//! Faults, which are the reasons a probe gives no answer.
 
 use std::fmt;
 
 use judging::signatures::NoAnswerReason;
 
-/// Why there is no answer. A fault ends the probe and fails the item.
+/// The reason for a missing answer. After a fault, the probe ends and the item fails.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The item exceeded a time limit.
@@ -40,7 +40,8 @@ pub enum Crash {
     /// It was killed from outside while using little memory. If the machine runs out of memory, the
     /// system may kill any process.
     Killed,
-    /// It failed before the first question, when none of the submission's functions had been called.
+    /// It failed before the first question, when none of the submission's functions had been
+    /// called.
     NotStarted,
 }
 
@@ -70,32 +71,33 @@ impl fmt::Display for Fault {
             // Leave out the limit, which depends on the machine's speed, so that the same
             // submission always gets the same report.
             Fault::TimedOut(TimeLimit::Cpu) => {
-                f.write_str("stopped, because it took too long: is there an endless loop?")
+                f.write_str("stopped because it took too long: is there an infinite loop?")
             }
             Fault::TimedOut(TimeLimit::Waiting) => f.write_str(
-                "stopped, because it did nothing for some seconds: is it waiting for something?",
+                "stopped because it did nothing for a few seconds: is it waiting for something?",
             ),
             Fault::TimedOut(TimeLimit::Wall) => f.write_str(
-                "stopped, because it took too long: is there an endless loop, or is it waiting for \
+                "stopped because it took too long: is there an infinite loop, or is it waiting for \
                  something?",
             ),
             Fault::OutOfMemory => f.write_str("out of memory: does something grow without limit?"),
             Fault::Crashed(Crash::StackOverflow) => {
-                f.write_str("the stack overflowed: is there an endless recursion?")
+                f.write_str("the stack overflowed: is there infinite recursion?")
             }
             Fault::Crashed(Crash::Exited(code)) => {
-                write!(f, "the program ended (exit code {code}) before it answered")
+                write!(f, "the program exited with code {code} before it answered")
             }
             Fault::Crashed(Crash::Signal(signal)) => {
                 write!(f, "the program was killed by signal {signal}")
             }
             Fault::Crashed(Crash::Killed) => f.write_str(
-                "the system killed the program (signal 9), even when nothing else was running, but \
-                 not a small program of the grader",
+                "the system killed the program (signal 9) even while nothing else was running, but it \
+                 didn't kill a small test program",
             ),
             Fault::Crashed(Crash::NotStarted) => f.write_str(
                 "the program could not be started: keep `static` and `thread_local!` variables \
-                 below 32 MiB in all, and allocate more in a method, with `vec!` for example",
+                 below 32 MiB in total, and allocate larger ones in a method, for example with \
+                 `vec!`",
             ),
             Fault::Protocol(why) => write!(f, "the program sent an invalid answer: {why}"),
         }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A request made by another thread while a probe answers. All clones share it. By default, there
-/// is no request.
+/// A request made by another thread while a probe is answering. All clones share it. By default,
+/// there is no request.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 

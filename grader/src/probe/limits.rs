@@ -1,17 +1,18 @@
-//! The time limits of an item and the time used so far.
+//! The time limits for an item and the time used so far.
 
+use std::ops::{Add, AddAssign};
 use std::time::{Duration, Instant};
 
 use super::fault::TimeLimit;
 use crate::machine::system::ProcessTime;
 
-/// The amount of output, in bytes, above which a program prints a lot.
+/// The amount of output, in bytes, above which a program is considered to print a lot.
 const MUCH_OUTPUT_BYTES: u64 = 64 << 10;
 
-/// The time limits of an item.
+/// The time limits for an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ItemLimits {
-    /// The CPU time limit. This is the limit that endless loops exceed.
+    /// The CPU time limit. This is the limit that infinite loops exceed.
     pub cpu: Duration,
     /// The CPU time limit of a program that prints a lot. Printing on every call takes a thousand
     /// times as long as a correct answer.
@@ -50,7 +51,16 @@ pub struct TimeUsed {
     pub waiting: Duration,
 }
 
-impl std::ops::AddAssign for TimeUsed {
+impl Add for TimeUsed {
+    type Output = TimeUsed;
+
+    fn add(mut self, more: TimeUsed) -> TimeUsed {
+        self += more;
+        self
+    }
+}
+
+impl AddAssign for TimeUsed {
     fn add_assign(&mut self, more: TimeUsed) {
         self.cpu += more.cpu;
         self.waiting += more.waiting;
@@ -59,17 +69,17 @@ impl std::ops::AddAssign for TimeUsed {
 
 /// Measures an item's time against its limits.
 #[derive(Debug)]
-pub(super) struct Stopwatch {
+pub struct Stopwatch {
     limits: ItemLimits,
     started: Instant,
-    /// The time of the first check and the process's time use at that point.
+    /// The time of the first check, and the process's times at that point.
     first: Option<(Instant, ProcessTime)>,
     used: TimeUsed,
 }
 
 impl Stopwatch {
     /// Starts measuring.
-    pub(super) fn start(limits: ItemLimits) -> Self {
+    pub fn start(limits: ItemLimits) -> Self {
         Stopwatch {
             limits,
             started: Instant::now(),
@@ -78,13 +88,13 @@ impl Stopwatch {
         }
     }
 
-    /// Returns the exceeded limit, if any. Time before the first check is ignored: most items are
-    /// answered before that, and reading a process's time at the start of an item would take longer
-    /// than answering it.
+    /// Returns the limit that was exceeded, if any. Measuring starts at the first check: most items
+    /// are finished by then, and asking the system for a process's CPU time takes longer than
+    /// answering such an item.
     ///
     /// `printed` is the number of bytes that the program has printed since the start. On systems
-    /// that don't report a process's time, wall time is limited instead.
-    pub(super) fn exceeded(&mut self, now: Option<ProcessTime>, printed: u64) -> Option<TimeLimit> {
+    /// that don't report a process's CPU time, wall time is limited instead.
+    pub fn exceeded(&mut self, now: Option<ProcessTime>, printed: u64) -> Option<TimeLimit> {
         let cpu = self.limits.cpu_after_printing(printed);
         let waiting = self.limits.waiting;
         let instant = Instant::now();
@@ -101,8 +111,8 @@ impl Stopwatch {
         (self.used.waiting >= waiting).then_some(TimeLimit::Waiting)
     }
 
-    /// Returns the time used until the last check.
-    pub(super) fn used(&self) -> TimeUsed {
+    /// Returns the time used up to the last check.
+    pub fn used(&self) -> TimeUsed {
         self.used
     }
 }

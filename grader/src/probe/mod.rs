@@ -21,18 +21,16 @@ use protocol::{Answer, Question};
 use crate::machine::system::Limits;
 use crate::sandbox::Sandbox;
 
-use limits::Stopwatch;
-
 pub use budget::{Allowance, Budget};
 pub use culprit::Culprit;
 pub use fault::{Crash, Fault, TimeLimit};
 pub use interrupt::Interrupt;
-pub use limits::{ItemLimits, TimeUsed};
+pub use limits::{ItemLimits, Stopwatch, TimeUsed};
 pub use program::RunningProgram;
 pub use shrink::smallest_overflow;
 pub use streams::Batch;
 
-/// The time limits for starting a program. They are generous, because no code of the submission
+/// The time limits for starting a program. They are generous, because none of the submission's code
 /// runs yet.
 pub const START_LIMITS: ItemLimits = ItemLimits {
     waiting: Duration::from_secs(30),
@@ -48,18 +46,18 @@ pub struct Probe {
     /// Time used for questions.
     used: TimeUsed,
     interrupt: Interrupt,
-    /// The fault if the probe didn't start. It then answers no questions.
+    /// The fault if the probe didn't start. Such a probe answers no questions.
     not_started: Option<Fault>,
 }
 
-/// A launcher, which starts the probes of one submission.
+/// Starts the probes of one submission.
 #[derive(Clone, Debug)]
 pub struct Launcher {
     /// Path of the program to start.
     pub program: PathBuf,
     /// The sandbox that the program runs in.
     pub sandbox: Sandbox,
-    /// Stops its probes early.
+    /// A request to stop the launcher's probes early.
     pub interrupt: Interrupt,
 }
 
@@ -74,9 +72,9 @@ impl Launcher {
     /// ends it even if the grader itself has been killed.
     ///
     /// No code of the submission runs before the first question, but its static variables may need
-    /// too much memory. A program that fails before that answers every question with
+    /// too much memory. If the program fails before that question, all questions result in
     /// [`Crash::NotStarted`]. Returns an error if the launcher fails or the system cannot create a
-    /// process, which a submission cannot cause.
+    /// process. A submission can cause neither.
     pub fn start(&self, cpu: Duration) -> io::Result<Probe> {
         let limits = Limits {
             memory: Self::MEMORY_LIMIT,
@@ -133,7 +131,7 @@ impl Probe {
         answers
     }
 
-    /// Receives the answers with these nonces and the end frame with its own nonce.
+    /// Receives the answers with these nonces, followed by the end frame with the nonce `end`.
     fn receive(
         &mut self,
         nonces: Vec<u64>,
@@ -215,7 +213,7 @@ fn answer_to(nonce: u64, frame: &Frame) -> Result<Answer, Fault> {
 }
 
 fn no_question() -> Fault {
-    Fault::Protocol("an answer that belongs to no question".to_owned())
+    Fault::Protocol("an answer that doesn't belong to any question".to_owned())
 }
 
 fn protocol_fault(error: WireError) -> Fault {

@@ -35,7 +35,7 @@ const RUNTIME_MESSAGES: [&str; 4] = [
     "note: run with `RUST_BACKTRACE=1`",
 ];
 
-/// A running program of a submission. Nothing it does can block the thread that uses it.
+/// A submission's running program. Nothing it does can block the thread that uses it.
 #[derive(Debug)]
 pub struct RunningProgram {
     /// The process, for reading its time and memory, and for killing it.
@@ -103,8 +103,8 @@ impl RunningProgram {
         output.lines().filter(is_own).collect::<Vec<_>>().join("\n")
     }
 
-    /// Determines why the program ended. Its output is only used for diagnosis and cannot earn
-    /// points.
+    /// Determines the reason the program ended. The program's output is only used for diagnosis
+    /// and cannot earn points.
     fn post_mortem(&mut self) -> Fault {
         // The program may have closed its pipe without ending.
         let deadline = Instant::now() + EXIT_TIMEOUT;

@@ -155,9 +155,9 @@ mod tests {
         Answer::Spans(vec![times; elements])
     }
 
-    /// Returns the frames in order of arrival if the questions are sent in batches of these sizes
-    /// and the program writes `bytes` in pieces of these sizes, yielding to other threads after
-    /// each piece.
+    /// Returns the frames in order of arrival. `batches` are the sizes of the batches in which the
+    /// questions are sent, and `pieces` are the sizes of the pieces in which the program writes
+    /// `bytes`. After each piece, the program yields to other threads.
     fn received(
         bytes: Vec<u8>,
         limits: &[usize],

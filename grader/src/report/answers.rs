@@ -9,7 +9,7 @@ use protocol::Answer;
 
 use crate::score::{ItemScore, VerdictKind};
 
-/// The answers to items, by item id.
+/// The answers to items, keyed by the item's id.
 #[derive(Clone, Debug, Default)]
 pub struct ReportAnswers(BTreeMap<String, Vec<Answer>>);
 

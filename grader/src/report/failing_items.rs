@@ -1,12 +1,13 @@
-//! The failing items of a task: which are most informative, and which share a hint, so that a
-//! report shows the hint only once.
+//! Determines which failing items of a task are most informative, and which of them share a hint,
+//! so that a report shows the hint only once.
 
 use crate::score::{ItemScore, TaskScore, VerdictKind};
 
 /// Returns the failing items of a task, the most informative first: items whose mistake is
 /// recognised, items whose failure shows what to look for, items with a wrong answer, and items
-/// without one. Equals keep the exam's order, which goes from simple to difficult.
-pub(super) fn most_telling_first(task: &TaskScore) -> Vec<&ItemScore> {
+/// without an answer. Items of equal rank keep the exam's order, which goes from simple to
+/// difficult.
+pub(super) fn most_informative_first(task: &TaskScore) -> Vec<&ItemScore> {
     let failing = task
         .items
         .iter()
@@ -27,17 +28,21 @@ pub(super) fn most_telling_first(task: &TaskScore) -> Vec<&ItemScore> {
     failing
 }
 
-/// Returns the first failing item and those others with evidence and a different hint from the
-/// items before them.
-pub(super) fn with_something_new<'a>(failing: &[&'a ItemScore]) -> Vec<&'a ItemScore> {
-    let mut shown: Vec<&ItemScore> = Vec::new();
-    for &item in failing {
-        let is_explained = shown.iter().any(|shown| is_same_hint(shown, item));
-        if shown.is_empty() || (item.evidence.is_some() && !is_explained) {
-            shown.push(item);
-        }
-    }
-    shown
+/// Returns at most this many of a task's failing items, the most informative first. Each item after
+/// the first has evidence, has a different hint from the first, and fails in another way.
+pub(super) fn most_new(task: &TaskScore, most: usize) -> Vec<&ItemScore> {
+    let failing = most_informative_first(task);
+    let Some((&first, others)) = failing.split_first() else {
+        return Vec::new();
+    };
+    let is_alike = |other: &ItemScore| {
+        is_same_hint(first, other)
+            || (first.symptom.is_some() && first.symptom == other.symptom)
+            || (first.at.is_some() && first.at == other.at)
+    };
+    let others = others.iter().copied();
+    let others = others.filter(|other| other.evidence.is_some() && !is_alike(other));
+    [first].into_iter().chain(others).take(most).collect()
 }
 
 /// Returns whether one hint explains both items.

@@ -1,14 +1,23 @@
-//! The last line of the terminal report after a success: what to do next.
+//! The last line of the terminal report after a success, which says what to do next.
 
 use judging::assignment::Assignment;
+use judging::sanitize::sanitize;
 use judging::section::Section;
 
+use crate::build::compiler_help::SECTION_LABEL;
 use crate::inputs::task_selection::TaskSelection;
+use crate::machine::printing::wrap;
+use crate::report::failing_items::most_informative_first;
+use crate::report::text::{HintDetail, joined_hints};
 use crate::sandbox::Isolation;
-use crate::score::{Score, TaskScore};
+use crate::score::{Score, TaskScore, Verdict, VerdictKind};
 
-/// Returns what to do next if at least one of the selected tasks is complete, with an empty line
-/// after it. The advice is only for students who grade their own work with the practice exam.
+/// The width of the text to the right of the labels.
+const TEXT_WIDTH: usize = 70;
+
+/// Returns advice on what to do next, followed by an empty line, if at least one of the selected
+/// tasks is complete. The advice is only for students who grade their own work with the practice
+/// exam.
 pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignment) -> String {
     let is_own_work = score.rerun_command.exam.is_none() && score.isolation == Isolation::None;
     if !is_own_work {
@@ -30,6 +39,80 @@ pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignme
         None if !selection.is_all() => row("`cargo grade` shows what the other tasks need"),
         None => row(&after_all_points(assignment)),
     }
+}
+
+/// Returns a text that names one thing to do next in the selected tasks and the place to do it.
+pub fn first_step(
+    score: &Score,
+    selection: &TaskSelection,
+    assignment: &Assignment,
+    hints: HintDetail,
+) -> String {
+    let mut selected = score
+        .tasks
+        .iter()
+        .filter(|task| selection.includes(task.id));
+    let first = selected.find_map(|task| Some((task, *most_informative_first(task).first()?)));
+    let Some((task, item)) = first else {
+        return row(&after_all_points(assignment));
+    };
+    let info = assignment.info(task.id);
+    let method = match &item.at {
+        Some(at) => format!("{}:{}", at.file, at.line),
+        None => task.method.clone(),
+    };
+    let step = match item.verdict.kind() {
+        VerdictKind::Unwritten => format!("write `{}` in {method}", info.method),
+        VerdictKind::NotCompiled => compile_step(score, info.file, &item.message),
+        VerdictKind::Blocked => format!("{} {}", item.id, item.message),
+        VerdictKind::Passed
+        | VerdictKind::Failed
+        | VerdictKind::NoAnswer
+        | VerdictKind::Pending => format!("fix `{}` in {method}: {}", info.method, item.title),
+    };
+    let what = format!("{}: {}", item.id, item.message);
+    // The step for a file that doesn't compile names a section itself.
+    let read = item.where_to_read().or(task.chapter.as_ref());
+    let read = read.filter(|_| item.verdict != Verdict::NotCompiled);
+    let hint = (!item.hints.is_empty()).then(|| joined_hints(&item.hints, hints));
+    let rows = [
+        ("next", Some(step)),
+        ("what", Some(what)),
+        ("look", item.where_to_look().cloned()),
+        ("hint", hint),
+        ("read", read.map(Section::location)),
+        ("again", Some(item.rerun_command(&score.rerun_command))),
+    ];
+    let rows = rows
+        .iter()
+        .filter_map(|(label, text)| Some((label, text.as_ref()?)));
+    let rows = rows.map(|(label, text)| {
+        let lines = wrap(&sanitize(text, usize::MAX), TEXT_WIDTH).join("\n          ");
+        format!("  {label:<7} {lines}\n")
+    });
+    format!("\n{}", rows.collect::<String>())
+}
+
+/// Returns the step for a file that doesn't compile: its first error and, if there is one, the
+/// section that explains it.
+fn compile_step(score: &Score, file: &str, message: &str) -> String {
+    let mut files = score.build.not_compiled.iter();
+    let Some(report) = files.find(|report| report.file == file) else {
+        return if message.ends_with("is missing") {
+            format!(
+                "{message}: if you have renamed it, change the name back. `cargo grade --reset \
+                 {file}` restores the original file"
+            )
+        } else {
+            format!("make {file} compile: {message}")
+        };
+    };
+    let line = report.line.map_or(String::new(), |line| format!(":{line}"));
+    let mut lines = report.message.lines();
+    let error = lines.next().unwrap_or_default();
+    let read = lines.find(|line| line.starts_with(SECTION_LABEL));
+    let read = read.map_or(String::new(), |read| format!("\n{read}"));
+    format!("make {file}{line} compile: {error}{read}")
 }
 
 /// Returns a task's title and the handout's chapter about it, if any.

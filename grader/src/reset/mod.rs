@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use judging::assignment::Task;
 
 use crate::error::Error;
-use crate::handed_out::{HandedOut, TaskFile};
-use crate::inputs::task_selection::NamedTasks;
+use crate::handed_out::HandedOut;
+use crate::inputs::task_selection::TaskOrFile;
 use crate::machine::backup;
 use crate::machine::files::AtPath;
 use crate::machine::system;
@@ -18,13 +18,13 @@ use crate::report::atomic_write;
 use crate::submission::places;
 use crate::workspace::{Workspace, display_path};
 
-/// Resets the named tasks in a submission's folder, by default the folder of students' own work.
-/// Returns a message that says what has changed. If there is an error, nothing has changed, unless
-/// the error occurred while writing.
+/// Resets the named tasks in a submission's folder, by default the student's own work. Returns a
+/// message that says what has changed. If there is an error, nothing has changed, unless the error
+/// occurred while writing.
 pub fn reset(
     handed_out: &'static HandedOut,
     folder: Option<&Path>,
-    names: &[NamedTasks],
+    names: &[TaskOrFile],
 ) -> Result<String, Error> {
     let workspace = Workspace::find()?;
     let folder = workspace.resolve(folder.unwrap_or(Path::new(handed_out.student)));
@@ -47,14 +47,14 @@ enum Request {
 }
 
 /// Returns the part to reset in each file.
-fn requests(handed_out: &HandedOut, names: &[NamedTasks]) -> BTreeMap<&'static str, Request> {
+fn requests(handed_out: &HandedOut, names: &[TaskOrFile]) -> BTreeMap<&'static str, Request> {
     let mut requests: BTreeMap<&'static str, Request> = BTreeMap::new();
     for name in names {
         match *name {
-            NamedTasks::File(file) => {
+            TaskOrFile::File(file) => {
                 requests.insert(file, Request::WholeFile);
             }
-            NamedTasks::Task(task) => {
+            TaskOrFile::Task(task) => {
                 let file = handed_out.assignment.info(task).file;
                 let request = requests.entry(file);
                 let request = request.or_insert_with(|| Request::Methods(Vec::new()));
@@ -69,12 +69,13 @@ fn requests(handed_out: &HandedOut, names: &[NamedTasks]) -> BTreeMap<&'static s
 
 /// A file before and after the change.
 struct FileChange {
-    file: &'static TaskFile,
+    /// The file's name.
+    file: &'static str,
     /// The file's current bytes, or `None` if it doesn't exist.
     before: Option<Vec<u8>>,
     /// The file's new text, or `None` if it wouldn't change.
     after: Option<String>,
-    /// The reset part, for a message.
+    /// The part that is reset, for a message.
     part: String,
 }
 
@@ -85,21 +86,19 @@ impl FileChange {
         file: &'static str,
         request: Request,
     ) -> Result<Self, Error> {
-        let task_file = handed_out.task_file(file);
-        let file = task_file.expect("tasks have a task file");
         let before = source.read(file)?;
         let (part, after) = match request {
             Request::WholeFile => {
-                let is_starter = before.as_deref() == Some(file.starter.as_bytes());
-                let after = (!is_starter).then(|| file.starter.to_owned());
+                let text = text_handed_out(handed_out, file);
+                let is_changed = before.as_deref() != Some(text.as_bytes());
+                let after = is_changed.then(|| text.to_owned());
                 ("the whole file".to_owned(), after)
             }
             Request::Methods(tasks) => {
-                let name = file.name;
+                let name = file;
                 let bytes = before.as_deref().ok_or_else(|| {
                     Error::User(format!(
-                        "{name} is missing: `cargo grade --reset {name}` writes the file as it was \
-                         handed out"
+                        "{name} is missing: `cargo grade --reset {name}` writes the original file"
                     ))
                 })?;
                 let text = std::str::from_utf8(bytes);
@@ -107,7 +106,7 @@ impl FileChange {
                 let fresh = text.and_then(|text| fresh_methods(handed_out, text, &tasks));
                 fresh.map_err(|why| {
                     Error::User(format!(
-                        "{why}`cargo grade --reset {name}` replaces the whole file, and keeps a copy"
+                        "{why}`cargo grade --reset {name}` replaces the whole file and keeps a copy"
                     ))
                 })?
             }
@@ -122,11 +121,11 @@ impl FileChange {
 
     /// Keeps the old file and writes the new one. Returns lines for a message.
     fn apply(&self, source: &SourceFolder) -> Result<String, Error> {
-        let path = source.path.join(self.file.name);
+        let path = source.path.join(self.file);
         let part = &self.part;
         let Some(after) = &self.after else {
             return Ok(format!(
-                "{}: {part} is as handed out, so nothing has changed\n",
+                "{}: nothing to reset, since {part} was not modified\n",
                 display_path(&path)
             ));
         };
@@ -136,13 +135,22 @@ impl FileChange {
         };
         atomic_write::write(after, &path)?;
         let kept = kept.map_or(String::new(), |kept| {
-            format!("  your old file is {}\n", display_path(&kept))
+            format!("  your old file is kept as {}\n", display_path(&kept))
         });
         Ok(format!(
-            "{}: {part} is as handed out again\n{kept}",
+            "{}: {part} reset to the version that was handed out\n{kept}",
             display_path(&path)
         ))
     }
+}
+
+/// Returns the unmodified text of a task file or a given file.
+fn text_handed_out(handed_out: &'static HandedOut, file: &str) -> &'static str {
+    let task_file = handed_out.task_file(file).map(|file| file.starter);
+    let given = || handed_out.given_file(file).map(|file| file.text);
+    task_file
+        .or_else(given)
+        .expect("only files that were handed out have names on the command line")
 }
 
 /// Returns the names of the tasks' methods and the text with all of them replaced by the starter's,
@@ -150,7 +158,7 @@ impl FileChange {
 ///
 /// # Errors
 ///
-/// The beginning of a message that continues with a remedy.
+/// Returns the beginning of a message, to which the caller adds a remedy.
 fn fresh_methods(
     handed_out: &HandedOut,
     text: &str,
@@ -175,21 +183,21 @@ struct SourceFolder {
 }
 
 impl SourceFolder {
-    /// Finds a submission's folder with the task files, in one of the places where the assignment
+    /// Finds the folder with a submission's task files in one of the places where the assignment
     /// expects it.
     fn find(folder: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         refuse_link(folder)?;
         if !folder.is_dir() {
             return Err(Error::User(format!(
-                "{} is not a folder: --reset changes the files in a folder, such as `student`; unpack \
-                 an archive first",
+                "{} is not a folder: --reset only works on a folder, such as `student`; if this is an \
+                 archive, unpack it first",
                 folder.display()
             )));
         }
         let found: Vec<&str> = handed_out.folders_in(folder).collect();
         match found[..] {
             [] => Err(Error::User(format!(
-                "{} has none of {}: name the folder with the task files, such as `student`",
+                "{} contains none of {}: pass the folder that contains the task files, such as `student`",
                 folder.display(),
                 handed_out.file_list()
             ))),
@@ -202,16 +210,16 @@ impl SourceFolder {
                 Ok(SourceFolder { path })
             }
             _ => Err(Error::User(format!(
-                "{} has task files in {}: name the one that you mean",
+                "{} has task files in {}: pass the folder that you mean",
                 folder.display(),
                 places(&found)
             ))),
         }
     }
 
-    /// Returns the bytes of a task file, or `None` if it doesn't exist.
-    fn read(&self, file: &TaskFile) -> Result<Option<Vec<u8>>, Error> {
-        let path = self.path.join(file.name);
+    /// Returns the bytes of a file, or `None` if it doesn't exist.
+    fn read(&self, file: &str) -> Result<Option<Vec<u8>>, Error> {
+        let path = self.path.join(file);
         refuse_link(&path)?;
         if fs::symlink_metadata(&path).is_err() {
             return Ok(None);
@@ -220,7 +228,7 @@ impl SourceFolder {
         let mut opened = opened.ok_or_else(|| {
             let path = path.display();
             Error::User(format!(
-                "{path} is not a regular file: move it away, and try again"
+                "{path} is not a regular file: move it away and try again"
             ))
         })?;
         let mut bytes = Vec::new();

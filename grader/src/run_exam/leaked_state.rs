@@ -23,7 +23,7 @@ pub fn is_right_alone(
     };
     let question = &item.questions[index];
     if let Key::Radiance { .. } = question.key {
-        // A path-traced picture is a single question and takes too long to run twice.
+        // A rendered picture is a single question and takes too long to run twice.
         return Ok(false);
     }
     let Some(limits) = allowance.next_item() else {
@@ -40,7 +40,7 @@ pub fn is_right_alone(
     Ok(answers.first().is_some_and(is_right))
 }
 
-/// Returns whether the code has been written and gave an answer.
+/// Returns whether the code has been written and has given an answer.
 fn is_answer(failure: &Failure) -> bool {
     match &failure.kind {
         FailureKind::Wrong { .. } => true,

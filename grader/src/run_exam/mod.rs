@@ -1,148 +1,147 @@
 //! Runs an exam item by item. A failure in one item doesn't affect the next.
 
 mod leaked_state;
+mod task_runs;
 pub mod task_session;
+mod task_sessions;
 
-use std::collections::BTreeSet;
 use std::io;
+use std::sync::mpsc::Receiver;
+use std::thread;
 use std::time::Instant;
 
 use judging::assignment::Task;
-use judging::exam::{Exam, Item};
-use protocol::Answer;
+use judging::exam::Exam;
 
-use crate::build::{Build, SubstitutedProgram};
-use crate::probe::{Allowance, Budget};
+use crate::build::Build;
+use crate::probe::Budget;
 use crate::report::answers::ReportAnswers;
-use crate::run_exam::task_session::{TaskSession, TimeSpent};
-use crate::score::{ItemScore, Score};
+use crate::run_exam::task_runs::{GradedItem, PriorResults, TaskEvent, TaskRuns};
+use crate::run_exam::task_sessions::FinishedTask;
+use crate::score::Score;
 use crate::verdict::explain::explain_items;
-use crate::verdict::item_outcome::{ItemOutcome, NotRun};
-use crate::verdict::{blocked_score, blocking_item, item_score, substituted_score};
 
-/// Grades every item of `exam` and records its score. After each item, `progress` is called with
-/// the score and the answers to draw. If `progress` returns an error, grading stops.
+/// Grades every item of `exam` and records its score. After each item, in the exam's order,
+/// `progress` is called with the score and the answers to draw. If `progress` returns an error,
+/// grading stops.
+///
+/// Up to `threads` tasks run at the same time, which doesn't affect the score.
 pub fn run_exam<E: From<io::Error>>(
     exam: &Exam,
     build: &Build,
     budget: Budget,
+    threads: usize,
     score: &mut Score,
-    mut progress: impl FnMut(&mut Score, &ReportAnswers) -> Result<(), E>,
+    progress: impl FnMut(&mut Score, &ReportAnswers) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut report_answers = ReportAnswers::default();
-    let mut allowance = Allowance::new(budget);
-    let mut stopped = BTreeSet::new();
-    for task in build.handed_out.assignment.tasks() {
-        let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
-        // Use one process per task, so that a task cannot affect the next.
-        let mut sessions = TaskSessions::new(build);
-        for item in items {
-            let (line, answers) = sessions.grade_item(item, score, &stopped, &mut allowance)?;
-            report_answers.record(item, &line, answers);
-            score.record(line);
-            score.update_totals();
-            progress(score, &report_answers)?;
+    let mut run = ExamRun {
+        exam,
+        build,
+        budget,
+        score,
+        report_answers: ReportAnswers::default(),
+        results: PriorResults::new(exam),
+        progress,
+    };
+    let tasks: Vec<Task> = build.handed_out.assignment.tasks().collect();
+    let done = run.run_tasks(&tasks, threads)?;
+    // When the tasks run one after the other, each one knows how much of the budget is left.
+    run.run_tasks(&tasks[done..], 1)?;
+    run.score.complete = true;
+    (run.progress)(run.score, &run.report_answers)
+}
+
+/// An exam that is being run. Results are recorded in the exam's order.
+struct ExamRun<'a, P> {
+    exam: &'a Exam,
+    build: &'a Build,
+    budget: Budget,
+    score: &'a mut Score,
+    report_answers: ReportAnswers,
+    /// The recorded results.
+    results: PriorResults,
+    progress: P,
+}
+
+impl<P, E> ExamRun<'_, P>
+where
+    P: FnMut(&mut Score, &ReportAnswers) -> Result<(), E>,
+    E: From<io::Error>,
+{
+    /// Runs these tasks on this many threads. Returns the number of tasks that are done. The others
+    /// must be run again, because too little of the budget was left for them.
+    fn run_tasks(&mut self, tasks: &[Task], threads: usize) -> Result<usize, E> {
+        let results = self.results.clone();
+        let (runs, receivers) = TaskRuns::new(self.exam, self.build, self.budget, tasks, results);
+        thread::scope(|scope| {
+            for _ in 0..threads.min(tasks.len()) {
+                scope.spawn(|| runs.work());
+            }
+            let done = self.record_tasks(tasks, &receivers);
+            runs.cancel();
+            done
+        })
+    }
+
+    /// Records the results of tasks as they arrive. Returns the number of tasks that are done.
+    fn record_tasks(
+        &mut self,
+        tasks: &[Task],
+        receivers: &[Receiver<TaskEvent>],
+    ) -> Result<usize, E> {
+        for (done, (task, events)) in tasks.iter().zip(receivers).enumerate() {
+            match self.record_items(events)? {
+                Some(finished) => self.record_task(*task, finished),
+                None => return Ok(done),
+            }
         }
-        if sessions.own.is_stopped() {
-            stopped.insert(task);
+        Ok(tasks.len())
+    }
+
+    /// Records the scores of a task's items as they arrive. Returns the other results, or `None` if
+    /// an item shouldn't have been run, because the tasks before it have used up the budget.
+    fn record_items(&mut self, events: &Receiver<TaskEvent>) -> Result<Option<FinishedTask>, E> {
+        for event in events {
+            match event {
+                TaskEvent::Graded(graded) => {
+                    let GradedItem {
+                        item,
+                        line,
+                        answers,
+                        allowance,
+                    } = *graded;
+                    if !allowance.holds_after(self.results.used) {
+                        return Ok(None);
+                    }
+                    self.report_answers.record(item, &line, answers);
+                    self.results.record(&line);
+                    self.score.record(line);
+                    self.score.update_totals();
+                    (self.progress)(self.score, &self.report_answers)?;
+                }
+                TaskEvent::Finished(finished) => return Ok(Some(finished)),
+                TaskEvent::Failed(error) => return Err(error.into()),
+            }
         }
-        let spent = sessions.spent();
-        score.timings.stages.asking.push((task, spent.asking));
-        if let Some(scores) = score.tasks.iter_mut().find(|scores| scores.id == task) {
+        Err(io::Error::other("a thread that runs a task has panicked").into())
+    }
+
+    /// Adds hints, which need the answers to the whole task.
+    fn record_task(&mut self, task: Task, finished: FinishedTask) {
+        self.results.finish(task, &finished);
+        let spent = finished.spent;
+        let stages = &mut self.score.timings.stages;
+        stages.asking.push((task, spent.asking));
+        let mut tasks = self.score.tasks.iter_mut();
+        if let Some(scores) = tasks.find(|scores| scores.id == task) {
             let started_at = Instant::now();
-            scores.printed = sessions.finish(exam, &mut scores.items);
-            let stages = &mut score.timings.stages;
+            let (own, substituted) = (&finished.own, finished.substituted.as_ref());
+            let handed_out = self.build.handed_out;
+            explain_items(self.exam, &mut scores.items, own, substituted, handed_out);
+            scores.printed = finished.printed;
             stages.start += spent.start;
             stages.judging += spent.judging + started_at.elapsed();
         }
-    }
-    score.complete = true;
-    progress(score, &report_answers)
-}
-
-/// The processes of one task: the submission's own program and, if needed, the one with substituted
-/// parts.
-struct TaskSessions<'a> {
-    build: &'a Build,
-    own: TaskSession<'a>,
-    /// Whether the submission's own program had a fault in an item that depends on a failed item.
-    has_blocked_fault: bool,
-    substituted: Option<TaskSession<'a>>,
-}
-
-impl<'a> TaskSessions<'a> {
-    fn new(build: &'a Build) -> Self {
-        TaskSessions {
-            build,
-            own: TaskSession::new(build, build.probe.as_deref()),
-            has_blocked_fault: false,
-            substituted: None,
-        }
-    }
-
-    /// Grades one item and returns its score and answers. The items it depends on must already be
-    /// graded. `stopped` lists the tasks that were stopped early.
-    fn grade_item(
-        &mut self,
-        item: &Item,
-        others: &Score,
-        stopped: &BTreeSet<Task>,
-        allowance: &mut Allowance,
-    ) -> io::Result<(ItemScore, Vec<Answer>)> {
-        let handed_out = self.build.handed_out;
-        let file = handed_out.assignment.info(item.task).file;
-        if let Some(why) = self.build.not_compiled.get(file) {
-            let outcome = ItemOutcome::NotCompiled(why);
-            return Ok((item_score(item, &outcome, handed_out), Vec::new()));
-        }
-        let blocking = blocking_item(item, others);
-        // The reason that stopped that task, or another item that depends on it, would stop this
-        // item too.
-        let is_hopeless = blocking
-            .is_some_and(|blocking| stopped.contains(&blocking.task) || self.has_blocked_fault);
-        let (outcome, answers) = if is_hopeless {
-            (ItemOutcome::NotRun(NotRun::NeedsStoppedTask), Vec::new())
-        } else {
-            self.own.ask(item, allowance)?
-        };
-        match blocking {
-            Some(_) => self.has_blocked_fault |= matches!(outcome, ItemOutcome::Fault { .. }),
-            None => self.own.count_fault(&outcome),
-        }
-        let line = item_score(item, &outcome, handed_out);
-        let Some(by) = blocking.map(|blocking| blocking.id) else {
-            return Ok((line, answers));
-        };
-        match self.build.substituted_program(file)? {
-            SubstitutedProgram::NoReference => Ok((blocked_score(by, line), answers)),
-            SubstitutedProgram::NotCompiled if is_hopeless => {
-                Ok((blocked_score(by, line), answers))
-            }
-            SubstitutedProgram::NotCompiled => Ok((line, answers)),
-            SubstitutedProgram::Program(program) => {
-                let substituted = self
-                    .substituted
-                    .get_or_insert_with(|| TaskSession::new(self.build, Some(program)));
-                let (outcome, answers) = substituted.ask(item, allowance)?;
-                substituted.count_fault(&outcome);
-                let substituted_item = item_score(item, &outcome, handed_out);
-                Ok((substituted_score(by, &line, substituted_item), answers))
-            }
-        }
-    }
-
-    /// Returns the time spent by both processes.
-    fn spent(&self) -> TimeSpent {
-        let substituted = self.substituted.as_ref().map(TaskSession::spent);
-        self.own.spent() + substituted.unwrap_or_default()
-    }
-
-    /// Adds hints, which need the answers to the whole task. Returns the submission's output.
-    fn finish(mut self, exam: &Exam, lines: &mut [ItemScore]) -> Option<String> {
-        let substituted = self.substituted.as_ref().map(TaskSession::observations);
-        let own = self.own.observations();
-        explain_items(exam, lines, own, substituted, self.build.handed_out);
-        self.own.printed()
     }
 }
 
@@ -154,7 +153,7 @@ mod tests {
     use crate::build::NotCompiled;
     use crate::handed_out::RAYS;
     use crate::score::Verdict;
-    use crate::score::tests::small_exam::{boxes, exam, item, pending};
+    use crate::score::tests::small_exam::{exam, pending};
 
     #[test]
     fn every_item_of_a_submission_that_does_not_compile_is_recorded() {
@@ -165,12 +164,19 @@ mod tests {
         let exam = exam(&["sphere.uv", "bbox.flat", "sphere.normal"]);
         let mut score = pending(&exam);
         let mut progress = Vec::new();
-        run_exam(&exam, &build, Budget::default(), &mut score, |score, _| {
-            let items = score.items();
-            let items = items.filter(|item| item.verdict == Verdict::Pending);
-            progress.push((items.count(), score.complete));
-            io::Result::Ok(())
-        })
+        run_exam(
+            &exam,
+            &build,
+            Budget::default(),
+            2,
+            &mut score,
+            |score, _| {
+                let items = score.items();
+                let items = items.filter(|item| item.verdict == Verdict::Pending);
+                progress.push((items.count(), score.complete));
+                io::Result::Ok(())
+            },
+        )
         .unwrap();
         assert_eq!(progress, [(2, false), (1, false), (0, false), (0, true)]);
         let mut items = score.items();
@@ -187,38 +193,11 @@ mod tests {
         let exam = exam(&["sphere.uv", "sphere.normal"]);
         let mut score = pending(&exam);
         let mut calls = 0;
-        let stopped = run_exam(&exam, &build, Budget::default(), &mut score, |_, _| {
+        let stopped = run_exam(&exam, &build, Budget::default(), 2, &mut score, |_, _| {
             calls += 1;
             Err(io::Error::other("the disk is full"))
         });
         assert!(stopped.is_err());
         assert_eq!((calls, score.complete), (1, false));
-    }
-
-    #[test]
-    fn an_item_is_not_run_if_what_it_depends_on_would_stop_it() {
-        let folder = tempfile::tempdir().unwrap();
-        let build = Build::without_programs(folder.path(), BTreeMap::new());
-        let others = pending(&exam(&["bbox.flat"]));
-        let bbox = Task::in_id("bbox.flat").unwrap();
-        let mut dependent = item("traverse.root", vec![boxes(1)]);
-        dependent.needs = vec!["bbox.flat".to_owned()];
-        let verdict = |item: &Item, stopped: &[Task], has_blocked_fault: bool| {
-            let mut sessions = TaskSessions::new(&build);
-            sessions.has_blocked_fault = has_blocked_fault;
-            let stopped = stopped.iter().copied().collect();
-            let mut allowance = Allowance::new(Budget::default());
-            let graded = sessions.grade_item(item, &others, &stopped, &mut allowance);
-            graded.unwrap().0.verdict
-        };
-        let blocked = Verdict::Blocked {
-            by: "bbox.flat".to_owned(),
-        };
-        assert_eq!(verdict(&dependent, &[bbox], false), blocked);
-        assert_eq!(verdict(&dependent, &[], true), blocked);
-        // Otherwise, it is run, here on a submission without a program.
-        assert_eq!(verdict(&dependent, &[], false), Verdict::Pending);
-        let independent = item("traverse.flat", vec![boxes(1)]);
-        assert_eq!(verdict(&independent, &[bbox], true), Verdict::Pending);
     }
 }

@@ -16,7 +16,7 @@ use crate::build::Build;
 use crate::machine::run_permit::decide;
 use crate::probe::{Allowance, Crash, Culprit, Fault, ItemLimits, Launcher, Probe, TimeUsed};
 use crate::run_exam::leaked_state::is_right_alone;
-use crate::verdict::item_outcome::{ItemOutcome, NotRun};
+use crate::verdict::item_outcome::{ItemOutcome, NotRunReason};
 
 /// Number of time-outs after which a task is stopped.
 pub const MAX_TIMEOUTS: usize = 1;
@@ -63,15 +63,16 @@ impl Add for TimeSpent {
     }
 }
 
-/// The answers to an item, or the fault, with the process that ran it.
-struct Asked {
+/// The answers to an item, or the fault, together with the process that ran the item.
+struct ItemRun {
     probe: Probe,
     answered: Result<Vec<Answer>, Fault>,
     used: TimeUsed,
 }
 
 impl<'a> TaskSession<'a> {
-    /// Creates a session with one of the programs of a submission, or with none if nothing compiled.
+    /// Creates a session for one of a submission's programs, or without a program if nothing
+    /// compiled.
     pub fn new(build: &'a Build, program: Option<&Path>) -> Self {
         TaskSession {
             build,
@@ -99,14 +100,14 @@ impl<'a> TaskSession<'a> {
             return Ok((ItemOutcome::Pending, Vec::new()));
         };
         if let Some(fault) = &self.stopped_by {
-            let stopped = NotRun::TaskStopped(fault.clone());
+            let stopped = NotRunReason::TaskStopped(fault.clone());
             return Ok((ItemOutcome::NotRun(stopped), Vec::new()));
         }
         let Some(limits) = allowance.next_item() else {
-            return Ok((ItemOutcome::NotRun(NotRun::BudgetUsedUp), Vec::new()));
+            return Ok((ItemOutcome::NotRun(NotRunReason::BudgetUsedUp), Vec::new()));
         };
         let asked = self.ask_fairly(&launcher, item, limits, allowance.budget().total_cpu())?;
-        let Asked {
+        let ItemRun {
             probe,
             answered,
             used,
@@ -166,7 +167,7 @@ impl<'a> TaskSession<'a> {
         item: &Item,
         limits: ItemLimits,
         cpu: Duration,
-    ) -> io::Result<Asked> {
+    ) -> io::Result<ItemRun> {
         let build = self.build;
         let mut running = self.probe.take();
         let spent = &mut self.spent;
@@ -193,15 +194,15 @@ impl<'a> TaskSession<'a> {
                 Ok(_) | Err(_) => build.check_run(),
             },
         )?;
-        Ok(Asked {
+        Ok(ItemRun {
             probe,
             answered,
             used,
         })
     }
 
-    /// If the outcome is a fault, counts it towards stopping the task. Faults that another task may
-    /// have caused aren't counted.
+    /// If the outcome is a fault, counts it towards the number of faults that stops the task.
+    /// Faults that another task may have caused aren't counted.
     pub fn count_fault(&mut self, outcome: &ItemOutcome) {
         let ItemOutcome::Fault { fault, .. } = outcome else {
             return;
@@ -223,9 +224,9 @@ impl<'a> TaskSession<'a> {
         self.stopped_by.is_some()
     }
 
-    /// Returns the answers so far, for recognising mistakes.
-    pub fn observations(&self) -> &Observations {
-        &self.observations
+    /// Returns the observations about the answers, which are used to recognise mistakes.
+    pub fn into_observations(self) -> Observations {
+        self.observations
     }
 
     /// Returns the time spent.

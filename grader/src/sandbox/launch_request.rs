@@ -11,8 +11,8 @@ use crate::sandbox::isolation::Isolation;
 pub(super) const LAUNCH_FLAG: &str = "--launch-confined";
 
 /// The byte that the launcher writes to standard output once the sandbox is in place. All further
-/// output comes from the confined program. If the byte is missing, the launcher failed rather than
-/// the program.
+/// output comes from the confined program. If the byte is missing, it was the launcher that failed,
+/// not the program.
 pub(super) const READY: u8 = b'+';
 
 /// The system access granted to a program. All other access is denied.
@@ -39,6 +39,6 @@ pub(super) struct LaunchRequest {
     pub(super) grader: u32,
     /// The access granted to the program.
     pub(super) profile: Profile,
-    /// The resource limits of the program.
+    /// The resource limits for the program.
     pub(super) limits: Limits,
 }

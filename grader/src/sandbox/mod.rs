@@ -34,7 +34,7 @@ pub use isolation::Isolation;
 pub use launch_request::Profile;
 pub use process::Process;
 
-/// Starts programs at a given isolation level.
+/// Starts programs at one isolation level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sandbox {
     level: Isolation,
@@ -63,8 +63,8 @@ impl Sandbox {
         Sandbox::at(Isolation::None)
     }
 
-    /// Returns a sandbox of this level. On a machine that doesn't support it, nothing can be
-    /// started.
+    /// Returns a sandbox at this isolation level. On a machine that doesn't support the level,
+    /// nothing can be started.
     pub fn at(level: Isolation) -> Self {
         Sandbox {
             level,

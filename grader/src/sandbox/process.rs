@@ -89,7 +89,7 @@ impl Process {
         system::memory(&self.child)
     }
 
-    /// Returns how the process ended, or `None` if it is still running.
+    /// Returns the reason the process ended, or `None` if it is still running.
     pub fn exit_reason(&mut self) -> Option<ExitReason> {
         self.child
             .try_wait()
@@ -98,7 +98,7 @@ impl Process {
             .map(system::exit_reason)
     }
 
-    /// Kills the process and its process group. Returns how it ended.
+    /// Kills the process and its process group. Returns the reason the process ended.
     pub fn kill(&mut self) -> Option<ExitReason> {
         if let Some(reason) = self.exit_reason() {
             return Some(reason);

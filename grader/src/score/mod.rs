@@ -1,5 +1,5 @@
-//! The score file, the result of grading for people and programs. `cargo grade --schema` prints its
-//! schema.
+//! The score file: the result of grading, for people and programs. `cargo grade --schema` prints
+//! its schema.
 //!
 //! The same submission, exam and toolchain always give the same bytes, except for `timings` and
 //! `isolation`.
@@ -10,6 +10,7 @@ pub mod stage_times;
 use judging::assignment::Task;
 use judging::exam_file::ExamName;
 use judging::section::Section;
+use judging::symptom::Symptom;
 use serde::Serialize;
 
 use crate::handed_out::HandedOut;
@@ -50,7 +51,8 @@ pub struct Score {
     /// The built handout on this machine, which the page links to. Not stored in the file.
     #[serde(skip)]
     pub book: Option<Book>,
-    /// The title of the assignment, for the page. Not stored in the file, which has its id.
+    /// The title of the assignment, for the page. The score file stores the assignment's id
+    /// instead.
     #[serde(skip)]
     pub assignment_title: &'static str,
     /// Sum of the points of all tasks.
@@ -73,8 +75,8 @@ pub struct TaskScore {
     pub id: Task,
     /// Title of the task.
     pub title: String,
-    /// The chapter of the handout about the task, for advice. Not stored in the file, in which each
-    /// item names its section.
+    /// The chapter of the handout about the task, used for advice. Not stored in the file, where
+    /// each item names its section.
     #[serde(skip)]
     pub chapter: Option<Section>,
     /// Sum of the points of its items.
@@ -83,6 +85,13 @@ pub struct TaskScore {
     pub max_points: u32,
     /// The items, in the order in which they were graded.
     pub items: Vec<ItemScore>,
+    /// The task's method and its line, such as `sphere.rs:34`, or only the file if the method was
+    /// not found. Used for advice. Not stored in the file.
+    #[serde(skip)]
+    pub method: String,
+    /// The compiler's warnings about the task's file, one line each. Not stored in the file.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
     /// Beginning of what the submission printed during the task.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub printed: Option<String>,
@@ -114,10 +123,21 @@ pub struct ItemScore {
     /// For students: what to look for instead, if the way in which the item failed tells it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clue: Option<String>,
+    /// For students: what to look for instead if the item's own advice is about another quantity
+    /// than the one that is wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub symptom_clue: Option<String>,
     /// For students: the section of the handout to read, such as `boxes.md#zero-and-minus-zero`.
     /// Only for failed items.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
+    /// For students: the section to read instead, if the clue is explained elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clue_section: Option<Section>,
+    /// The quantity that is wrong in the first wrong answer. Not stored in the file, since the
+    /// item's message names it.
+    #[serde(skip)]
+    pub symptom: Option<Symptom>,
     /// For students: hints for the recognised mistake, or for several that give the same answers.
     pub hints: Vec<Hint>,
     /// For students: the first wrong answer.
@@ -277,7 +297,7 @@ impl Verdict {
 pub struct BuildReport {
     /// Files that could not be used, and were replaced with the starter's versions.
     pub not_compiled: Vec<FileReport>,
-    /// Notes on files that look like task files or archives, and were not graded.
+    /// Notes on files that look like task files or archives, and were not graded or are misnamed.
     pub ignored_copies: Vec<String>,
     /// Other notes that do not affect points.
     pub notes: Vec<String>,
@@ -316,6 +336,16 @@ pub struct Timings {
     pub stages: StageTimes,
 }
 
+impl TaskScore {
+    /// If an answer is wrong or missing, returns the warnings, which may explain it.
+    pub fn relevant_warnings(&self) -> &[String] {
+        let mut kinds = self.items.iter().map(|item| item.verdict.kind());
+        let is_wrong =
+            kinds.any(|kind| matches!(kind, VerdictKind::Failed | VerdictKind::NoAnswer));
+        if is_wrong { &self.warnings } else { &[] }
+    }
+}
+
 impl ItemScore {
     /// Creates the score of an item that is not graded yet.
     pub fn pending(id: &str, title: &str, max_points: u32) -> Self {
@@ -330,6 +360,9 @@ impl ItemScore {
             look: None,
             clue: None,
             section: None,
+            symptom_clue: None,
+            clue_section: None,
+            symptom: None,
             hints: Vec::new(),
             evidence: None,
             carried_forward: false,
@@ -338,13 +371,23 @@ impl ItemScore {
         }
     }
 
-    /// Returns where to look: the clue from this failure or, failing that, the item's own text.
+    /// Returns the text that says where to look: the clue from this failure or, failing that, the
+    /// item's own text. If there is a hint, the item's own text is left out, since it may be about
+    /// another part of the code.
     pub fn where_to_look(&self) -> Option<&String> {
-        self.clue.as_ref().or(self.look.as_ref())
+        let other = self.symptom_clue.as_ref().or(self.look.as_ref());
+        self.clue
+            .as_ref()
+            .or(other.filter(|_| self.hints.is_empty()))
     }
 
-    /// Returns the rows that describe the item in text reports, each with a label and a text, if
-    /// any. The report chooses the wording of the message and the hints.
+    /// Returns the section to read, which explains where to look.
+    pub fn where_to_read(&self) -> Option<&Section> {
+        self.clue_section.as_ref().or(self.section.as_ref())
+    }
+
+    /// Returns the rows that describe the item in text reports, each with a label and a text. Rows
+    /// without a text are left out. The report chooses the wording of the message and the hints.
     pub fn rows(&self, what: String, hint: Option<String>) -> Vec<(&'static str, String)> {
         let evidence = |text: fn(&Evidence) -> &String| self.evidence.as_ref().map(text).cloned();
         let rows = [
@@ -354,7 +397,7 @@ impl ItemScore {
             ("wanted", evidence(|evidence| &evidence.wanted)),
             ("look", self.where_to_look().cloned()),
             ("hint", hint),
-            ("read", self.section.as_ref().map(Section::location)),
+            ("read", self.where_to_read().map(Section::location)),
         ];
         let rows = rows
             .into_iter()
@@ -362,8 +405,8 @@ impl ItemScore {
         rows.filter(|(_, text)| !text.is_empty()).collect()
     }
 
-    /// Returns the command that runs the item again: only the question of its evidence or, if there
-    /// is no evidence, the whole task.
+    /// Returns the command that reruns only the question in the item's evidence or, if there is no
+    /// evidence, the whole task.
     pub fn rerun_command(&self, command: &RerunCommand) -> String {
         match &self.evidence {
             Some(evidence) => command.replay(&self.id, evidence.number),
@@ -371,7 +414,8 @@ impl ItemScore {
         }
     }
 
-    /// Returns the command that shows the evidence's question in the viewer, if any.
+    /// Returns the command that shows the question from the evidence in the viewer, if there is
+    /// one.
     pub fn view_command(&self, command: &RerunCommand) -> Option<String> {
         let evidence = self.evidence.as_ref()?;
         let number = evidence.can_be_shown.then_some(evidence.number)?;
@@ -388,7 +432,7 @@ impl Score {
     /// Returns the text of the score file.
     pub fn to_json(&self) -> String {
         let text = serde_json::to_string_pretty(self);
-        text.expect("all map keys of a score are strings") + "\n"
+        text.expect("all map keys in a score must be strings") + "\n"
     }
 
     /// Replaces the score of the item with the same id.

@@ -47,7 +47,7 @@ impl RerunCommand {
         self.join("cargo grade", submission.chain(exam), what.to_owned())
     }
 
-    /// Returns a command with the same options as before. `words` are its arguments that name the
+    /// Returns a command that repeats the options. `words` are the arguments that name the
     /// submission.
     fn join(&self, start: &str, words: impl Iterator<Item = String>, end: String) -> String {
         let assignment = self.assignment.map(|id| format!("--assignment {id}"));

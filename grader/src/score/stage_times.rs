@@ -14,7 +14,7 @@ pub struct StageTimes {
     pub build: Duration,
     /// Starting the probe, once per task.
     pub start: Duration,
-    /// Waiting for answers, for each task, excluding the start of the probe.
+    /// Waiting for the answers in each task, excluding the start of the probe.
     pub asking: Vec<(Task, Duration)>,
     /// Comparing answers with keys and with the signatures of known mistakes.
     pub judging: Duration,

@@ -24,7 +24,7 @@ pub enum TaskFileError {
     /// The file isn't valid UTF-8. The number is the line of the first invalid byte, counted from
     /// 1.
     NotText(usize),
-    /// The system cannot read the file, with this message.
+    /// The system cannot read the file and gives this reason.
     Unreadable(String),
 }
 
@@ -32,13 +32,17 @@ pub enum TaskFileError {
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionError {
     /// The path doesn't exist.
-    #[error("there is no {0}: name the folder with the task files, such as `student`")]
+    #[error("{0} does not exist: pass the folder that contains the task files, such as `student`")]
     NotFound(PathBuf),
     /// The path is a device, a pipe or a socket.
-    #[error("{0} is neither a folder nor a file: name the folder with the task files")]
+    #[error("{0} is neither a folder nor a file: pass the folder that contains the task files")]
     NotFileOrFolder(PathBuf),
     /// The folder or archive contains none of the task files.
-    #[error("{} has none of {files} in any of its folders; it has {}", path.display(), listed(found))]
+    #[error(
+        "{} contains none of {files} in any of its folders; it contains {}{advice}",
+        path.display(),
+        listed(found)
+    )]
     NoTaskFiles {
         /// The path of the folder or archive.
         path: PathBuf,
@@ -46,6 +50,8 @@ pub enum SubmissionError {
         files: String,
         /// The names of the files and folders found instead.
         found: Vec<String>,
+        /// The advice if the files only have the wrong names. Empty otherwise.
+        advice: String,
     },
     /// One of the files or folders to read is a link.
     #[error(
@@ -61,22 +67,27 @@ pub enum SubmissionError {
     #[error(transparent)]
     Unreadable(PathError),
     /// The machine failed to read a file or folder. Nothing is known about the submission.
-    #[error("{0}; this is a fault of the machine, so try again")]
+    #[error("{0}; this is a problem with the machine, so try again")]
     Machine(PathError),
     /// Several copies of the task files differ, and any of them could be the right one.
     #[error(
-        "{path} has task files that differ, in {}: put those that count into one folder, without the others",
-        places(copies)
+        "{path} contains different copies of {}, in {}: keep only {} that should be graded",
+        listed(files),
+        places(copies),
+        if files.len() == 1 { "the one" } else { "those" }
     )]
     Ambiguous {
         /// The path of the folder or archive.
         path: PathBuf,
+        /// The names of the task files.
+        files: Vec<String>,
         /// Two of the folders or files. The empty path is the top level.
         copies: Vec<String>,
     },
     /// Task files are unmodified, but changed copies of them exist.
     #[error(
-        "{path} has the starter's {}, and changed copies in {}: keep the file that counts, under the task file's name",
+        "{path} contains the unmodified starter version of {}, and modified copies in {}: keep only \
+         the file that should be graded, and give it the task file's name",
         listed(starters),
         listed(copies)
     )]
@@ -89,14 +100,14 @@ pub enum SubmissionError {
         copies: Vec<String>,
     },
     /// The submission exceeds a limit on reading it.
-    #[error("{0} has {1}: hand in the task files without the rest")]
+    #[error("{0} contains {1}: hand in only the task files")]
     TooMany(PathBuf, Limit),
     /// The path is a file, but not an archive that can be read.
     #[error("{path}: {why}")]
     Archive {
         /// The path of the file.
         path: PathBuf,
-        /// Why the archive is rejected.
+        /// The reason the archive is rejected.
         why: ArchiveError,
     },
 }
@@ -221,12 +232,11 @@ mod tests {
         assert_eq!(places(&paths), "its top level and old");
         let error = SubmissionError::Ambiguous {
             path: "ann".into(),
+            files: vec!["bvh.rs".to_owned()],
             copies: paths.into(),
         };
-        let message = error.to_string();
-        assert!(
-            message.contains("differ, in its top level and old:"),
-            "{message}"
-        );
+        let message = "ann contains different copies of bvh.rs, in its top level and old: keep \
+                       only the one that should be graded";
+        assert_eq!(error.to_string(), message);
     }
 }

@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-/// A limited quantity of a submission.
+/// A quantity that is limited for each submission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Limit {
     /// Files and folders, in folders and in archives.
@@ -40,7 +40,7 @@ impl fmt::Display for Limit {
         let most = self.most();
         let things = match self {
             Limit::Files => "files and folders",
-            Limit::Levels => return f.write_str("too many files and folders inside each other"),
+            Limit::Levels => return f.write_str("too many levels of nested folders"),
             Limit::Archives => "archives",
             Limit::Folders => "folders with task files",
             Limit::Copies => "copies of task files",

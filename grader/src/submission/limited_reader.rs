@@ -71,7 +71,7 @@ impl ByteBudget {
         read: impl FnOnce(&mut [u8]) -> io::Result<usize>,
     ) -> io::Result<usize> {
         if self.is_exhausted() && !buffer.is_empty() {
-            return Err(io::Error::other("it has more bytes than may be read"));
+            return Err(io::Error::other("it is larger than allowed"));
         }
         let most = usize::try_from(self.left())
             .unwrap_or(usize::MAX)
@@ -83,7 +83,7 @@ impl ByteBudget {
 }
 
 impl<R> LimitedReader<R> {
-    /// Limits `inner` to the bytes of a budget in total, at any offsets.
+    /// Limits the total number of bytes read from `inner`, at any offsets, to a budget.
     pub(super) fn new(inner: R, budget: &ByteBudget) -> Self {
         LimitedReader {
             inner,
@@ -121,7 +121,7 @@ mod tests {
         assert_eq!(reader.read(&mut buffer).unwrap(), 1);
         assert!(budget.is_exhausted());
         let error = reader.read(&mut buffer).unwrap_err();
-        assert_eq!(error.to_string(), "it has more bytes than may be read");
+        assert_eq!(error.to_string(), "it is larger than allowed");
         // Reading zero bytes is always possible.
         assert_eq!(reader.read(&mut []).unwrap(), 0);
         budget.reset(9);

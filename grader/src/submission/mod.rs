@@ -11,7 +11,7 @@ mod limited_reader;
 mod names;
 mod search;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use judging::assignment::TaskInfo;
@@ -43,17 +43,19 @@ pub struct Submission {
     pub handed_out: &'static HandedOut,
     /// The name of the folder or archive, for reports.
     pub name: String,
-    /// The text of each task file, or why there is none, in lecture order.
+    /// The text of each task file, or the reason there is none. The files are in lecture order.
     pub files: Vec<(TaskFile, Result<String, TaskFileError>)>,
-    /// Notes about files that look like task files or archives but aren't graded.
+    /// Notes about files that look like task files or archives but aren't graded, or are graded
+    /// under a different name.
     pub ignored_copies: Vec<String>,
     /// Notes about other files that were found but aren't graded.
     pub notes: Vec<String>,
 }
 
 impl Submission {
-    /// Reads the task files in a folder or archive, at any depth, including the archives in it. The
-    /// folder with the most task files is used. Ignored copies are mentioned in a note.
+    /// Reads the task files in a folder or archive, at any depth, including those in nested
+    /// archives. The folder with the most task files is used. If the files are spread over several
+    /// folders, they are combined. Ignored copies are mentioned in a note.
     pub fn collect(path: &Path, handed_out: &'static HandedOut) -> Result<Self, SubmissionError> {
         let name = folder_name(path);
         if path.is_dir() {
@@ -82,14 +84,15 @@ impl Submission {
             let mut search = folder::search_one(&source, handed_out)?;
             let copies = std::mem::take(&mut search.lookalikes);
             let mut own = Submission::choose(folder_name(path), search)?;
-            own.ignored_copies = own.notes_on_own_copies(&copies);
+            let notes = own.notes_on_own_copies(&copies);
+            own.ignored_copies.extend(notes);
             return Ok(own);
         }
         Submission::collect(path, handed_out)
     }
 
-    /// Reads the task files among these files, including the archives among them. Each file is
-    /// given by its submitted name and its path on disk.
+    /// Reads the task files among these files and in the archives among them. Each file is
+    /// specified by its submitted name and its path on disk.
     pub fn from_files(
         name: &str,
         files: &[(String, PathBuf)],
@@ -114,28 +117,39 @@ impl Submission {
         if let Some((_, fault)) = faults.into_iter().next() {
             return Err(fault);
         }
-        let mut found: Vec<String> = search
-            .lookalikes
-            .iter()
-            .map(|file| file.path.clone())
-            .collect();
+        let lookalikes = search.lookalikes.iter().map(|file| file.path.clone());
+        let mut found: Vec<String> = lookalikes.collect();
+        let has_other_names = !found.is_empty();
         let choice = choice::choose(&path, search.candidates, search.lookalikes, handed_out)?;
         let Some(mut choice) = choice else {
             let mut errors = errors.into_iter().map(|(_, error)| error);
             let error = errors.next().or_else(|| search.links.first().map(link));
             return Err(error.unwrap_or_else(|| {
-                found.extend(search.names);
-                found.dedup();
+                let names = search.names.into_iter();
+                found.extend(names.filter(|name| !is_skipped_name(name)));
+                let mut seen = BTreeSet::new();
+                found.retain(|name| seen.insert(name.clone()));
+                let advice = format!(
+                    ": give each file its task file's exact name, such as {}; \
+                     names must end in .rs",
+                    handed_out.files[0].name
+                );
                 SubmissionError::NoTaskFiles {
                     path: path.clone(),
                     files: handed_out.file_list(),
                     found,
+                    advice: if has_other_names {
+                        advice
+                    } else {
+                        String::new()
+                    },
                 }
             }));
         };
+        choice.notes.extend(search.superseded);
         // A link could lead to another person's files.
         let files = handed_out.file_names();
-        let mut paths = files.map(|file| choice::join(&choice.chosen.folder, file));
+        let mut paths = files.map(|file| choice.chosen.path_of(file));
         if let Some(path) = paths.find(|path| search.links.contains(path)) {
             return Err(link(&path));
         }
@@ -265,11 +279,11 @@ fn notes(other_files: &BTreeMap<String, Vec<u8>>, handed_out: &HandedOut) -> Vec
             // Compare by line, because git and editors may change line endings.
             let same = theirs.lines().eq(given.text.lines());
             (!same).then(|| {
-                format!("{name} differs from the given file: the given one is used, not yours")
+                format!("{name} differs from the given file, which is used instead of yours")
             })
         }
         None => Some(format!(
-            "{} is not one of the task files: ignored",
+            "{} is not one of the task files and is ignored",
             display_name(name)
         )),
     };

@@ -1,17 +1,18 @@
-//! Decides from its name what a file could be: a task file, a copy of one, or an archive. People,
-//! browsers, file managers and editors rename files, so names are compared without their additions.
+//! Determines from a file's name what the file could be: a task file, a copy of one, or an archive.
+//! People, browsers, file managers and editors rename files, so names are compared without their
+//! additions.
 
 use unicode_normalization::UnicodeNormalization;
 
 use crate::handed_out::HandedOut;
 
-/// Words that browsers, file managers and web storage put around the name of a copy, in the
-/// languages of common systems. A number is also treated as such a word.
+/// Words that browsers, file managers and web storage put before or after the name of a copy, in
+/// the languages of common systems. A number is also treated as such a word.
 const COPY_WORDS: [&str; 20] = [
     "copy", "of", "another", "kopie", "von", "copie", "de", "copia", "di", "kopi", "kopia",
     "kopio", "kopya", "af", "av", "van", "st", "nd", "rd", "th",
 ];
-/// Those of these words with non-English letters.
+/// More such words, which contain non-English letters.
 const OTHER_COPY_WORDS: [&str; 7] = [
     "cópia",
     "másolat",
@@ -32,23 +33,24 @@ const ARCHIVE_EXTENSIONS: [&str; 30] = [
     "lz4", "lzma", "lzh", "z", "z01", "zipx", "arj", "ace", "cab", "iso", "dmg", "sit", "sitx",
     "cpio", "wim", "xar",
 ];
-/// The prefix of files where macOS stores metadata of other files.
+/// The prefix of the names of files where macOS stores metadata about other files.
 const MACOS_METADATA: &str = "._";
 
-/// How a name resembles a task file's.
+/// How a name resembles that of a task file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Resemblance {
-    /// It is the task file's name.
+    /// The name is exactly the task file's.
     Exact,
-    /// It is the task file's name with the additions that a browser or a file manager makes for a
-    /// copy: `bvh (1).rs`, `Copy of bvh.rs`. If there is no task file with the exact name, it is
-    /// used as that file.
+    /// The name is that of the task file, with the additions that a browser or a file manager makes
+    /// for a copy: `bvh (1).rs`, `Copy of bvh.rs`. If there is no task file with the exact name,
+    /// the copy is used as that file.
     Copy,
-    /// It contains the task file's name, such as `bvh_final.rs`, `Bvh.rs` or `bvh.rs.bak`.
+    /// The name contains that of the task file, such as `bvh_final.rs`, `Bvh.rs` or `bvh.rs.bak`.
     Similar,
 }
 
-/// Returns how a file's name resembles a task file's, or `None` if it doesn't.
+/// Returns the resemblance between a file's name and that of a task file, or `None` if there is
+/// none.
 pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
     if name == task_file {
         return Some(Resemblance::Exact);
@@ -67,7 +69,7 @@ pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
         let mut others = words(stem_of_name)
             .into_iter()
             .filter(|word| !is_added(word));
-        // Names of hidden files begin with a dot, and names of editors' files with other
+        // The names of hidden files begin with a dot, and those of editors' own files with other
         // characters.
         let is_plain = name.starts_with(char::is_alphanumeric);
         if is_plain && others.next() == Some(stem) && others.next().is_none() {
@@ -127,7 +129,7 @@ mod tests {
     use super::*;
     use crate::handed_out::RAYS;
 
-    /// Checks the names between the bars.
+    /// Checks all of these names, which are separated by bars.
     fn all(names: &str, expected: Option<Resemblance>) {
         for name in names.split('|').map(str::trim) {
             assert_eq!(resemblance(name, "camera.rs"), expected, "{name}");

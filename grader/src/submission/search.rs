@@ -18,7 +18,7 @@ pub(super) struct Search {
     pub(super) submission: PathBuf,
     /// The assignment.
     pub(super) handed_out: &'static HandedOut,
-    /// The number of items read so far, for each limited quantity.
+    /// The amount of each limited quantity that has been read so far.
     counts: BTreeMap<Limit, usize>,
     /// The bytes that may still be read from archives.
     pub(super) bytes: ByteBudget,
@@ -28,20 +28,24 @@ pub(super) struct Search {
     pub(super) lookalikes: Vec<Lookalike>,
     /// The names at the top level, with invalid UTF-8 replaced.
     pub(super) names: Vec<String>,
-    /// The paths of links below the folder, with `/`.
+    /// The paths of links below the folder, with `/` as the separator.
     pub(super) links: Vec<String>,
-    /// Folders and archives that cannot be read or are nested too deeply, by their paths.
+    /// The paths of folders and archives that cannot be read or are nested too deeply, each with
+    /// the error.
     pub(super) errors: Vec<(String, SubmissionError)>,
+    /// Notes about files that were handed in again under the same name.
+    pub(super) superseded: Vec<String>,
     /// The archives that were found, with their paths on disk.
     pub(super) archives: Vec<(String, PathBuf)>,
 }
 
-/// The files of a folder. Some have been read.
+/// The files of a folder, some of which have been read.
 #[derive(Default)]
 pub(super) struct FoundFolder {
-    /// The path of the folder below the submission, with `/`. Empty for its top level.
+    /// The path of the folder below the submission, with `/` as the separator. Empty for the
+    /// submission's top level.
     pub(super) path: String,
-    /// The files that may be task files or given files, by name.
+    /// The names and contents of the files that may be task files or given files.
     pub(super) read: Vec<(String, FileContents)>,
     /// The names of the other files.
     pub(super) others: Vec<String>,
@@ -60,6 +64,7 @@ impl Search {
             names: Vec::new(),
             links: Vec::new(),
             errors: Vec::new(),
+            superseded: Vec::new(),
             archives: Vec::new(),
         }
     }
@@ -99,7 +104,7 @@ impl Search {
     pub(super) fn add_folder(&mut self, folder: FoundFolder) -> Result<(), SubmissionError> {
         let FoundFolder { path, read, others } = folder;
         let handed_out = self.handed_out;
-        let mut task_files = BTreeMap::new();
+        let (mut task_files, mut other_paths) = (BTreeMap::new(), BTreeMap::new());
         for file in handed_out.file_names() {
             let resembles = |(name, contents): &(String, FileContents)| {
                 let kind = resemblance(name, file)?;
@@ -114,7 +119,11 @@ impl Search {
             };
             let mut all: Vec<Lookalike> = read.iter().filter_map(resembles).collect();
             if let Some(index) = graded(&all, handed_out) {
-                task_files.insert(file, all.remove(index).contents);
+                let graded = all.remove(index);
+                task_files.insert(file, graded.contents);
+                if graded.kind != Resemblance::Exact {
+                    other_paths.insert(file, graded.path);
+                }
             }
             self.lookalikes.extend(all);
         }
@@ -131,6 +140,7 @@ impl Search {
         self.candidates.push(Candidate {
             folder: path,
             task_files,
+            other_paths,
             other_files: given.chain(others).collect(),
         });
         Ok(())
@@ -154,8 +164,8 @@ impl Search {
     }
 }
 
-/// Returns the index of the file to use as the task file: the one with its name or, failing that, a
-/// copy of it, if it is the only one.
+/// Returns the index of the file to use as the task file: the file with the exact name or, failing
+/// that, the copy of it, if there is only one.
 fn graded(all: &[Lookalike], handed_out: &HandedOut) -> Option<usize> {
     let of_kind = |kind: Resemblance| all.iter().position(|file| file.kind == kind);
     if let Some(index) = of_kind(Resemblance::Exact) {
@@ -196,13 +206,13 @@ mod tests {
             assert!(search.spend(limit, most).is_ok());
             assert!(search.spend(limit, 0).is_ok());
             let refused = search.spend(limit, 1).unwrap_err().to_string();
-            let end = ": hand in the task files without the rest";
-            assert_eq!(refused, format!("ann has too many {refusal}{end}"));
+            let end = ": hand in only the task files";
+            assert_eq!(refused, format!("ann contains too many {refusal}{end}"));
             assert!(search.check_bytes().is_ok());
         }
         let bytes = "too many bytes in its archives (more than 1024 MiB)";
         assert_eq!(Limit::Bytes.to_string(), bytes);
-        let levels = "too many files and folders inside each other";
+        let levels = "too many levels of nested folders";
         assert_eq!(Limit::Levels.to_string(), levels);
     }
 }

@@ -1,4 +1,4 @@
-//! Tests of collecting a submission.
+//! Tests for collecting a submission.
 
 use std::fs;
 use std::io::{Cursor, Write};
@@ -198,8 +198,8 @@ fn only_given_files_that_were_changed_are_noted() {
     .unwrap();
     assert_eq!(texts(&submission), [("bvh.rs", "new")]);
     let notes = [
-        "helper.rs is not one of the task files: ignored",
-        "world.rs differs from the given file: the given one is used, not yours",
+        "helper.rs is not one of the task files and is ignored",
+        "world.rs differs from the given file, which is used instead of yours",
     ];
     assert_eq!(submission.notes, notes);
 }
@@ -246,8 +246,133 @@ fn of_uploads_with_the_same_name_the_last_one_counts() {
         (&*found.name, &*texts(&found)),
         ("ann", &[("bvh.rs", "new")][..])
     );
+    let note = "bvh.rs was handed in more than once: the last version is graded, and an earlier, \
+                different one is ignored";
+    assert_eq!(found.ignored_copies, [note]);
+    // The starter's text isn't a version.
+    let starter = upload("bvh.rs", "4", RAYS.task_file("bvh.rs").unwrap().starter);
+    let with_starter = [files[1].clone(), starter];
+    let found = Submission::from_files("ann", &with_starter, &RAYS).unwrap();
+    assert_eq!(texts(&found), [("bvh.rs", "new")]);
+    assert_eq!(found.ignored_copies, [""; 0]);
     let error = Submission::from_files("ann", &files[2..], &RAYS).unwrap_err();
-    assert!(error.to_string().ends_with("it has notes.txt"), "{error}");
+    assert!(
+        error.to_string().ends_with("it contains notes.txt"),
+        "{error}"
+    );
+}
+
+/// Returns the message of a submission that isn't graded, without its path.
+fn refusal(files: Files) -> String {
+    let folder = folder(files);
+    let error = Submission::collect(folder.path(), &RAYS).unwrap_err();
+    error
+        .to_string()
+        .replace(&folder.path().display().to_string(), "it")
+}
+
+#[test]
+fn files_in_several_places_are_graded_together() {
+    let parts: Files = &[
+        ("task1/camera.rs", b"a"),
+        ("task2/triangle.rs", b"b"),
+        ("task2/sphere.rs", b"c"),
+        ("task3/bbox.rs", b"d"),
+        ("task3/bvh.rs", b"e"),
+        ("task3/helper.rs", b""),
+    ];
+    let in_zip = |files: Files| zip(files, CompressionMethod::Deflated);
+    let (one, two, all) = (in_zip(&parts[..3]), in_zip(&parts[3..]), in_zip(parts));
+    let each: Vec<_> = parts.iter().map(|file| in_zip(&[*file])).collect();
+    let names: Vec<String> = (0..each.len())
+        .map(|index| format!("{index}.zip"))
+        .collect();
+    let each = names.iter().zip(&each);
+    let each: Vec<_> = each
+        .map(|(name, zip)| (name.as_str(), zip.as_slice()))
+        .collect();
+    let beside = parts
+        .iter()
+        .map(|(path, text)| match path.rsplit_once('/') {
+            Some((_, name)) if name != "bvh.rs" => (format!("src/{name}"), *text),
+            _ => ("bvh.rs".to_owned(), *text),
+        });
+    let beside: Vec<_> = beside.collect();
+    let beside: Vec<_> = beside
+        .iter()
+        .map(|(path, text)| (path.as_str(), *text))
+        .collect();
+    let with_zip = [&parts[..3], &[("rest.zip", &two)]].concat();
+    let submissions: [Files; 6] = [
+        parts,
+        &[("all.zip", &all)],
+        &[("1.zip", &one), ("2.zip", &two)],
+        &each,
+        &beside,
+        &with_zip,
+    ];
+    for files in submissions {
+        let found = collected(files).unwrap();
+        let texts = texts(&found);
+        let texts: String = texts.into_iter().map(|(_, text)| text).collect();
+        assert_eq!((texts.len(), &*texts), (5, "abcde"), "{files:?}");
+        assert_eq!(found.ignored_copies, [""; 0]);
+    }
+    let notes = collected(parts).unwrap().notes;
+    assert_eq!(
+        notes,
+        ["helper.rs is not one of the task files and is ignored"]
+    );
+    let older = [parts, &[("old/bvh.rs", b"older"), ("old/sphere.rs", b"c")]].concat();
+    let expected = "it contains different copies of bvh.rs, in old and task3: keep only the one \
+                    that should be graded";
+    assert_eq!(refusal(&older), expected);
+}
+
+#[test]
+fn a_copy_next_to_a_file_is_never_chosen_silently() {
+    let starter = RAYS.task_file("bvh.rs").unwrap().starter.as_bytes();
+    for copy in ["bvh-1.rs", "bvh (1).rs", "bvh_1.rs"] {
+        let expected = format!(
+            "it contains different copies of bvh.rs, in bvh.rs and {copy}: keep only the one that \
+             should be graded"
+        );
+        assert_eq!(refusal(&[("bvh.rs", b"new"), (copy, b"newer")]), expected);
+        for same in [&b"new"[..], starter] {
+            let found = collected(&[("bvh.rs", b"new"), (copy, same)]).unwrap();
+            assert_eq!(texts(&found), [("bvh.rs", "new")]);
+            assert_eq!(found.ignored_copies, [""; 0]);
+        }
+        let found = collected(&[(copy, b"new")]).unwrap();
+        assert_eq!(texts(&found), [("bvh.rs", "new")]);
+        assert_eq!(
+            found.ignored_copies,
+            [format!("{copy} is graded as bvh.rs")]
+        );
+        let found = collected(&[("old/bvh.rs", b"old"), (&format!("new/{copy}"), b"new")]);
+        let Err(SubmissionError::Ambiguous { files, copies, .. }) = found else {
+            panic!("{found:?}");
+        };
+        assert_eq!(
+            (&*files[0], copies),
+            ("bvh.rs", vec![format!("new/{copy}"), "old".to_owned()])
+        );
+    }
+}
+
+#[test]
+fn files_with_other_names_are_named_once_with_advice() {
+    let expected = "it contains none of camera.rs, triangle.rs, sphere.rs, bbox.rs and bvh.rs in \
+                    any of its folders; it contains camera.rs.txt, bvh.rs.txt: give each file its \
+                    task file's exact name, such as camera.rs; names must end in .rs";
+    let files: Files = &[
+        ("bvh.rs.txt", b"new"),
+        ("camera.rs.txt", b"new"),
+        (".git/HEAD", b""),
+    ];
+    assert_eq!(refusal(files), expected);
+    let nothing = refusal(&[(".git/HEAD", b"")]);
+    assert!(nothing.ends_with("; it contains no files"), "{nothing}");
 }
 
 #[test]
@@ -258,7 +383,7 @@ fn a_path_without_a_submission_is_explained() {
     let error = |path: &Path| Submission::collect(path, &RAYS).unwrap_err().to_string();
     let none = error(folder.path());
     assert!(
-        none.ends_with("in any of its folders; it has a, b.txt"),
+        none.ends_with("in any of its folders; it contains a, b.txt"),
         "{none}"
     );
     let archive = folder.path().join("a.tar");
@@ -268,9 +393,14 @@ fn a_path_without_a_submission_is_explained() {
     )
     .unwrap();
     let none = error(&archive);
-    assert!(none.ends_with("it has a.txt, b"), "{none}");
+    assert!(none.ends_with("it contains a.txt, b"), "{none}");
     let absent = error(&folder.path().join("absent"));
-    assert!(absent.starts_with("there is no "), "{absent}");
+    assert!(
+        absent.ends_with(
+            "does not exist: pass the folder that contains the task files, such as `student`"
+        ),
+        "{absent}"
+    );
     let text = error(&folder.path().join("b.txt"));
     assert!(text.contains("it is empty"), "{text}");
 }

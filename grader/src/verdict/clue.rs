@@ -1,4 +1,5 @@
-//! Clues: what to look for if the way an item failed is more informative than the item itself.
+//! Clues, which say what to look for if the way an item failed is more informative than the item
+//! itself.
 
 use judging::assignment::TaskInfo;
 use judging::signatures::PanicKind;
@@ -6,9 +7,9 @@ use judging::signatures::PanicKind;
 use crate::probe::{Crash, Fault, TimeLimit};
 
 /// The clue for a question that is answered correctly when rerun in isolation.
-pub const KEPT_STATE: &str = "The same question is answered correctly when it is asked alone, so your \
-    code keeps something from one call to the next, in a `static` or a `Cell` for example. An answer \
-    must depend only on the arguments of its call.";
+pub const KEPT_STATE: &str = "Your code answers the same question correctly in isolation, so it \
+                              keeps state from one call to the next, for example in a `static` or \
+                              a `Cell`. An answer must depend only on the arguments of its call.";
 
 /// Returns the clue for an item without an answer.
 pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
@@ -24,17 +25,16 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
              this task needs to wait."
         ),
         Fault::TimedOut(TimeLimit::Cpu | TimeLimit::Wall) => format!(
-            "Find the loop or the recursion that `{method}` in {file} does not leave with this \
-             question: what changes from one round to the next, and what ends it?"
+            "Find the loop or the recursion in {file} that never ends when `{method}` is called for this \
+             question: what changes from one iteration to the next, and what should end it?"
         ),
         Fault::OutOfMemory => format!(
-            "Find the list that grows in each round of `{method}` in {file}, and what should end its \
-             growth."
+            "Find the list that `{method}` in {file} keeps adding to. What should make it stop?"
         ),
         Fault::Crashed(Crash::StackOverflow) => match clues.if_stack_overflows {
             Some(clue) => clue.to_owned(),
             None => {
-                format!("Find the call in {file} that can get the same arguments as its caller.")
+                format!("Find the call in {file} that can receive the same arguments as its caller.")
             }
         },
         Fault::Crashed(Crash::Exited(_)) => {
@@ -46,7 +46,8 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
                 .to_owned()
         }
         Fault::Crashed(Crash::Signal(_) | Crash::Killed) | Fault::Protocol(_) => format!(
-            "Run this question by itself, with `--replay`, and see what `{method}` in {file} does last."
+            "Run this question in isolation, with `--replay`, and see what `{method}` in {file} \
+             does last."
         ),
     }
 }
@@ -55,16 +56,16 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
 pub fn of_panic(message: &str) -> Option<&'static str> {
     Some(match PanicKind::of(message)? {
         PanicKind::Index => {
-            "Compare the index with the length: is it one too far, is the list empty, or is it an index into \
-             another list? A vector has the axes 0, 1 and 2."
+            "Compare the index with the length: is the index one too far, is the list empty, or was the index \
+             meant for another list? A vector has the axes 0, 1 and 2."
         }
         PanicKind::Arithmetic => {
             "`usize` and `u32` have no values below zero, and no whole number can be divided by zero. \
              Which of the numbers in that line can be 0 here?"
         }
         PanicKind::NoValue => {
-            "The line takes for granted that there is a value. Which case gives `None` here, and what \
-             should be returned then?"
+            "That line assumes that there is a value. When is there none, and what should your code return \
+             in that case?"
         }
     })
 }
@@ -82,7 +83,7 @@ mod tests {
         };
         let build = clue("build");
         assert!(build.contains("one side of its split is empty"), "{build}");
-        let traverse = "Find the call in bvh.rs that can get the same arguments as its caller.";
+        let traverse = "Find the call in bvh.rs that can receive the same arguments as its caller.";
         assert_eq!(clue("traverse"), traverse);
     }
 }

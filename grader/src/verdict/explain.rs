@@ -4,14 +4,15 @@
 use judging::assignment::TaskInfo;
 use judging::exam::{Exam, Item};
 use judging::recognise::Observations;
+use judging::section::Section;
 
 use crate::handed_out::HandedOut;
 use crate::score::{ItemScore, Verdict, VerdictKind};
-use crate::verdict::{add_clue, add_hints};
+use crate::verdict::{add_clue, add_hints, has_no_clue};
 
-/// Adds the hints for the mistakes that explain a task's answers, both those of the submission's
-/// own program and those of the program with substituted parts. If no mistake explains them and no
-/// ray hits anything, adds the clue for that.
+/// Adds the hints for the mistakes that explain a task's answers, which come from the submission's
+/// own program or from the program with substituted parts. If no mistake explains them, adds a
+/// clue: the one for code whose rays never hit anything, or the one for the quantity that is wrong.
 pub fn explain_items(
     exam: &Exam,
     lines: &mut [ItemScore],
@@ -33,10 +34,56 @@ pub fn explain_items(
             }
         }
     }
+    for index in 0..lines.len() {
+        let (earlier, rest) = lines.split_at_mut(index);
+        if let Some(item) = exam.items.iter().find(|item| item.id == rest[0].id) {
+            add_symptom_clue(item, &mut rest[0], earlier, handed_out);
+        }
+    }
 }
 
-/// Returns whether these are all items of a task. After a save, only the items that failed before
-/// are graded first, and rays of the other items may hit something.
+/// Adds the clue for the quantity that is wrong in an item, unless the item is explained already or
+/// its own advice is about that quantity. If an `earlier` item of the task fails in the same way,
+/// the clue says to fix that first.
+fn add_symptom_clue(
+    item: &Item,
+    line: &mut ItemScore,
+    earlier: &[ItemScore],
+    handed_out: &HandedOut,
+) {
+    let Some(symptom) = &line.symptom else {
+        // If a task fails from its first item on, its failures say nothing about the idea behind
+        // this item.
+        let is_unexplained = line.verdict.kind() == VerdictKind::NoAnswer && line.hints.is_empty();
+        if is_unexplained && earlier.iter().all(|other| other.verdict != Verdict::Pass) {
+            line.clue_section = item.section.as_ref().map(Section::whole_chapter);
+        }
+        return;
+    };
+    let is_alike = |other: &&ItemScore| {
+        other.symptom.as_ref() == Some(symptom) && other.verdict.kind() == VerdictKind::Failed
+    };
+    let clues = &handed_out.assignment.info(item.task).clues;
+    let of_symptom = clues.of_symptom(symptom);
+    let of_symptom = of_symptom.filter(|_| !item.has_look_for(symptom));
+    let first = earlier.iter().find(is_alike).filter(|_| has_no_clue(line));
+    line.symptom_clue = match first {
+        Some(first) => Some(format!(
+            "{} fails in the same way: fix that first.",
+            first.id
+        )),
+        None => of_symptom.map(|clue| clue.clue.to_owned()),
+    };
+    line.clue_section = match first {
+        Some(first) => first.where_to_read().cloned(),
+        // A recognised mistake has its own section.
+        None if line.section != item.section => None,
+        None => of_symptom.map(|clue| Section::new(clue.section)),
+    };
+}
+
+/// Returns whether these are all items of a task. After a save, the items that failed before are
+/// graded first, and rays from the other items may hit something.
 fn is_whole_task<'a>(items: impl Iterator<Item = &'a Item>, info: &TaskInfo) -> bool {
     items.map(|item| item.points).sum::<u32>() == info.points
 }
@@ -54,6 +101,7 @@ mod tests {
     use judging::exam::Key;
     use judging::observe::observe;
     use judging::signatures::{KnownMistake, MistakeAnswers};
+    use judging::symptom::Symptom;
     use protocol::{Answer, ElementOutcome, Interval};
 
     use super::*;
@@ -138,7 +186,7 @@ mod tests {
         assert!(clue.is_some());
         assert_eq!(clue_in(&wrong, &whole, &miss), clue);
         assert_eq!(clue_in(&wrong, &whole, &hit), None);
-        // A question that isn't asked could have been a hit.
+        // The answer to a question that isn't asked could have been a hit.
         let mut some = whole.clone();
         some.items.pop();
         assert_eq!(clue_in(&wrong, &some, &miss), None);
@@ -161,6 +209,78 @@ mod tests {
         }];
         add_clue(&mut hinted, clue.as_deref());
         assert_eq!(hinted.clue, None);
+    }
+
+    #[test]
+    fn the_clue_fits_what_is_wrong_and_an_earlier_item_that_fails_alike_comes_first() {
+        let mut exam = exam(&[
+            "sphere.near_side",
+            "sphere.uv",
+            "sphere.normal",
+            "sphere.radius",
+        ]);
+        exam.items[1].look_fits = vec![Symptom::of("uv")];
+        exam.items[2].look_fits = vec![Symptom::of("normal")];
+        let wrong = |symptoms: [Symptom; 4]| {
+            let mut lines: Vec<ItemScore> = pending(&exam).items().cloned().collect();
+            for (line, symptom) in lines.iter_mut().zip(symptoms) {
+                line.verdict = Verdict::Wrong;
+                line.symptom = Some(symptom);
+                line.section = exam.items[0].section.clone();
+            }
+            explain_items(&exam, &mut lines, &Observations::default(), None, &RAYS);
+            lines
+        };
+        let lines = wrong([
+            Symptom::HIT,
+            Symptom::MISS,
+            Symptom::MISS,
+            Symptom::of("uv"),
+        ]);
+        let sphere = &RAYS.assignment.find("sphere").unwrap().clues;
+        let miss = sphere.of_symptom(&Symptom::MISS).unwrap();
+        // The first item's own advice is about every symptom.
+        assert_eq!(
+            (&lines[0].symptom_clue, &lines[0].clue_section),
+            (&None, &None)
+        );
+        assert_eq!(lines[1].symptom_clue.as_deref(), Some(miss.clue));
+        assert_eq!(lines[1].clue_section, Some(Section::new(miss.section)));
+        let first = "sphere.uv fails in the same way: fix that first.";
+        assert_eq!(lines[2].symptom_clue.as_deref(), Some(first));
+        assert_eq!(lines[2].clue_section, lines[1].clue_section);
+        assert_eq!(lines[3].symptom_clue, None);
+        // The other side is another way to fail, but the item's own advice is about it.
+        let lines = wrong([
+            Symptom::MISS,
+            Symptom::of("uv"),
+            Symptom::HIT,
+            Symptom::MISS,
+        ]);
+        assert_eq!(lines[1].symptom_clue, None);
+        let hit = sphere.of_symptom(&Symptom::HIT).unwrap();
+        assert_eq!(lines[2].symptom_clue.as_deref(), Some(hit.clue));
+        let first = "sphere.near_side fails in the same way: fix that first.";
+        assert_eq!(lines[3].symptom_clue.as_deref(), Some(first));
+    }
+
+    #[test]
+    fn if_every_item_fails_without_an_answer_the_chapter_is_to_be_read() {
+        let exam = exam(&["sphere.near_side", "sphere.radius"]);
+        let section_of_second = |first: Verdict| {
+            let mut lines: Vec<ItemScore> = pending(&exam).items().cloned().collect();
+            let verdicts = [first, Verdict::Crashed];
+            for ((line, item), verdict) in lines.iter_mut().zip(&exam.items).zip(verdicts) {
+                line.verdict = verdict;
+                line.section = item.section.clone();
+            }
+            explain_items(&exam, &mut lines, &Observations::default(), None, &RAYS);
+            lines[1].where_to_read().cloned()
+        };
+        let own = exam.items[1].section.clone();
+        assert_eq!(section_of_second(Verdict::Pass), own);
+        let chapter = own.map(|section| section.whole_chapter());
+        assert_eq!(section_of_second(Verdict::Crashed), chapter);
     }
 
     #[test]

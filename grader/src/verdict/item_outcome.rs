@@ -21,7 +21,7 @@ pub enum ItemOutcome<'a> {
         culprit: Option<(usize, usize)>,
     },
     /// The item was not run.
-    NotRun(NotRun),
+    NotRun(NotRunReason),
     /// Every question has an answer.
     Answered {
         /// The judgements of the answers.
@@ -32,9 +32,9 @@ pub enum ItemOutcome<'a> {
     },
 }
 
-/// Why an item was not run.
+/// The reason an item was not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NotRun {
+pub enum NotRunReason {
     /// Other items of its task ended with this fault, so the task was stopped.
     TaskStopped(Fault),
     /// It depends on a task that was stopped.

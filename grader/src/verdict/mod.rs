@@ -13,6 +13,7 @@ use judging::sanitize::sanitize;
 use judging::scene;
 use judging::section::Section;
 use judging::signatures::KnownMistake;
+use judging::symptom::Symptom;
 
 use crate::build::NotCompiled;
 use crate::handed_out::HandedOut;
@@ -23,7 +24,7 @@ use crate::score::{
     BuildReport, CodeLocation, Evidence, Hint, ItemScore, SCHEMA_VERSION, Score, TaskScore,
     Timings, Verdict, VerdictKind,
 };
-use crate::verdict::item_outcome::{ItemOutcome, NotRun, worst_failure};
+use crate::verdict::item_outcome::{ItemOutcome, NotRunReason, worst_failure};
 use crate::workspace::bundle_version::bundle_version;
 
 /// Maximum length of a student's or the compiler's text in a message, in characters.
@@ -51,6 +52,8 @@ pub fn pending_score(
             points: 0,
             max_points: items.iter().map(|item| item.max_points).sum(),
             items,
+            method: handed_out.assignment.info(task).file.to_owned(),
+            warnings: Vec::new(),
             printed: None,
         }
     };
@@ -98,8 +101,8 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
         }
         ItemOutcome::NotRun(why) => {
             score.verdict = match why {
-                NotRun::TaskStopped(fault) => verdict_of(fault),
-                NotRun::NeedsStoppedTask | NotRun::BudgetUsedUp => Verdict::TimedOut,
+                NotRunReason::TaskStopped(fault) => verdict_of(fault),
+                NotRunReason::NeedsStoppedTask | NotRunReason::BudgetUsedUp => Verdict::TimedOut,
             };
             score.message = not_run_message(why);
             score.section = item.section.clone();
@@ -117,19 +120,19 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
     score
 }
 
-fn not_run_message(why: &NotRun) -> String {
+fn not_run_message(why: &NotRunReason) -> String {
     let why = match why {
-        NotRun::TaskStopped(fault @ Fault::Crashed(Crash::NotStarted)) => return fault.to_string(),
-        NotRun::TaskStopped(Fault::TimedOut(_)) => {
-            "not run, because another item of this task took too long"
+        NotRunReason::TaskStopped(fault @ Fault::Crashed(Crash::NotStarted)) => {
+            return fault.to_string();
         }
-        NotRun::TaskStopped(Fault::OutOfMemory | Fault::Crashed(_) | Fault::Protocol(_)) => {
-            "not run, because two other items of this task crashed"
+        NotRunReason::TaskStopped(Fault::TimedOut(_)) => {
+            "not run because another item in this task took too long"
         }
-        NotRun::NeedsStoppedTask => "not run, because a task that it depends on was stopped",
-        NotRun::BudgetUsedUp => {
-            "not run, because the items before it have used up the time of the whole submission"
+        NotRunReason::TaskStopped(Fault::OutOfMemory | Fault::Crashed(_) | Fault::Protocol(_)) => {
+            "not run because two other items in this task crashed"
         }
+        NotRunReason::NeedsStoppedTask => "not run because a task that it depends on was stopped",
+        NotRunReason::BudgetUsedUp => "not run because earlier items used up the submission's time",
     };
     why.to_owned()
 }
@@ -150,7 +153,7 @@ pub fn file_line(why: &NotCompiled) -> Option<u32> {
     *line
 }
 
-/// Returns the compiler's error, or why nothing was compiled.
+/// Returns the compiler's error, or the reason nothing was compiled.
 pub fn file_message(file: &str, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.message(file),
@@ -197,7 +200,16 @@ fn score_answers(
         _ => Verdict::Partial,
     };
     let (verdict, got, wanted) = match &failure.kind {
-        FailureKind::Wrong { what, got, wanted } => {
+        FailureKind::Wrong {
+            what,
+            side,
+            got,
+            wanted,
+        } => {
+            score.symptom = Some(Symptom {
+                what: what.clone().into(),
+                side: *side,
+            });
             score.message = wrong_answer_message(what, item, judgements, (question, failure));
             (partial(Verdict::Wrong), got.clone(), wanted.clone())
         }
@@ -264,7 +276,7 @@ fn wrong_answer_message(
 }
 
 /// Returns the number of wrong answers and the total, counted across all questions of the item. The
-/// pixels of a path-traced picture are counted individually.
+/// pixels of a rendered picture are counted individually.
 fn wrong_answers(
     item: &Item,
     judgements: &[Judgement],
@@ -281,23 +293,20 @@ fn wrong_answers(
     Some((wrong.sum(), item.count()))
 }
 
-/// An item that earned no points and that another item depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BlockingItem<'a> {
-    /// Its id.
-    pub id: &'a str,
-    /// Its task.
-    pub task: Task,
-}
-
-/// Returns the first item without points that this item depends on, if any.
-pub fn blocking_item<'a>(item: &'a Item, others: &Score) -> Option<BlockingItem<'a>> {
-    item.needs.iter().find_map(|id| {
-        let mut tasks = others.tasks.iter();
-        let earned_nothing = |other: &ItemScore| other.id == *id && other.points == 0;
-        let task = tasks.find(|task| task.items.iter().any(earned_nothing))?;
-        Some(BlockingItem { id, task: task.id })
-    })
+/// Returns the score of an item whose task's method is still the one that was handed out. `method`
+/// is the line of the method in the file. Whatever the item's answers are, the method isn't written
+/// yet.
+pub fn unwritten_score(item: &Item, file: &str, method: u32) -> ItemScore {
+    ItemScore {
+        verdict: Verdict::Unimplemented,
+        message: format!("{file}:{method} is still the method that was handed out"),
+        at: Some(CodeLocation {
+            file: file.to_owned(),
+            line: method,
+        }),
+        section: item.section.as_ref().map(Section::whole_chapter),
+        ..ItemScore::pending(&item.id, &item.title, item.points)
+    }
 }
 
 /// Returns the score of an item that depends on the failed item `by`. If the item earned nothing,
@@ -313,13 +322,15 @@ pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
         at: None,
         look: None,
         clue: None,
+        symptom_clue: None,
         section: None,
+        clue_section: None,
         evidence: None,
         ..line
     }
 }
 
-/// Adds the hints of the mistakes that explain the answers and, for staff, the ids of these
+/// Adds the hints for the mistakes that explain the answers and, for staff, the ids of those
 /// mistakes.
 pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     if mistakes.is_empty() {
@@ -335,18 +346,24 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
         line.section = Some(section);
     }
     let ids: Vec<&str> = mistakes.iter().map(|mistake| mistake.id.as_str()).collect();
-    line.staff = Some(format!("answers like {}", ids.join(" or ")));
+    line.staff = Some(format!("answers like those of {}", ids.join(" or ")));
 }
 
 /// Adds a clue to an item with wrong answers, unless a hint or another clue is more helpful.
 pub fn add_clue(line: &mut ItemScore, clue: Option<&str>) {
-    if line.verdict.kind() == VerdictKind::Failed && line.hints.is_empty() && line.clue.is_none() {
+    if has_no_clue(line) {
         line.clue = clue.map(str::to_owned);
     }
 }
 
+/// Returns whether an item's answers are wrong and no hint or clue says more about them.
+pub(crate) fn has_no_clue(line: &ItemScore) -> bool {
+    line.verdict.kind() == VerdictKind::Failed && line.hints.is_empty() && line.clue.is_none()
+}
+
 /// Returns the score of an item that was graded with substituted parts. This score is used because
-/// mistakes in other files cost nothing here, but also cannot hide a mistake in this file.
+/// mistakes in other files don't cost any points in it, but cannot hide a mistake in this file
+/// either.
 pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> ItemScore {
     let message = match (own.verdict == Verdict::Pass, substituted.message.as_str()) {
         (true, "") => String::new(),
@@ -358,7 +375,7 @@ pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> I
              with the reference's other files"
         ),
         (false, message) => {
-            format!("{message}; graded with the reference's other files, because {by} failed")
+            format!("{message}; graded with the reference's other files because {by} failed")
         }
     };
     ItemScore {

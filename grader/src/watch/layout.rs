@@ -14,7 +14,8 @@ pub(super) struct Page<'a> {
     pub(super) next: &'a str,
     /// The table in one line.
     pub(super) short_table: &'a str,
-    /// Returns a line that says how to see the rest, given the task it is about.
+    /// Returns a line that says how to see the rest. The argument is the task that the rest is
+    /// about.
     pub(super) rest: &'a dyn Fn(Option<Task>) -> String,
 }
 

@@ -17,7 +17,7 @@ use crate::build::Build;
 use crate::error::Error;
 use crate::grade::options::GradeOptions;
 use crate::grade::report_files::ReportFiles;
-use crate::grade::{Grader, Prepared};
+use crate::grade::{Grader, PreparedSubmission};
 use crate::handed_out::HandedOut;
 use crate::machine::desktop;
 use crate::report::html::Reload;
@@ -26,11 +26,11 @@ use crate::submission::Submission;
 use crate::watch::save_watcher::{POLL_INTERVAL, SaveWatcher};
 use crate::watch::screen::{Phase, Screen};
 
-/// Grades until the process is stopped or an error occurs. With `open`, opens the report's page in a
-/// browser once.
+/// Grades until the process is stopped or an error occurs. If `open` is true, opens the report's
+/// page in a browser once.
 pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
     // Report a missing submission before compiling anything.
-    let mut submission = Prepared::new(options)?.submission;
+    let mut submission = PreparedSubmission::new(options)?.submission;
     let grader = Grader::prepare(options)?;
     let watcher = SaveWatcher::new(|| grader.collect().ok());
     let screen = Screen::open(options, grader.source_paths());
@@ -108,7 +108,11 @@ fn run_exams(
     let mut shown = grader.pending_score(submission, build);
     let mut old = BTreeSet::new();
     if let Some(last) = last {
-        shown.tasks.clone_from(&last.tasks);
+        let pending = std::mem::replace(&mut shown.tasks, last.tasks.clone());
+        for (task, pending) in shown.tasks.iter_mut().zip(pending) {
+            task.method = pending.method;
+            task.warnings = pending.warnings;
+        }
         shown.update_totals();
         old = all_items(last);
         let failed = failed_items(exam, last);

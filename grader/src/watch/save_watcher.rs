@@ -18,7 +18,7 @@ pub struct SaveWatcher<'a> {
 }
 
 impl<'a> SaveWatcher<'a> {
-    /// Creates a watcher of the submission that `collect` reads. `collect` returns `None` while
+    /// Creates a watcher for the submission that `collect` reads. `collect` returns `None` while
     /// there is no submission.
     pub fn new(collect: impl Fn() -> Option<Submission> + 'a) -> Self {
         SaveWatcher {

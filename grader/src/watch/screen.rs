@@ -11,7 +11,7 @@ use judging::assignment::Task;
 use crate::grade::options::GradeOptions;
 use crate::machine::printing::{print, without_commands};
 use crate::report::next_step::next_step;
-use crate::report::text::{OldResults, ReportParts, report_parts, short_table};
+use crate::report::text::{ItemOrder, OldResults, ReportParts, report_parts, short_table};
 use crate::score::{Score, Verdict};
 use crate::watch::layout::{Page, fit};
 use crate::workspace::source_paths::SourcePaths;
@@ -90,7 +90,8 @@ impl<'a> Screen<'a> {
             items: Some(old),
             build: phase == Phase::Compiling,
         };
-        let report = report_parts(score, tasks, *hints, old_results);
+        let order = ItemOrder::FirstOnTop;
+        let report = report_parts(score, tasks, *hints, old_results, order);
         let next = if phase == Phase::Waiting {
             next_step(score, tasks, self.options.handed_out.assignment)
         } else {

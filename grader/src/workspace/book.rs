@@ -6,8 +6,8 @@ use judging::section::{CHAPTERS, Section};
 
 use crate::workspace::Workspace;
 
-/// The folders where a book may be, relative to the workspace: as handed out, or as built by
-/// `cargo book`.
+/// The folders where a book may be, relative to the workspace, whether it was handed out or built
+/// by `cargo book`.
 const FOLDERS: [&str; 3] = ["handout/book", "target/handout", "target/students-handout"];
 
 /// A folder with the pages of the built handout.
@@ -63,8 +63,8 @@ impl Book {
     }
 }
 
-/// Returns the length of the section's mention at the start of `text`: a path, optionally followed
-/// by a heading in quotation marks on the same line.
+/// Returns the length of the mention of a section at the start of `text`: a path, optionally
+/// followed by a heading in quotation marks on the same line.
 fn mention_length(text: &str, path_start: usize) -> usize {
     let is_end = |c: char| !(c.is_ascii_alphanumeric() || "_-.".contains(c));
     let name = &text[path_start..];
@@ -161,7 +161,7 @@ mod tests {
         assert_eq!(book.with_links(&text), expected);
         let others = "handout/src/none.md handout/src/../boxes.md handout/src/ boxes.md";
         assert_eq!(book.with_links(others), others);
-        // Links aren't text, so only the text is left if there is no terminal.
+        // Links aren't part of the text, so only the text is left if there is no terminal.
         let plain = anstream::adapter::strip_str(&expected).to_string();
         assert_eq!(plain, text);
     }

@@ -1,5 +1,5 @@
 //! The version of the students' bundle, which is stored as build metadata in the versions of its
-//! packages. This repository itself has none.
+//! packages. The packages in this repository itself have none.
 
 use std::fs;
 
@@ -17,7 +17,7 @@ pub fn bundle_version() -> Option<&'static str> {
     metadata(env!("CARGO_PKG_VERSION"))
 }
 
-/// Returns a note if folders of the workspace come from a different version than this program.
+/// Returns a note if folders in the workspace come from a different version than this program.
 pub fn mixed_versions(workspace: &Workspace) -> Option<String> {
     let version_of = |(folder, manifest): (&'static str, &str)| {
         let text = fs::read_to_string(workspace.root().join(manifest)).ok()?;
@@ -38,15 +38,15 @@ fn mixed(grader: Option<&str>, folders: &[(&str, Option<String>)]) -> Option<Str
         .collect();
     (!others.is_empty()).then(|| {
         format!(
-            "this folder has a mix of versions: the grader is {}, and {}. Unpack the newest archive \
-             again, over all given files",
+            "this folder contains a mix of versions: the grader is {}, and {}. Unpack the newest archive \
+             again, overwriting all the provided files",
             name(grader),
             others.join(", ")
         )
     })
 }
 
-/// Returns the bundle's version in a package's version, or `None` if there is none. The outer
+/// Returns the bundle's version from a package's version, or `None` if there is none. The outer
 /// `None` means that the manifest doesn't contain a version.
 fn manifest_version(text: &str) -> Option<Option<String>> {
     let manifest: toml::Table = text.parse().ok()?;
@@ -79,8 +79,8 @@ mod tests {
         let note = mixed(Some("77aa"), &same[..1]).expect("the versions differ");
         assert_eq!(
             note,
-            "this folder has a mix of versions: the grader is 77aa, and student/framework is 3f9a. \
-             Unpack the newest archive again, over all given files"
+            "this folder contains a mix of versions: the grader is 77aa, and student/framework is 3f9a. Unpack \
+             the newest archive again, overwriting all the provided files"
         );
     }
 

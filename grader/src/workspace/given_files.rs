@@ -14,12 +14,13 @@ use crate::machine::files;
 /// The list of these files in a bundle, with their hashes. It doesn't exist in this repository.
 pub const LIST: &str = "grader/given-files.txt";
 
-/// The folders of these files.
+/// The folders that contain these files.
 const FOLDERS: [&str; 2] = ["student/framework/", "student/protocol/"];
 /// The number of files that a note names.
 const MAX_NAMES: usize = 3;
 
-/// Returns the text of the list, given the contents of all files in a bundle, by path.
+/// Returns the text of the list. `bundle` contains the contents of all files in a bundle, keyed by
+/// path.
 pub fn list(bundle: &BTreeMap<String, Vec<u8>>) -> String {
     let files = bundle.iter();
     let given = files.filter(|(path, _)| FOLDERS.iter().any(|folder| path.starts_with(folder)));
@@ -28,8 +29,8 @@ pub fn list(bundle: &BTreeMap<String, Vec<u8>>) -> String {
         .collect()
 }
 
-/// Returns a note if files of the workspace in this folder differ from the list. A missing file
-/// doesn't compile, so it needs no note.
+/// Returns a note if files in the workspace at `root` differ from the list. A missing file doesn't
+/// compile, so it needs no note.
 pub fn changed(root: &Path) -> Option<String> {
     let list = files::read_to_string(root.join(LIST)).ok()?;
     let listed = list.lines().filter_map(|line| line.split_once("  "));
@@ -49,9 +50,9 @@ fn note(changed: &[&str]) -> Option<String> {
     };
     (!first.is_empty()).then(|| {
         format!(
-            "given code was changed: {}{more}. These results are those of the changed code, and in the \
-             real grading the given code is used: undo the changes, or take these files, and no others, from the \
-             archive and run `cargo clean`, since Cargo takes their old dates for no change",
+            "the given code was changed: {}{more}. These results are for the changed code, but your work \
+             will be graded with the original: undo the changes, or unpack only these files from the \
+             archive and run `cargo clean`, because Cargo doesn't notice changed files that have old dates",
             first.join(", ")
         )
     })
@@ -109,6 +110,6 @@ mod tests {
             "{named}"
         );
         let many = note(&["a.rs", "b.rs", "c.rs", "d.rs", "e.rs"]).unwrap();
-        assert!(many.starts_with("given code was changed: a.rs, b.rs, c.rs and 2 more. "));
+        assert!(many.starts_with("the given code was changed: a.rs, b.rs, c.rs and 2 more. "));
     }
 }

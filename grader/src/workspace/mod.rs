@@ -76,7 +76,7 @@ impl Workspace {
         self.output_folder().join(".cache")
     }
 
-    /// Returns the path as given if it exists. Otherwise, resolves it relative to the workspace.
+    /// Returns the path unchanged if it exists. Otherwise, resolves it relative to the workspace.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         if path.exists() {
             path.to_owned()

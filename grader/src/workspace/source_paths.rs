@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::handed_out::HandedOut;
 use crate::workspace::display_path;
 
-/// The folder of a submission's task files, if it is where the assignment expects them.
+/// The folder of a submission's task files, if they are where the assignment expects them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourcePaths {
     folder: Option<PathBuf>,
@@ -22,6 +22,11 @@ impl SourcePaths {
             folder: below.map(|below| submission.join(below).components().collect()),
             handed_out,
         }
+    }
+
+    /// Returns the folder, if it was found.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
     }
 
     /// Returns the text with the path added to each task file with a line number: `sphere.rs:7`

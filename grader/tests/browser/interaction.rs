@@ -9,7 +9,7 @@ const FLICKER: &str = "document.querySelector('#triangle\\\\.picture .flicker')"
 const CLIP_PATH: &str =
     "document.querySelector('#triangle\\\\.picture .stage .got').style.clipPath";
 
-/// Opens the page where all pictures are wrong, with all pictures unfolded.
+/// Opens the page where all pictures are wrong, and unfolds all pictures.
 fn open_noisy_page(chromium: &Chromium, reader: Viewer) -> Tab {
     let mut tab = chromium.tab();
     tab.load(&pages::NOISY, reader);

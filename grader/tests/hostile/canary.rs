@@ -64,7 +64,7 @@ impl Canaries {
         self.folder.path().join("out")
     }
 
-    /// Returns the placeholders in the text of entries, with their values.
+    /// Returns the placeholders that an entry's text may contain, each with its value.
     pub fn placeholders(&self) -> [(&'static str, String); 8] {
         let port = |address: std::io::Result<std::net::SocketAddr>| {
             address.expect("the socket is bound").port().to_string()
@@ -84,7 +84,7 @@ impl Canaries {
         ]
     }
 
-    /// Returns the names of the secrets that a text contains, unchanged, reversed or in base 64.
+    /// Returns the names of the secrets that `text` contains, unchanged, reversed or in base 64.
     pub fn secrets_in(&self, text: &str) -> Vec<&'static str> {
         let is_in_text = |secret: &str| {
             let reversed: String = secret.chars().rev().collect();

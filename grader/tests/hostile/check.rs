@@ -142,7 +142,7 @@ fn report_problems(run: &GraderRun) -> Vec<String> {
     problems
 }
 
-/// Returns whether a text contains no control characters other than line breaks.
+/// Returns whether text contains no control characters other than line breaks.
 fn has_no_control_characters(text: &str) -> bool {
     !text.contains(|c: char| c.is_control() && c != '\n')
 }
@@ -156,8 +156,8 @@ static SCHEMA: LazyLock<(Schemas, SchemaIndex)> = LazyLock::new(|| {
     (schemas, index.expect("a schema"))
 });
 
-/// Returns a violation for each task without permitted points, and for each item without a permitted
-/// verdict.
+/// Returns a violation for each task whose points aren't permitted, and for each item whose verdict
+/// isn't permitted.
 fn wrong_points(entry: &Entry, score: &Value) -> Vec<Violation> {
     let mut wrong = Vec::new();
     for task in score["tasks"].as_array().into_iter().flatten() {

@@ -1,4 +1,5 @@
-//! One hostile submission: its changes to a correct submission, and its permitted results.
+//! Describes one hostile submission: its changes to a correct submission, and its permitted
+//! results.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,11 +13,11 @@ use serde::Deserialize;
 use crate::canary::Canaries;
 use crate::packaging::{Packaging, pack};
 
-/// In an entry with several files, the file whose text is appended to a task file. All others
-/// except the description are added to the task files or replace them.
+/// In an entry with several files, the file whose text is appended to a task file. All other files,
+/// except the description, are added to the task files or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
-/// The file with the descriptions of the entries without files.
+/// The file that contains the descriptions of the entries without files.
 const PACKAGED_FILE: &str = "packaged.toml";
 /// The prefix of the lines where a file describes its entry.
 const DESCRIPTION: &str = "//!";
@@ -54,13 +55,14 @@ pub struct Expectation {
     /// Whether the attack calls the function in `hole.rs`.
     #[serde(default)]
     uses_hole: bool,
-    /// The methods of that file where `call` is inserted at the beginning.
+    /// The methods where `call` is inserted at the beginning, in the file that the attack is
+    /// appended to.
     #[serde(default)]
     within: Vec<String>,
     /// The statement to insert at the beginning of these methods.
     #[serde(default = "Expectation::default_call")]
     call: String,
-    /// The form the entry is submitted in. `None` for a plain folder.
+    /// The form in which the entry is submitted. `None` for a plain folder.
     pack: Option<Packaging>,
     /// Part of the error message, if the entry is rejected without being graded.
     pub refused: Option<String>,
@@ -68,7 +70,7 @@ pub struct Expectation {
     /// the same points as without the attack.
     #[serde(default)]
     pub points: BTreeMap<String, u64>,
-    /// The permitted verdicts, in addition to `pass`, of the items of those tasks.
+    /// The permitted verdicts, in addition to `pass`, for the items of those tasks.
     #[serde(default)]
     pub verdicts: Vec<String>,
     /// Text that the report must contain.
@@ -169,7 +171,7 @@ impl Entry {
         Duration::from_secs(self.expect.wall)
     }
 
-    /// Returns the points of each task without the attack.
+    /// Returns the points that each task gets without the attack.
     pub fn base_points(&self) -> impl Iterator<Item = (&'static str, u64)> {
         let full = |points| match self.expect.base {
             Base::Reference => u64::from(points),

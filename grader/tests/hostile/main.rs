@@ -24,8 +24,6 @@ mod corpus;
 #[cfg(target_os = "linux")]
 mod entry;
 #[cfg(target_os = "linux")]
-mod levels;
-#[cfg(target_os = "linux")]
 mod packaging;
 #[cfg(target_os = "linux")]
 mod run;

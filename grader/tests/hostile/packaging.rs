@@ -14,7 +14,7 @@ use tar::{Builder, EntryType, Header};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-/// The form that a folder of task files is submitted in.
+/// The form in which a folder of task files is submitted.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Packaging {
@@ -34,13 +34,13 @@ pub enum Packaging {
     Pipe,
     /// A zip with a file of 256 MiB that compresses well.
     Bomb,
-    /// A zip with more files than the limit.
+    /// A zip with more files than the limit allows.
     ManyFiles,
-    /// A folder with more archives than the limit.
+    /// A folder with more archives than the limit allows.
     ManyArchives,
     /// A tar with a file name that contains escape sequences, line breaks and right-to-left text.
     OddNames,
-    /// A folder with a file whose name differs from a task file's in a Cyrillic letter.
+    /// A folder with a file whose name differs from that of a task file in a Cyrillic letter.
     LookAlike,
     /// An empty file.
     Empty,
@@ -52,9 +52,9 @@ pub enum Packaging {
     Sparse,
     /// A folder with a file that grants all permissions and a file that grants none.
     OddModes,
-    /// A folder with a named pipe in place of a file.
+    /// A folder where one file is a named pipe.
     PipeOnDisk,
-    /// A folder with a link in place of a file, which leads to a correct file elsewhere.
+    /// A folder where one file is a link to a correct file elsewhere.
     LinkedFileOnDisk,
     /// A folder whose `student` folder is a link to a folder elsewhere with a correct `src`.
     LinkedFolderOnDisk,
@@ -150,8 +150,8 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
     folder.to_owned()
 }
 
-/// Moves the files into the subfolder `below` of a new folder next to this one, as if they were
-/// another student's. Returns the new folder. This folder is empty afterwards.
+/// Moves the files into the subfolder `below` of a new folder next to the old one, as if they were
+/// another student's. Returns the new folder. The old one is empty afterwards.
 fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
     let others = folder.with_extension("others");
     let target = others.join(below);
@@ -161,7 +161,7 @@ fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
     others
 }
 
-/// Creates a link and its folder.
+/// Creates a link and the folder that contains it.
 fn link(original: &Path, path: &Path) {
     let folder = path.parent().expect("it has a parent");
     fs::create_dir_all(folder).expect("the folder can be created");

@@ -6,33 +6,36 @@ use insta::assert_snapshot;
 use crate::cases::{EXITING, PANICKING};
 use crate::harness::{FULL_POINTS, GradeRun, Submission, full_points_except, without};
 
-/// Returns a run of the reference with this statement before the box test.
+/// Returns the reference with this statement before the box test.
 fn before_box_test(name: &str, statement: &str) -> Submission {
     let test = "let inverse = dir.recip();";
     Submission::reference(name).with_replaced("bbox.rs", test, &format!("{statement} {test}"))
 }
 
-/// Asserts that an item of a task has this verdict, and that the report, which includes the points
-/// of all tasks, matches the snapshot.
-fn assert_costs_its_own_task(graded: &GradeRun, task: &str, verdict: &str) {
+/// Returns the report, which includes the points of all tasks. Panics unless an item of a task has
+/// this verdict.
+fn report_with(graded: &GradeRun, task: &str, verdict: &str) -> String {
     let verdicts = graded.verdicts(task);
     assert!(verdicts.contains(&verdict.to_owned()), "{verdicts:?}");
-    assert_snapshot!(verdict.to_owned(), graded.report());
+    graded.report()
 }
 
 #[test]
 fn a_panic_a_crash_and_nonsense_cost_the_items_that_trigger_them() {
     // One point in `traverse` is for a tree that contains spheres.
-    assert_costs_its_own_task(&PANICKING, "sphere", "panicked");
-    assert_costs_its_own_task(&EXITING, "camera", "crashed");
     let not_a_number = Submission::not_a_number().grade();
-    assert_costs_its_own_task(&not_a_number, "sphere", "wrong");
+    let reports = [
+        report_with(&PANICKING, "sphere", "panicked"),
+        report_with(&EXITING, "camera", "crashed"),
+        report_with(&not_a_number, "sphere", "wrong"),
+    ];
+    assert_snapshot!(reports.join("\n\n"));
 }
 
 #[test]
 fn an_endless_loop_is_stopped() {
     let graded = Submission::looping().grade_with(&["--cpu-limit", "1"]);
-    assert_costs_its_own_task(&graded, "sphere", "timed_out");
+    assert_snapshot!(report_with(&graded, "sphere", "timed_out"));
 }
 
 #[cfg(target_os = "linux")]
@@ -47,7 +50,7 @@ fn allocating_without_bound_is_stopped() {
     let hoarding = hoarding.with_replaced("bvh.rs", root, &format!("{hoard} {root}"));
     let graded = hoarding.grade();
     assert_eq!(graded.verdicts("traverse"), ["out_of_memory"]);
-    assert_costs_its_own_task(&graded, "traverse", "out_of_memory");
+    assert_snapshot!(graded.report());
 }
 
 #[test]
@@ -93,8 +96,8 @@ fn one_time_out_stops_a_task_and_what_needs_it() {
     let hanging = before_box_test("hanging", "while std::hint::black_box(true) {}");
     let [by_reference, alone] = hanging.grade_impatiently();
     let boxes = messages(&alone, "bbox");
-    assert!(boxes[0].starts_with("stopped, because"), "{boxes:?}");
-    let not_run = "not run, because another item of this task took too long";
+    assert!(boxes[0].starts_with("stopped because"), "{boxes:?}");
+    let not_run = "not run because another item in this task took too long";
     assert!(boxes[1..].iter().all(|message| message == not_run));
     let traverse = messages(&alone, "traverse");
     let depends = "depends on bbox.through: fix that first";
@@ -112,11 +115,11 @@ fn two_crashes_stop_a_task() {
     let boxes = messages(&graded, "bbox");
     let crashed = |message: &&String| message.starts_with("the program was killed");
     assert_eq!(boxes.iter().filter(crashed).count(), 2, "{boxes:?}");
-    let not_run = "not run, because two other items of this task crashed";
+    let not_run = "not run because two other items in this task crashed";
     assert_eq!(boxes.last().unwrap(), not_run);
 }
 
-/// Sleeps for each new triangle, sphere and box, but not as long as an item's limit.
+/// Sleeps for each new triangle, sphere and box, but for less time than an item's limit.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_slow_submission_has_a_budget_and_keeps_the_points_before() {
@@ -138,11 +141,10 @@ fn a_slow_submission_has_a_budget_and_keeps_the_points_before() {
         submission.with_replaced(file, head, &format!("{head} {slow}"))
     });
     let graded = slow.grade();
-    // The total is forty seconds.
+    // A submission may wait for forty seconds in total.
     let points = graded.points();
     assert_eq!(points["camera"], FULL_POINTS["camera"], "{points:?}");
-    let not_run = "not run, because the items before it have used up the time of the whole \
-                   submission";
+    let not_run = "not run because earlier items used up the submission's time";
     assert_eq!(messages(&graded, "build")[0], not_run);
     assert!(graded.score()["points"].as_u64().unwrap() > 25);
 }

@@ -1,4 +1,4 @@
-//! The cached report: an unchanged submission is only graded once, unless `--fresh` is given.
+//! The cached report: an unchanged submission is only graded once, unless `--fresh` is passed.
 
 use std::fs;
 use std::path::PathBuf;

@@ -1,5 +1,6 @@
 //! Submissions graded by several tests: the reference, the starter, and the reference with small
-//! changes. A run used by several tests is a static, so that it is only graded once.
+//! changes. A run used by several tests is kept in a static, so that its submission is only graded
+//! once.
 
 use std::sync::LazyLock;
 
@@ -12,8 +13,8 @@ pub static NOT_COMPILING: LazyLock<GradeRun> =
 pub static PANICKING: LazyLock<GradeRun> = LazyLock::new(|| Submission::panicking().grade());
 pub static EXITING: LazyLock<GradeRun> = LazyLock::new(|| Submission::exiting().grade());
 
-/// Compiles the dependencies, unless an earlier run already has, so that later runs start working
-/// on the submission immediately.
+/// Compiles the dependencies, unless an earlier run has already done so, so that later runs start
+/// working on the submission immediately.
 pub fn compile_dependencies() {
     LazyLock::force(&REFERENCE);
 }

@@ -1,13 +1,11 @@
-//! Tests of the command line arguments and their output.
-
-use std::fs;
+//! Tests for the command line arguments and their output.
 
 use grader::format::FORMATS;
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
 use crate::cases::PANICKING;
-use crate::harness::{FULL_POINTS, Submission, assert_fails, grade_into, grader};
+use crate::harness::{FULL_POINTS, Submission, assert_fails, grader};
 
 fn assert_wrong_use(arguments: &[&str], why: &str) {
     let output = grader().args(arguments).output().unwrap();
@@ -17,7 +15,7 @@ fn assert_wrong_use(arguments: &[&str], why: &str) {
 #[test]
 fn help_lists_the_options_for_students() {
     assert_snapshot!(help("--help"));
-    // `-h` lists the same options, each with its first line.
+    // `-h` lists the same options, each with the first line of its description.
     let short = help("-h");
     let options = |text: &str| -> Vec<String> {
         let words = text
@@ -37,7 +35,8 @@ fn help_for_staff_lists_every_option() {
     let help = help("--help-staff");
     let start = help.find("Formats: ").unwrap();
     let end = start + help[start..].find("\n\n").unwrap();
-    // The snapshot doesn't depend on the formats, so that adding one only changes its own files.
+    // The snapshot doesn't depend on the formats, so that adding a format only changes that
+    // format's own files.
     let listed: Vec<&str> = help[start..end].split_whitespace().skip(1).collect();
     let known = FORMATS.map(|format| format.id).join(", ");
     assert_eq!(listed.join(" "), known);
@@ -57,45 +56,12 @@ fn a_path_without_a_submission_is_a_usage_error() {
     for (path, why) in [
         (
             empty.path().to_str().unwrap(),
-            "has none of camera.rs, triangle.rs",
+            "contains none of camera.rs, triangle.rs",
         ),
-        ("nowhere", "there is no "),
+        ("nowhere", "nowhere does not exist"),
         ("Cargo.toml", "is neither a folder nor a .zip"),
     ] {
         assert_wrong_use(&[path], why);
-    }
-}
-
-#[test]
-fn grades_an_archive_like_the_folder_in_it() {
-    let submission = Submission::panicking();
-    let archive = submission.path().with_extension("tar.gz");
-    let file = fs::File::create(&archive).unwrap();
-    let packed = flate2::write::GzEncoder::new(file, flate2::Compression::fast());
-    let mut packed = tar::Builder::new(packed);
-    let added = packed.append_dir_all("handed-in", submission.path());
-    added.unwrap();
-    packed.into_inner().unwrap().finish().unwrap();
-
-    let mut command = grade_into(&archive, &submission.out());
-    let score = submission.run(command.arg("--no-reference")).score();
-    for part in ["submission", "tasks", "build", "points"] {
-        assert_eq!(score[part], PANICKING.score()[part], "{part}");
-    }
-}
-
-#[test]
-fn finds_the_task_files_at_the_top_in_src_and_in_student_src() {
-    for folder in ["src", "student/src"] {
-        let mut submission = Submission::reference("checkout");
-        for file in RAYS.file_names() {
-            let text = fs::read(submission.path().join(file)).unwrap();
-            submission = submission
-                .without(file)
-                .with(&format!("{folder}/{file}"), text);
-        }
-        let graded = submission.grade_with(&["--task", "bbox"]);
-        assert_eq!(graded.exit_code(), 0, "{folder}");
     }
 }
 
@@ -108,7 +74,7 @@ fn exits_with_1_below_the_required_points() {
     assert_eq!(graded.points(), *FULL_POINTS);
 
     let refused = Submission::starter("refused").grade_with(&["--require", "101"]);
-    let why = "--require 101 cannot be met: the assignment has 100 points";
+    let why = "--require 101 cannot be met: the assignment has only 100 points";
     assert_fails(&refused.output, 2, why);
 }
 
@@ -170,7 +136,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             "distance: t,",
             "distance: t,",
             "camera.corners",
-            &["every answer to camera.corners is right"],
+            &["every answer to camera.corners is correct"],
         ),
         (
             "sphere.rs",
@@ -178,7 +144,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             counting,
             "sphere.from_inside",
             &[
-                "verdict  right when asked alone, but not together",
+                "verdict  correct in isolation, but not together",
                 "distance; the error is",
             ],
         ),
@@ -189,7 +155,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             "build.cost_town",
             &[
                 "\nverdict  wrong: SAH cost: ",
-                " times that of the best split at every node; wanted: at most ",
+                " times the cost with the best split at every node; wanted: at most ",
                 "\n  39: ",
                 " more nodes\n",
             ],
@@ -200,7 +166,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             "return items.len() / 2; // All",
             "return 0; // All",
             "build.coincident",
-            &["\nsmallest overflows even with 2 of them: triangle ("],
+            &["\nsmallest the stack still overflows with 2 of the primitives: triangle ("],
         ),
         (
             "sphere.rs",
@@ -209,16 +175,16 @@ fn replay_says_what_is_wrong_with_an_answer() {
             "sphere.near_side",
             &[
                 "protocols",
-                "sphere.near_side needs this file: correct it, and run the same command again\n",
+                "sphere.near_side needs this file: fix it, then run the same command again\n",
             ],
         ),
-        // A different task's file doesn't matter.
+        // An error in a different task's file doesn't matter.
         (
             "camera.rs",
             "use protocol::",
             "use protocols::",
             "sphere.near_side",
-            &["every answer to sphere.near_side is right"],
+            &["every answer to sphere.near_side is correct"],
         ),
     ] {
         let submission = Submission::reference("replayed").with_replaced(file, from, to);
@@ -233,8 +199,8 @@ fn replay_says_what_is_wrong_with_an_answer() {
     }
 }
 
-/// A question that ends the program loses the answers to the other questions too, which aren't to
-/// blame.
+/// If one question ends the program, the answers to the other questions are lost too, even though
+/// those questions aren't to blame.
 #[test]
 fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     let submission = Submission::reference("exiting").with_replaced(
@@ -252,7 +218,7 @@ fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     let first = "sphere.from_inside#1";
     assert_ne!(culprit, first, "{text}");
     let text = replay(&submission, first);
-    let lost = format!("verdict  right, but because of {culprit}, the item has no answers: ");
+    let lost = format!("verdict  correct, but the item has no answers because of {culprit}: ");
     assert!(text.contains(&lost), "{text}");
     assert!(!text.contains("keeps something"), "{text}");
 }
@@ -284,7 +250,7 @@ fn a_name_that_is_unknown_leads_to_the_known_ones() {
         (
             "--replay",
             "sphere.from_insde",
-            "(did you mean sphere.from_inside?); the items of this task are: sphere.",
+            "(did you mean sphere.from_inside?); the items in this task are: sphere.",
         ),
         (
             "--replay",
@@ -292,7 +258,11 @@ fn a_name_that_is_unknown_leads_to_the_known_ones() {
             "(did you mean sphere.uv?); the items are: camera.",
         ),
         ("--replay", "sphere#", "such as sphere.from_inside#7"),
-        ("--replay", "sphere.uv#99999", "so there is no number 99999"),
+        (
+            "--replay",
+            "sphere.uv#99999",
+            "so there is no question 99999",
+        ),
     ] {
         assert_wrong_use(&[option, name], why);
     }

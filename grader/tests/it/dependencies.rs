@@ -3,11 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-use grader::handed_out::RAYS;
-
 use crate::harness::workspace;
 
-/// Returns all dependencies of packages in this format, direct and indirect, except
+/// Returns all direct and indirect dependencies of packages in this format, except
 /// dev-dependencies.
 fn tree(packages: &[&str], format: &str) -> String {
     let output = Command::new(env!("CARGO"))
@@ -72,8 +70,8 @@ fn each_package_depends_only_on_what_it_may() {
 }
 
 /// Checks that the features are equal. Otherwise, Cargo would compile these crates twice before the
-/// first grade: once for the grader, and once for submissions. If this fails, correct the features in
-/// `grader/workspace-hack/Cargo.toml`.
+/// first grade: once for the grader, and once for submissions. If this fails, correct the features
+/// in `grader/workspace-hack/Cargo.toml`.
 #[test]
 fn crates_shared_with_submissions_have_the_same_features() {
     let of = |packages: &[&str]| -> BTreeMap<String, String> {
@@ -102,17 +100,5 @@ fn student_manifests_inherit_nothing_from_the_workspace() {
         let text = std::fs::read_to_string(manifest).unwrap();
         let inherits = text.contains("workspace") || text.contains("[profile");
         assert!(!inherits, "{package}");
-    }
-}
-
-#[test]
-fn starters_contain_no_solution_markers() {
-    for file in RAYS.file_names() {
-        for folder in ["student/src", "grader/starter"] {
-            let path = workspace().join(folder).join(file);
-            let text = std::fs::read_to_string(path).unwrap();
-            let is_marked = text.contains("solution") || text.contains("// starter");
-            assert!(!is_marked, "{file}");
-        }
     }
 }

@@ -71,8 +71,8 @@ fn without_a_line_of_ones_own_the_exit_code_is_1() {
     let submission = Submission::starter("carol");
     let (code, text) = hand_in_beside(&submission);
     assert_eq!(code, Some(1), "{text}");
-    assert!(text.contains("bvh.rs        as handed out"), "{text}");
-    assert!(text.contains("Nothing is written yet"), "{text}");
+    assert!(text.contains("bvh.rs        unmodified"), "{text}");
+    assert!(text.contains("You haven't written anything yet"), "{text}");
     assert!(submission.path().with_extension("zip").is_file());
 }
 
@@ -91,8 +91,8 @@ fn an_archive_with_work_that_is_gone_is_kept() {
         .with("camera.rs", text("camera.rs"));
     let (code, text) = hand_in_beside(&lost);
     assert_eq!(code, Some(0), "{text}");
-    let note = "note: the archive that was here had your work in camera.rs, bvh.rs. It is kept as \
-                FOLDER/erin.zip.bak-1.";
+    let note = "note: the previous archive contained your work in camera.rs, bvh.rs. A copy of that \
+                archive is kept as FOLDER/erin.zip.bak-1.";
     assert!(text.contains(note), "{text}");
     let kept = archive.with_extension("zip.bak-1");
     assert!(fs::read(&kept).unwrap() == good);
@@ -139,9 +139,9 @@ fn wrong_use_exits_with_2_and_a_folder_that_cannot_be_written_with_3() {
     let file = submission.path().join("bvh.rs");
     let empty = tempfile::tempdir().unwrap();
     for (folder, why) in [
-        (file.as_path(), "is a file: name the folder"),
-        (empty.path(), "has none of camera.rs"),
-        (Path::new("nowhere"), "there is no"),
+        (file.as_path(), "is a file: pass the folder"),
+        (empty.path(), "contains none of camera.rs"),
+        (Path::new("nowhere"), "nowhere does not exist"),
     ] {
         assert_fails(&hand_in(folder, &out), 2, why);
         assert!(!out.exists());

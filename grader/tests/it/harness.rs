@@ -11,10 +11,10 @@ use grader::handed_out::RAYS;
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// The points of tasks, by their ids.
+/// The points for each task, keyed by the task's id.
 pub type Points = BTreeMap<String, u64>;
 
-/// The full points of each task.
+/// The full points for each task.
 pub static FULL_POINTS: LazyLock<Points> = LazyLock::new(|| {
     let tasks = RAYS.assignment.tasks.iter();
     tasks
@@ -272,7 +272,7 @@ impl GradeRun {
     }
 }
 
-/// Returns the full points of each task, except 0 for these tasks.
+/// Returns 0 points for these tasks and the full points for all others.
 pub fn full_points_except(zero: &[&str]) -> Points {
     let mut points = FULL_POINTS.clone();
     for task in zero {
@@ -287,7 +287,7 @@ pub fn no_points() -> Points {
     full_points_except(&ids)
 }
 
-/// Returns the points of the other tasks.
+/// Returns the points of all tasks except these.
 pub fn without(mut points: Points, tasks: &[&str]) -> Points {
     points.retain(|task, _| !tasks.contains(&task.as_str()));
     points

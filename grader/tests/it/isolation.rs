@@ -1,5 +1,5 @@
-//! Untrusted code, graded by the real binary. Every attempt to do something forbidden succeeds
-//! without isolation and fails at every isolation level.
+//! Untrusted code, graded by the real binary at each isolation level. Attempts to read files and to
+//! use the network are in the hostile corpus.
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;
@@ -62,28 +62,6 @@ fn is_available(level: &str) -> bool {
         eprintln!("SKIPPED: isolation level {level} is not available here:\n{diagnosis}");
     }
     works
-}
-
-/// Asserts that an attempt to do something forbidden succeeds without isolation and fails at every
-/// level, and that the submission still gets full points. `attempt` is an expression that is true
-/// if it succeeds.
-#[track_caller]
-fn assert_blocked(attempt: &str) {
-    let submission = running(&format!("if {attempt} {{ println!(\"done\"); }}"));
-    assert!(camera_output(&grade_at(&submission, "none")).starts_with("done"));
-    for level in LEVELS.into_iter().filter(|level| is_available(level)) {
-        let graded = grade_at(&submission, level);
-        assert_eq!(camera_output(&graded), "", "{level}");
-        assert_eq!(graded.points(), *FULL_POINTS, "{level}");
-        assert_eq!(graded.score()["isolation"], level);
-    }
-}
-
-#[test]
-fn cannot_read_files() {
-    let folder = secret_folder();
-    let key = folder.path().join("key");
-    assert_blocked(&format!("std::fs::read({key:?}).is_ok()"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Tests that run the real binary on real submissions. Most of them are the reference with a small
+//! Tests that run the real binary on real submissions, most of which are the reference with a small
 //! change. Each module tests one promise made to users.
 
 mod bad_exams;
@@ -24,6 +24,7 @@ mod reset;
 #[cfg(unix)]
 mod runner_commands;
 mod scores;
+mod side_by_side;
 mod sources;
 mod substitution;
 mod watch;

@@ -1,4 +1,4 @@
-//! The check of a package finds its problems before it is tried or uploaded.
+//! The package check finds the problems of a package before it is tried or uploaded.
 
 use std::fs;
 use std::io::{Cursor, Write};
@@ -170,7 +170,7 @@ fn recognises_package_folders_and_lists_missing_files() {
     let workflow = (".github/workflows/grade.yml", b"".as_slice());
     write_files(&template, &[workflow, ("reference/src/bvh.rs", b"")]);
     let text = check_path(&template);
-    for problem in ["there is no student/src/bvh.rs", "it has reference"] {
+    for problem in ["student/src/bvh.rs is missing", "it contains reference"] {
         assert!(text.contains(problem), "{text}");
     }
 }

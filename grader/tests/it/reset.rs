@@ -32,7 +32,7 @@ fn starter(file: &str) -> &'static str {
     RAYS.task_file(file).unwrap().starter
 }
 
-/// Returns the reference with a student's own helper.
+/// Returns the reference with a helper that a student has added.
 fn solved() -> Submission {
     let helper = "impl Node {\n    fn mine(&self) -> char {\n        '}'\n    }\n}\n\n#[cfg(test)]";
     Submission::reference("solved").with_replaced("bvh.rs", "#[cfg(test)]", helper)
@@ -45,7 +45,10 @@ fn a_task_starts_afresh_and_everything_else_stays() {
     let output = reset(&submission, &["Traverse"]);
     let message = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(output.status.success(), "{output:?}");
-    for part in ["Bvh::hit is as handed out again", "bvh.rs.bak-1"] {
+    for part in [
+        "Bvh::hit reset to the version that was handed out",
+        "bvh.rs.bak-1",
+    ] {
         assert!(message.contains(part), "{message}");
     }
 
@@ -60,7 +63,7 @@ fn a_task_starts_afresh_and_everything_else_stays() {
     assert!(points["traverse"] < FULL_POINTS["traverse"], "{points:?}");
     // The old file is in the folder and is mentioned, but doesn't matter.
     let report = graded.report();
-    let note = "note: bvh.rs.bak-1 differs from bvh.rs, and is ignored";
+    let note = "note: bvh.rs.bak-1 differs from bvh.rs and is ignored";
     assert_eq!(report.matches("note:").count(), 1, "{report}");
     assert!(report.contains(note), "{report}");
 
@@ -93,7 +96,7 @@ fn a_task_as_handed_out_is_left_alone() {
     let output = reset(&submission, &["sphere"]);
     let message = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{output:?}");
-    assert!(message.contains("nothing has changed"), "{message}");
+    assert!(message.contains("nothing to reset"), "{message}");
     assert!(!submission.path().join("sphere.rs.bak-1").exists());
 }
 
@@ -105,7 +108,7 @@ fn a_method_that_is_not_found_is_left_alone_and_the_remedy_is_named() {
         (
             "#[cfg(test)]",
             "impl Sphere { fn hit() {} }\n#[cfg(test)]",
-            "there are several",
+            "several methods",
         ),
     ];
     for (from, to, reason) in cases {
@@ -130,12 +133,18 @@ fn a_method_that_is_not_found_is_left_alone_and_the_remedy_is_named() {
 fn archives_unknown_tasks_and_folders_without_tasks_are_refused() {
     let submission = Submission::reference("alice").with("alice.zip", "PK");
     let archive = submission.path().join("alice.zip");
-    assert_refused(&reset_at(&archive, &["bbox"]), "unpack an archive first");
+    assert_refused(
+        &reset_at(&archive, &["bbox"]),
+        "if this is an archive, unpack it first",
+    );
     assert_refused(&reset(&submission, &["sphre"]), "did you mean sphere?");
     let copies = Submission::reference("twice").with("src/bvh.rs", "");
     assert_refused(&reset(&copies, &["bvh"]), "in its top level and src");
     let empty = tempfile::tempdir().unwrap();
-    assert_refused(&reset_at(empty.path(), &["bvh"]), "has none of camera.rs");
+    assert_refused(
+        &reset_at(empty.path(), &["bvh"]),
+        "contains none of camera.rs",
+    );
 }
 
 #[cfg(unix)]

@@ -14,7 +14,7 @@ use crate::harness::{Submission, grader, workspace};
 const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
 
 /// Returns a program's output on a CI system. Panics if the text is missing, or printed as a
-/// command. A line that begins with `own` is the grader's.
+/// command. A line that begins with `own` comes from the grader itself.
 fn checked_output(command: &mut Command, own: &str) -> String {
     let Output { stdout, stderr, .. } = command.env("GITHUB_ACTIONS", "true").output().unwrap();
     let text = [stdout, stderr].map(|text| String::from_utf8(text).unwrap());
@@ -27,7 +27,7 @@ fn checked_output(command: &mut Command, own: &str) -> String {
     text
 }
 
-/// Returns a submission with commands everywhere it can put them.
+/// Returns a submission with commands in every place where a submission can contain them.
 fn hostile_submission() -> Submission {
     let printed = format!("\\n{COMMANDS}\\n  {COMMANDS}\\r{COMMANDS}\\u{{1b}}[1m{COMMANDS}");
     let head = "pub fn hit(&self, ray: &Ray) -> Option<Trace> {";

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use crate::harness::workspace;
 
-/// A file, by its path below the workspace with `/`, and its text.
+/// A file: its path below the workspace, with `/` as the separator, and its text.
 type Source = (String, String);
 
-/// Paths that aren't read: generated files, files by others, and this file, which quotes the
-/// phrases it looks for.
+/// Paths that aren't read: generated files, files written by others, and this file, which quotes
+/// the phrases it looks for.
 const SKIPPED: [&str; 9] = [
     "target",
     ".git",
@@ -52,7 +52,7 @@ fn sources(folders: &[&str]) -> Vec<Source> {
     folders.flat_map(|folder| files(folder, &["rs"])).collect()
 }
 
-/// Returns the locations of matching lines of code, excluding the tests at the end of each file.
+/// Returns the locations of matching lines of code. The tests at the end of each file are excluded.
 fn lines_with(sources: &[Source], is_found: impl Fn(&str) -> bool) -> Vec<String> {
     let found = sources.iter().flat_map(|(path, text)| {
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
@@ -71,11 +71,11 @@ fn contains_any(line: &str, words: &[&str]) -> bool {
     words.iter().any(|word| line.contains(word))
 }
 
-/// Code that only a few files may have.
+/// Code that only a few files may contain.
 struct Rule {
     folders: &'static [&'static str],
     is_found: fn(&str) -> bool,
-    /// Files and folders that may have it.
+    /// Files and folders that may contain it.
     exceptions: &'static [&'static str],
     instead: &'static str,
 }
@@ -93,8 +93,8 @@ const RULES: [Rule; 4] = [
         ],
         is_found: is_call_of_std_fs,
         exceptions: &[
-            // lists with `disk::before` and checks the kind of each entry
-            "grader/class/src/listing.rs",
+            // lists folders after calling `disk::before`, and checks the kind of each entry
+            "grader/class/src/file_tree.rs",
             // only check whether the input is a file or a folder, and its size
             "grader/class/src/input.rs",
             "grader/class/src/unpack.rs",
@@ -102,7 +102,7 @@ const RULES: [Rule; 4] = [
             "grader/class/src/similarity.rs",
             // calls `disk::before` for each operation of a write
             "grader/src/report/atomic_write.rs",
-            // opens archives after `disk::before`, and the same file again to read it
+            // opens archives after calling `disk::before`, and opens the same file again to read it
             "grader/src/submission/archive/mod.rs",
         ],
         instead: "use grader::files instead",
@@ -152,8 +152,8 @@ fn is_call_of_a_clock(line: &str) -> bool {
     contains_any(line, &now) || line.contains(".modified()")
 }
 
-/// Returns whether a line declares a field for the system's error, or a variant with fields for a path
-/// and the system's message.
+/// Returns whether a line declares a field for the system's error, or a variant with fields for a
+/// path and the system's message.
 fn is_error_of_the_system(line: &str) -> bool {
     let field = line.trim().trim_start_matches("pub ").trim_end_matches(',');
     ["Io {", "source: io::Error", "source: std::io::Error"].contains(&field)
@@ -238,7 +238,7 @@ const ENDINGS: [&str; 10] = [
     "rs", "md", "toml", "yml", "yaml", "html", "css", "js", "snap", "sh",
 ];
 
-/// Returns the words of a text in lower case, each with its 1-based line number. The words of all
+/// Returns the words of `text` in lower case, each with its 1-based line number. The words of all
 /// lines are in one list, so that a phrase such as "can not" is also found across a line break. In
 /// Markdown, text in double quotes is skipped, because it is a quotation.
 fn words(text: &str, is_markdown: bool) -> Vec<(usize, String)> {

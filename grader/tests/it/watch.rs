@@ -1,4 +1,4 @@
-//! Tests of `--watch` with output that isn't a terminal.
+//! Tests for `--watch` with output that isn't a terminal.
 
 use std::fs;
 
@@ -72,5 +72,5 @@ fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {
 #[test]
 fn fails_at_once_without_a_submission() {
     let output = grader().args(["--watch", "nowhere"]).output().unwrap();
-    assert_fails(&output, 2, "nowhere: name the folder");
+    assert_fails(&output, 2, "nowhere does not exist: pass the folder");
 }

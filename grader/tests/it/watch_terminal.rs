@@ -1,4 +1,4 @@
-//! Tests of `--watch` in a terminal. The terminal is `tmux`, which can report the contents of the
+//! Tests for `--watch` in a terminal. The terminal is `tmux`, which can report the contents of the
 //! screen.
 
 use std::fs;
@@ -15,8 +15,8 @@ struct Terminal {
 }
 
 impl Terminal {
-    /// Starts the grader in a terminal with this many rows of 80 columns. Returns `None` if there
-    /// is no tmux, which is required in CI.
+    /// Starts the grader in a terminal with this many rows of 80 columns. Returns `None` if tmux
+    /// isn't installed. In CI, tmux is required.
     fn watch(submission: &Submission, rows: u32, options: &[&str]) -> Option<Self> {
         if Command::new("tmux").arg("-V").output().is_err() {
             assert!(std::env::var_os("CI").is_none(), "tmux is not installed");
@@ -127,7 +127,7 @@ fn the_report_is_arranged_again_when_the_terminal_is_resized() {
     assert!(!lines.contains("Task 3: boxes"), "{lines}");
     terminal.resize(24);
     let screen = terminal.wait_for("Task 3: boxes");
-    assert!(screen.contains("more items of this task"), "{screen}");
+    assert!(screen.contains("more items in this task"), "{screen}");
     terminal.resize(12);
     terminal.wait_for("the rest: cargo grade");
 }

@@ -1,6 +1,6 @@
 //! Decides which requests to answer. The page shows and controls the user's program, so only the
-//! user's browser may talk to it, although any user of this machine and any web page opened on it
-//! can connect to it.
+//! user's browser may talk to it, although any user of this machine and any web page opened on this
+//! machine can connect to it.
 
 use std::env;
 
@@ -8,8 +8,9 @@ use crate::http::Request;
 
 /// Names that always mean this machine.
 const LOOPBACK: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
-/// The header with the token, in lower case. A page from another site or port cannot send it,
-/// because a browser first asks this server for permission, which the server never gives.
+/// The name of the header that contains the token, in lower case. A page from another site or port
+/// cannot send it, because a browser first asks this server for permission, which the server never
+/// gives.
 pub const HEADER: &str = "view-token";
 
 /// The secret and the names that a request must contain.
@@ -21,12 +22,13 @@ pub struct Access {
     token: String,
     /// The host names that lead here.
     hosts: Vec<String>,
-    /// The name given to the port by a codespace.
+    /// The public name of the port in a codespace.
     forwarded: Option<String>,
 }
 
 impl Access {
-    /// Creates a new secret, for a server at this port that can also be reached by these names.
+    /// Creates a new secret for a server that listens on this port and can also be reached by these
+    /// names.
     pub fn new(port: u16, allowed_hosts: &[String]) -> Result<Self, getrandom::Error> {
         let hosts = LOOPBACK.map(str::to_owned).into_iter();
         let forwarded = forwarded_host(port);
@@ -50,26 +52,27 @@ impl Access {
         format!("/?token={}", self.token)
     }
 
-    /// Returns why a request isn't answered, or `None` if it is. The page's files are public,
-    /// because they are the same for everyone and contain no secrets.
+    /// Returns the reason that a request isn't answered, or `None` if it is. The page's files are
+    /// public, because they are the same for everyone and contain no secrets.
     pub fn refusal(&self, request: &Request, is_public: bool) -> Option<&'static str> {
         // A page from another site can send requests here by resolving its own name to this
         // address, but it cannot change the name in `Host`.
         let host = request.header("host").map(without_port);
         if !host.is_some_and(|host| self.hosts.contains(&host.to_lowercase())) {
             return Some(
-                "this name of the host is not known; to allow it, start `cargo view` with --allow-host NAME",
+                "this host name is not allowed; to allow it, start `cargo view` with --allow-host \
+                 NAME",
             );
         }
         let has_token = request
             .header(HEADER)
             .is_some_and(|given| same(given, &self.token));
         (!is_public && !has_token)
-            .then_some("open the address that `cargo view` has printed in the terminal")
+            .then_some("open the address that `cargo view` printed in the terminal")
     }
 }
 
-/// Returns the public name of this port if the environment is a GitHub codespace's.
+/// Returns the public name of this port if the environment variables of a GitHub codespace are set.
 fn forwarded_host(port: u16) -> Option<String> {
     let name = env::var("CODESPACE_NAME").ok()?;
     let domain = env::var("GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN").ok()?;
@@ -85,13 +88,13 @@ fn without_port(host: &str) -> &str {
     }
 }
 
-/// Compares two secrets. The time doesn't depend on the number of equal characters.
+/// Compares two secrets in a time that doesn't depend on the number of equal characters.
 fn same(given: &str, secret: &str) -> bool {
     let pairs = given.bytes().zip(secret.bytes());
     given.len() == secret.len() && pairs.fold(0, |different, (a, b)| different | (a ^ b)) == 0
 }
 
-/// Returns 128 random bits in hexadecimal digits.
+/// Returns 128 random bits as hexadecimal digits.
 fn secret() -> Result<String, getrandom::Error> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes)?;

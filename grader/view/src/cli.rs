@@ -7,10 +7,12 @@ use glam::UVec2;
 use grader::handed_out::HandedOut;
 use grader::question_ref::QuestionRef;
 
+use crate::session::View;
+
 /// The default port, used if it is free.
 pub const DEFAULT_PORT: u16 = 8420;
 
-/// Shows your tracer at work in a browser
+/// Shows in a browser how your code draws a picture
 #[derive(Clone, Debug, Parser)]
 #[command(
     name = "cargo view",
@@ -19,19 +21,24 @@ pub const DEFAULT_PORT: u16 = 8420;
     max_term_width = 100
 )]
 pub struct Arguments {
-    /// A scene in the folder `scenes`, or a scene file
+    /// A scene in the `scenes` folder, or a scene file
     #[arg(default_value = "cornell-box", conflicts_with = "item")]
     pub scene: String,
 
-    /// Show a question of the practice exam, such as traverse.prunes#3, or an item's first question
+    /// Show a question from the practice exam, such as traverse.prunes#3, or the first question of
+    /// an item
     #[arg(long, value_name = "ITEM#N")]
     pub item: Option<QuestionRef>,
+
+    /// Quantity to show in the picture at first [default: shaded; for a question, normals]
+    #[arg(long, value_name = "VIEW", value_enum)]
+    pub view: Option<View>,
 
     /// The assignment (course staff) [default: rays]
     #[arg(long, value_name = "ID", value_parser = HandedOut::find)]
     pub assignment: Option<&'static HandedOut>,
 
-    /// Number of pixels across and up [default: as in the scene]
+    /// Width and height in pixels [default: as in the scene]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
 
@@ -39,7 +46,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = value_parser!(u32).range(1..=4096))]
     pub samples: u32,
 
-    /// Maximum number of times that a path is scattered
+    /// Maximum number of bounces per path
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u32).range(..=10_000))]
     pub bounces: u32,
 
@@ -55,7 +62,7 @@ pub struct Arguments {
     #[arg(long)]
     pub no_open: bool,
 
-    /// Another name by which the page is reached, such as that of a tunnel; may be repeated
+    /// Additional host name for the page, such as that of a tunnel; may be repeated
     #[arg(long, value_name = "NAME")]
     pub allow_host: Vec<String>,
 
@@ -67,11 +74,11 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "submission")]
     pub reference: bool,
 
-    /// Show the code of a submission, a folder or an archive (course staff)
+    /// Show the code in a submission, which is a folder or an archive (course staff)
     #[arg(long, value_name = "PATH")]
     pub submission: Option<PathBuf>,
 
-    /// Run the submission in a sandbox, because it is someone else's
+    /// Run the submission in a sandbox because someone else wrote it
     #[arg(long, requires = "submission")]
     pub untrusted: bool,
 }

@@ -8,21 +8,34 @@ use framework::render::film::Tone;
 use glam::{UVec2, Vec3};
 use grader::png_file;
 use protocol::{Trace, Tree};
-use view_probe::messages::TestCounts;
+use view_probe::messages::MarkedTests;
+use view_probe::rules::RULES;
 
-use crate::model::layer::{Layer, Shown};
+use crate::model::layer::{Layer, PixelContent};
 use crate::session::{Session, View};
 use crate::shared_session::SharedSession;
 
-/// The time between two pictures, initially and later. A nearly complete picture changes little,
-/// and composing it takes time away from drawing it.
+/// Pairs of an age and an interval. Until the picture reaches the age, the interval is the time
+/// between two updates. A nearly complete picture changes little, and composing it takes time away
+/// from drawing it.
 const INTERVALS: [(Duration, Duration); 3] = [
     (Duration::from_millis(600), Duration::from_millis(100)),
     (Duration::from_secs(4), Duration::from_millis(500)),
     (Duration::MAX, Duration::from_secs(1)),
 ];
-/// The colour of pixels whose code panicked.
+/// The colour of pixels where the code panicked.
 const PANIC_COLOUR: [u8; 3] = [255, 0, 255];
+/// The number of tests at the end of the colour scale.
+const MOST_TESTS: f32 = 1000.0;
+/// The number of marks that get the brightest colour.
+const MOST_MARKS: f32 = 16.0;
+/// The colour of each rule, in the order of [`Rule`](view_probe::rules::Rule). The colours can be
+/// told apart with any colour vision. The page's legend uses the same ones.
+const RULE_COLOURS: [Vec3; RULES] = [
+    Vec3::new(0.95, 0.42, 0.05),
+    Vec3::new(0.95, 0.87, 0.25),
+    Vec3::new(0.3, 0.65, 0.95),
+];
 
 /// The colours of a picture's pixels, row by row from the top.
 type Colours = Vec<[u8; 3]>;
@@ -58,13 +71,19 @@ pub fn run(shared: &SharedSession) {
     }
 }
 
-/// Returns a function that returns the size of the picture and its colours. It owns a copy of the
-/// values, so that drawing continues while it composes them.
+/// Returns a function that returns the size of the picture and its colours. The function owns a
+/// copy of the values, so drawing can continue while it composes the picture.
 fn composition(session: &Session) -> Box<dyn FnOnce() -> (UVec2, Colours)> {
     let data = |colour| Tone::Data.to_bytes(colour);
     let mode = match session.shown.view {
-        View::Shaded => {
-            let (light, stops) = (session.light.clone(), session.shown.exposure);
+        View::Shaded | View::Clay => {
+            let is_clay = session.shown.view == View::Clay;
+            let layer = if is_clay {
+                &session.clay
+            } else {
+                &session.light
+            };
+            let (light, stops) = (layer.clone(), session.shown.exposure);
             return Box::new(move || {
                 let tone = ToneTable::new(stops);
                 paint(&light, |_, sum, count| tone.to_bytes(sum / count as f32))
@@ -73,17 +92,15 @@ fn composition(session: &Session) -> Box<dyn FnOnce() -> (UVec2, Colours)> {
         View::Tests => {
             let tests = session.tests.clone();
             return Box::new(move || {
-                let most = tests.values().flatten().map(TestCounts::total).max();
-                let most = most.unwrap_or(0).max(1);
-                paint(&tests, |_, counts, _| {
-                    data(view::heat_colour(counts.total(), most))
+                paint(&tests, |_, tests, _| {
+                    let thousandths = (1000.0 * share_of_scale(tests)) as u32;
+                    data(view::heat_colour(thousandths, 1000))
                 })
             });
         }
-        View::Clay => {
-            let (hits, eye) = (session.hits.clone(), session.camera().placement.position);
-            let colour = move |hit| data(clay(hit, eye));
-            return Box::new(move || paint(&hits, |_, hit, _| hit.map_or([0; 3], colour)));
+        View::Mistakes => {
+            let tests = session.tests.clone();
+            return Box::new(move || paint(&tests, |_, tests, _| data(mistakes(tests))));
         }
         View::Normals => ViewMode::Normals,
         View::Depth => ViewMode::Depth,
@@ -96,12 +113,12 @@ fn composition(session: &Session) -> Box<dyn FnOnce() -> (UVec2, Colours)> {
         let film = hits.tiles.film;
         let pixels = (0..film.y).flat_map(|y| (0..film.x).map(move |x| UVec2::new(x, y)));
         let hit = |pixel| match hits.shown(pixel) {
-            Some(Shown::Value(hit, _)) => hit,
-            Some(Shown::Panicked) | None => None,
+            Some(PixelContent::Value(hit, _)) => hit,
+            Some(PixelContent::Panicked) | None => None,
         };
         let seen: Vec<Option<Trace>> = pixels.map(hit).collect();
         let nothing = Tree::default();
-        let tree = tree.as_ref().map_or(&nothing, |model| &model.tree);
+        let tree = tree.as_ref().map_or(&nothing, |model| &model.index.tree);
         let colours = view::picture(mode, &seen, tree, extent);
         paint(&hits, |pixel, _, _| data(colours[hits.tiles.index(pixel)]))
     })
@@ -117,28 +134,36 @@ fn paint<T: Copy + Default>(
     let rows = (0..film.y).rev();
     let pixels = rows.flat_map(|y| (0..film.x).map(move |x| UVec2::new(x, y)));
     let colours = pixels.map(|pixel| match layer.shown(pixel) {
-        Some(Shown::Value(value, count)) => colour(pixel, value, count),
-        Some(Shown::Panicked) => PANIC_COLOUR,
+        Some(PixelContent::Value(value, count)) => colour(pixel, value, count),
+        Some(PixelContent::Panicked) => PANIC_COLOUR,
         None => [0; 3],
     });
     (film, colours.collect())
 }
 
-/// Returns the colour of a hit as if everything was made of clay and lit from the camera: the more
-/// the surface is turned away, the darker. Normals that point away are shown in blue.
-fn clay(hit: Trace, eye: Vec3) -> Vec3 {
-    let toward_eye = (eye - hit.position).normalize_or_zero();
-    let cosine = hit.normal.normalize_or_zero().dot(toward_eye);
-    let colour = if cosine < 0.0 {
-        Vec3::new(0.45, 0.6, 0.95)
-    } else {
-        Vec3::new(0.92, 0.86, 0.78)
-    };
-    (0.12 + 0.88 * cosine.abs()) * colour
+/// Returns a test count's position on the scale from 1 to [`MOST_TESTS`]. The scale is fixed, so
+/// that pictures can be compared, and logarithmic, so that it covers a list of primitives as well
+/// as a good tree.
+fn share_of_scale(tests: MarkedTests) -> f32 {
+    let total = tests.counts.total().max(1) as f32;
+    (total.log2() / MOST_TESTS.log2()).min(1.0)
 }
 
-/// Converts radiance to bytes like [`Tone::Light`], but with a table, because computing powers
-/// would take most of the time of composing a picture.
+/// Returns the colour of a ray's mistakes: that of the rule broken most often, brighter the more
+/// often it is broken. Rays without mistakes are grey, lighter the more tests they need.
+fn mistakes(tests: MarkedTests) -> Vec3 {
+    let marks = tests.marks.iter().zip(RULE_COLOURS);
+    match marks.rev().max_by_key(|(count, _)| **count) {
+        Some((count, colour)) if *count > 0 => {
+            let share = ((*count as f32).log2() / MOST_MARKS.log2()).min(1.0);
+            colour * (0.5 + 0.5 * share)
+        }
+        Some(_) | None => Vec3::splat(0.08 + 0.3 * share_of_scale(tests)),
+    }
+}
+
+/// Converts radiance to bytes like [`Tone::Light`], but with a table, because composing a picture
+/// would otherwise spend most of its time computing powers.
 struct ToneTable {
     /// For each byte except 0, the smallest radiance that maps to it.
     thresholds: Vec<f32>,
@@ -148,7 +173,7 @@ impl ToneTable {
     fn new(stops: f32) -> Self {
         let tone = Tone::Light { stops };
         let byte = |bits: u32| tone.to_bytes(Vec3::splat(f32::from_bits(bits)))[0];
-        // Non-negative floats are in the order of their bits.
+        // Non-negative floats are in the same order as their bits.
         let threshold = |wanted: u8| {
             let (mut low, mut high) = (0, f32::INFINITY.to_bits());
             while low < high {
@@ -174,29 +199,8 @@ impl ToneTable {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec2;
-
     use super::*;
 
-    #[test]
-    fn clay_is_lighter_where_it_faces_the_camera() {
-        let hit = |normal| Trace {
-            distance: 5.0,
-            position: Vec3::ZERO,
-            normal,
-            uv: Vec2::ZERO,
-            origin: Vec3::Z,
-            shape: 0,
-        };
-        let eye = Vec3::new(0.0, 0.0, 5.0);
-        let luminance = |normal| clay(hit(normal), eye).element_sum();
-        assert!(
-            luminance(Vec3::Z) > luminance(Vec3::ONE) && luminance(Vec3::ONE) > luminance(Vec3::X)
-        );
-        let away = clay(hit(Vec3::NEG_Z), eye);
-        assert!(away.z > away.x, "a normal that points away is blue");
-        assert!(clay(hit(Vec3::NAN), eye).is_finite());
-    }
     #[test]
     fn values_that_are_no_light_have_the_bytes_of_the_framework() {
         for stops in [0.0, -2.5, 3.0] {

@@ -1,16 +1,15 @@
-//! Questions of the practice exam as scenes. Only the exam embedded in the grader is shown, so this
-//! program never reads a file that could contain a final exam.
+//! Shows questions from the practice exam as scenes. Only the exam embedded in the grader is shown,
+//! so this program never reads a file that could contain a final exam.
 
 use std::sync::Arc;
 
-use framework::scene::{Camera, Material, Scene};
+use framework::scene::{Camera, Environment, Material, Scene};
 use glam::{UVec2, Vec3};
 use grader::exam_source::ExamSource;
 use grader::handed_out::HandedOut;
-use grader::nearest_name::suggestion;
 use grader::question_ref::QuestionRef;
 use judging::describe;
-use judging::exam::ExamQuestion;
+use judging::exam::{ExamQuestion, Key};
 use judging::judge::tree::bounds::Bounds;
 use judging::scene::{self, QuestionScene};
 use protocol::{PinholeCamera, Question, Ray, Shape, Tree};
@@ -25,7 +24,7 @@ const FILM: UVec2 = UVec2::new(480, 360);
 /// The vertical field of view, in degrees.
 const FOV: f32 = 35.0;
 
-/// Returns the subject that shows a question of the practice exam.
+/// Returns the subject that shows a question from the practice exam.
 pub fn subject_of_question(
     handed_out: &HandedOut,
     reference: &QuestionRef,
@@ -35,26 +34,17 @@ pub fn subject_of_question(
         .load(handed_out)
         .map_err(ViewError::machine)?
         .exam;
-    let item = exam.items.iter().find(|item| item.id == reference.item);
-    let item = item.ok_or_else(|| {
-        let ids = || exam.items.iter().map(|item| item.id.as_str());
-        ViewError::Usage(format!(
-            "the practice exam has no item `{}`{}; it has: {}",
-            reference.item,
-            suggestion(&reference.item, ids()),
-            ids().collect::<Vec<_>>().join(", ")
-        ))
-    })?;
+    let item = reference.find_item(&exam).map_err(ViewError::Usage)?;
     let number = reference.number.unwrap_or(1);
     let (question, element) = item.element(number).ok_or_else(|| {
         ViewError::Usage(format!(
-            "{} has {} questions, so there is no number {}",
-            reference.item,
+            "{} has {} questions, so there is no question {}",
+            item.id,
             item.count(),
             number
         ))
     })?;
-    let name = format!("{}#{number}", reference.item);
+    let name = format!("{}#{number}", item.id);
     subject(
         &name,
         &item.title,
@@ -122,7 +112,7 @@ fn subject(
             placement: viewpoint.placement,
             fixed_aspect: false,
         },
-        environment: Vec3::splat(0.8),
+        environment: Environment::Constant(Vec3::splat(0.8)),
         materials: vec![Material::Lambertian {
             albedo: Vec3::splat(0.7),
         }],
@@ -130,12 +120,18 @@ fn subject(
         shapes: numbered(shapes.into_owned()),
         max_leaf_size: max_leaf_size.unwrap_or(1) as usize,
     };
+    let sweep_cost = if let Key::Tree { sweep_cost, .. } = question.key {
+        sweep_cost
+    } else {
+        None
+    };
     let mut subject = Subject::of_scene(name, &scene, settings);
     Arc::make_mut(&mut subject.data).tree = tree;
     Ok(Subject {
         bounds,
         viewpoint,
         question: Some(exam_ray),
+        sweep_cost,
         ..subject
     })
 }

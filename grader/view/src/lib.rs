@@ -1,4 +1,4 @@
-//! Shows a submission's tracer at work in a browser: the picture while it is drawn, the tree, and
+//! Shows in a browser what a submission's code does: the picture while it is drawn, the tree, and
 //! the tests made by the submission's traversal for one ray.
 //!
 //! The submission's files are compiled as for grading, but with the crate `view_probe` instead of
@@ -19,9 +19,9 @@
 //! | questions as scenes | [`exam_question`] |
 //! | scenes | [`subject`] |
 //! | running programs | [`probe`] |
-//! | builds | [`program`] |
+//! | builds | [`program`], [`source_links`] |
 //! | changes of a submission's source | [`recording`] |
-//! | pure parts | [`model`]: camera, order of drawing, tree, rules of traversal |
+//! | pure parts | [`model`]: camera, order of drawing, tree, explanations; [`sweep_costs`] |
 //! | the network, errors | [`http`], [`error`] |
 
 pub mod access;
@@ -39,6 +39,8 @@ pub mod routes;
 pub mod run;
 pub mod session;
 pub mod shared_session;
+pub mod source_links;
 pub mod subject;
+pub mod sweep_costs;
 pub mod watcher;
 pub mod workers;

@@ -1,19 +1,21 @@
-//! A running program of the submission, and the requests and responses exchanged with it.
+//! A running program with the submission's code, and the requests and responses exchanged with it.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use grader::probe::{Batch, Crash, Fault, RunningProgram, TimeLimit};
+use grader::probe::{Batch, Crash, Fault, ItemLimits, RunningProgram, Stopwatch};
 use grader::system::Limits;
 use protocol::wire;
-use view_probe::messages::{Request, Response};
+use view_probe::messages::{Request, Response, SubmissionPart};
 
 use crate::program::Program;
 
-/// The maximum CPU time of a program. It only ends forgotten programs, because each request has its
-/// own limit.
+/// The maximum CPU time of a program. This limit only ends forgotten programs, because each request
+/// has its own limit.
 const CPU_LIMIT: Duration = Duration::from_secs(24 * 3600);
-/// The wall time allowed for each request in addition to a multiple of its CPU time.
-const WALL_RESERVE: Duration = Duration::from_secs(5);
+/// The minimum CPU time limit for a request if the program prints a lot.
+const LIMIT_IF_PRINTING: Duration = Duration::from_secs(10);
+/// How long a program may wait for something other than a processor.
+const WAITING_LIMIT: Duration = Duration::from_secs(2);
 
 /// A running program.
 #[derive(Debug)]
@@ -24,15 +26,18 @@ pub struct Probe {
     _program: Program,
 }
 
-/// Why work didn't produce a result.
+/// The reason a job produced no result.
 #[derive(Debug, thiserror::Error)]
 pub enum Stop {
-    /// The result is no longer wanted, or the reason has been reported.
+    /// The result is no longer wanted, or the reason has already been reported.
     #[error("the result is no longer wanted")]
     Unwanted,
     /// The program failed.
     #[error("{0}")]
     Fault(Fault),
+    /// The program failed in this method.
+    #[error("{1}")]
+    FaultIn(SubmissionPart, Fault),
     /// The program could not be started, or its response is unusable.
     #[error("{0}")]
     Invalid(String),
@@ -55,23 +60,25 @@ impl Probe {
         })
     }
 
-    /// Sends a request and waits for the response, for at most `limit` of CPU time or until it
-    /// `is_abandoned`. After an error, the program must not be used again.
+    /// Sends a request and waits for the response, for at most `limit` of CPU time or until the
+    /// request `is_abandoned`. After an error, the program must not be used again.
     pub fn ask(
         &mut self,
         request: &Request,
         limit: Duration,
-        is_abandoned: impl Fn() -> bool,
+        mut is_abandoned: impl FnMut() -> bool,
     ) -> Result<Response, Stop> {
         self.nonce += 1;
         let mut batch = Batch::default();
         let append = |frames| wire::append(frames, self.nonce, request);
         batch.add(request.max_response_bytes(), append)?;
         self.running.send(batch);
-        let started_at = Instant::now();
-        let cpu_before = self.running.process.cpu_time();
-        // This is generous, because on a busy machine, wall time says nothing about the code.
-        let wall_limit = 4 * limit + WALL_RESERVE;
+        let mut stopwatch = Stopwatch::start(ItemLimits {
+            cpu: limit,
+            cpu_if_printing: limit.max(LIMIT_IF_PRINTING),
+            waiting: WAITING_LIMIT,
+        });
+        let printed_before = self.running.printed();
         let frame = loop {
             // The first part of the time is only spent waiting for the pipe, which costs nothing.
             if let Some(frame) = self.running.next_frame()? {
@@ -80,12 +87,9 @@ impl Probe {
             if is_abandoned() {
                 return Err(Stop::Unwanted);
             }
-            let cpu = self.running.process.cpu_time().zip(cpu_before);
-            if cpu.is_some_and(|(now, before)| now.saturating_sub(before) >= limit) {
-                return Err(Fault::TimedOut(TimeLimit::Cpu).into());
-            }
-            if started_at.elapsed() >= wall_limit {
-                return Err(Fault::TimedOut(TimeLimit::Wall).into());
+            let printed = self.running.printed() - printed_before;
+            if let Some(over) = stopwatch.exceeded(self.running.process.time(), printed) {
+                return Err(Fault::TimedOut(over).into());
             }
         };
         let response: Response = frame

@@ -36,7 +36,7 @@ pub struct Programs {
     is_package: bool,
 }
 
-/// A program, or why there is none.
+/// A program, or the reason there is none.
 #[derive(Clone, Debug, Default)]
 pub enum BuildState {
     /// The compiler is at work.
@@ -59,7 +59,7 @@ pub struct Program(Arc<Build>);
 pub struct FileError {
     /// The name of the file.
     pub file: String,
-    /// The line, from 1.
+    /// The line number, starting at 1.
     pub line: Option<u32>,
     /// The compiler's message.
     pub text: String,
@@ -169,8 +169,8 @@ fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>)
     files.map(error).collect()
 }
 
-/// Returns the assignment with the viewer's `main` function and changed given files. It exists as
-/// long as the process.
+/// Returns the assignment with the viewer's `main` function and with changes to the given files. It
+/// lives as long as the process.
 fn with_probe(
     handed_out: &HandedOut,
     given: impl Fn(&GivenFile) -> GivenFile,
@@ -184,7 +184,7 @@ fn with_probe(
     }))
 }
 
-/// Returns a given file with recording of calls added.
+/// Returns a given file, changed so that it records calls.
 fn with_recording(file: &GivenFile) -> GivenFile {
     let mut methods = RECORDED.iter().filter(|method| method.file == file.name);
     let text = methods.next().and_then(|method| method.apply(file.text));

@@ -38,8 +38,8 @@ pub const RECORDED: [RecordedMethod; 2] = [
 ];
 
 impl RecordedMethod {
-    /// Returns the file's text with recording of the method's calls added, or `None` if the method
-    /// doesn't exist.
+    /// Returns the file's text, changed so that the method's calls are recorded, or `None` if the
+    /// method doesn't exist.
     pub fn apply(&self, text: &str) -> Option<String> {
         let name = find_method(text, self.type_name, "hit").ok()?.name_start;
         let (before, after) = (&text[..name], &text[name + "hit".len()..]);

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
+use glam::UVec2;
 use judging::sanitize::sanitize;
 use serde::Serialize;
 use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
@@ -13,7 +14,7 @@ use view_probe::scene_data::PathSettings;
 
 use crate::access::Access;
 use crate::http::{Method, Request, Response, Site, Status};
-use crate::model::tree::{Bar, NodeInfo, TreeModel};
+use crate::model::tree::{Bar, NodeInfo, TreeCheckup, TreeModel};
 use crate::session::Command;
 use crate::shared_session::SharedSession;
 use crate::subject::{SceneList, Subject};
@@ -29,15 +30,18 @@ const WORST: usize = 12;
 const NARROWEST: f32 = 1.0 / 600.0;
 
 /// The files of the page: path, type and text.
-const FILES: [(&str, &str, &str); 10] = [
+const FILES: [(&str, &str, &str); 13] = [
     ("/", HTML, include_str!("page/index.html")),
     ("/style.css", CSS, include_str!("page/style.css")),
     ("/icon.svg", "image/svg+xml", ICON),
-    // Browsers request this if a page specifies no icon, as with errors.
+    // Browsers request this if a page specifies no icon, which is the case for error pages.
     ("/favicon.ico", "image/svg+xml", ICON),
     ("/main.js", SCRIPT, include_str!("page/main.js")),
+    ("/links.js", SCRIPT, include_str!("page/links.js")),
     ("/server.js", SCRIPT, include_str!("page/server.js")),
     ("/stage.js", SCRIPT, include_str!("page/stage.js")),
+    ("/defects.js", SCRIPT, include_str!("page/defects.js")),
+    ("/legend.js", SCRIPT, include_str!("page/legend.js")),
     ("/overlay.js", SCRIPT, include_str!("page/overlay.js")),
     ("/pixel.js", SCRIPT, include_str!("page/pixel.js")),
     ("/tree.js", SCRIPT, include_str!("page/tree.js")),
@@ -50,24 +54,26 @@ const JSON: &str = "application/json";
 
 /// The data behind the page.
 pub struct Routes {
-    /// The rules of access.
+    /// The access rules.
     pub access: Access,
     /// The session.
     pub session: Arc<SharedSession>,
     /// The scenes that can be chosen.
     pub scenes: SceneList,
-    /// The settings of paths.
+    /// The settings for paths.
     pub settings: PathSettings,
     /// The file that leads the browser here. It contains the secret, so it is deleted after use.
     pub redirection: Mutex<Option<NamedTempFile>>,
 }
 
-/// The tree, as a strip by level.
+/// The tree as a strip, level by level.
 #[derive(Serialize)]
-struct TreeSummary {
+struct TreeSummary<'a> {
+    checkup: &'a TreeCheckup,
     nodes: usize,
     levels: u32,
     primitives: usize,
+    /// The sum of all nodes' costs.
     cost: f32,
     bars: Vec<Bar>,
     worst: Vec<NodeInfo>,
@@ -104,10 +110,10 @@ impl Site for Routes {
                 || not_found("there is no picture yet"),
                 |png| Response::new(Status::OK, "image/png", png.to_vec()),
             ),
+            (Method::Get, "/value", _) => self.value(request),
             (Method::Get, "/explanation", _) => {
                 let explanation = self.session.read(|session, _| session.explanation.clone());
-                explanation
-                    .map_or_else(|| not_found("no pixel is explained"), |found| json(&*found))
+                explanation.map_or_else(|| not_found("no pixel is selected"), |found| json(&*found))
             }
             (Method::Get, "/tree" | "/boxes" | "/node", _) => {
                 let tree = self.session.read(|session, _| session.tree.clone());
@@ -130,6 +136,15 @@ impl Routes {
         }
         self.session
             .read(|session, now| json(&session.page_state(now)))
+    }
+
+    /// Returns the value of a pixel.
+    fn value(&self, request: &Request) -> Response {
+        let [x, y] = ["x", "y"].map(|name| number(request, name).try_into().unwrap_or(u32::MAX));
+        let value = self
+            .session
+            .read(|session, _| session.value_at(UVec2::new(x, y)));
+        value.map_or_else(|| not_found("not drawn yet"), |value| json(&value))
     }
 
     fn command(&self, body: &[u8]) -> Response {
@@ -165,10 +180,11 @@ fn of_tree(tree: &TreeModel, request: &Request) -> Response {
     let index = |name| u32::try_from(number(request, name)).unwrap_or(u32::MAX);
     match request.path.as_str() {
         "/tree" => json(&TreeSummary {
-            nodes: tree.tree.nodes.len(),
-            levels: tree.levels(),
-            primitives: tree.tree.order.len(),
-            cost: tree.cost(),
+            checkup: &tree.checkup,
+            nodes: tree.index.tree.nodes.len(),
+            levels: tree.index.levels(),
+            primitives: tree.index.tree.order.len(),
+            cost: tree.total_cost(),
             bars: tree.strip(NARROWEST),
             worst: tree.worst(WORST),
         }),
@@ -195,7 +211,7 @@ fn number(request: &Request, name: &str) -> u64 {
         .unwrap_or(0)
 }
 
-/// Returns data for the page. All texts are sanitized, because they may be a submission's.
+/// Returns data for the page. All texts are sanitized, because they may come from a submission.
 fn json(value: &impl Serialize) -> Response {
     let mut text = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut text, Sanitizing);

@@ -28,6 +28,7 @@ use crate::program::Programs;
 use crate::routes::Routes;
 use crate::session::{Resources, Session, Worker};
 use crate::shared_session::SharedSession;
+use crate::source_links::SourceLinks;
 use crate::subject::{SceneList, Subject};
 use crate::watcher;
 use crate::workers;
@@ -57,9 +58,9 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     let submission = programs.collect().map_err(ViewError::usage)?;
 
     let cores = arguments.threads.map_or_else(available_cores, usize::from);
-    // Leave half of it for other programs, such as the browser.
+    // Leave half of the memory for other programs, such as the browser.
     let memory = available_memory().map_or(u64::MAX, |bytes| bytes / 2);
-    let session = Session::new(
+    let mut session = Session::new(
         subject,
         scenes.names(),
         settings,
@@ -68,6 +69,10 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         Resources { cores, memory },
         Instant::now(),
     );
+    if let Some(view) = arguments.view {
+        session.show_view(view, Instant::now());
+    }
+    session.shown.sources = SourceLinks::find(programs.folder(), &workspace, handed_out);
     let session = Arc::new(SharedSession::new(session));
 
     let access = Access::new(port, &arguments.allow_host).map_err(|error| {
@@ -80,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     if let Some(forwarded) = access.forwarded() {
         let path = access.first_path();
         print_line(format_args!(
-            "From outside of this codespace: open https://{forwarded}{path}"
+            "From outside this codespace: open https://{forwarded}{path}"
         ));
     }
     print_line("The page redraws after every save. Press Ctrl-C to stop.");
@@ -136,7 +141,7 @@ fn listen(port: Option<u16>) -> Result<TcpListener, ViewError> {
         Some(port) => bind(port).map_err(|error| {
             if error.kind() == io::ErrorKind::AddrInUse {
                 ViewError::Usage(format!(
-                    "port {port} is in use: choose another one with --port, or leave out --port"
+                    "port {port} is in use: choose a different one with --port, or leave out --port"
                 ))
             } else {
                 cannot_listen(error)

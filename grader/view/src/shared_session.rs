@@ -1,5 +1,5 @@
 //! The session, shared by the threads that compile, draw, record, compose pictures and answer the
-//! page.
+//! page's requests.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use crate::session::{Key, Session};
 /// The number of pages that may wait for news at the same time. A browser opens six connections to
 /// one server and needs the rest for pictures.
 const MAX_WAITING: usize = 4;
-/// How long a page waits if more pages are open.
+/// How long a page waits if more pages than that are waiting.
 const SHORT_WAIT: Duration = Duration::from_millis(500);
 
 /// The session, shared by threads.
@@ -67,7 +67,7 @@ impl SharedSession {
         read(&self.lock().session, Instant::now())
     }
 
-    /// Waits until `find` finds something in the session, such as work. Returns it.
+    /// Waits until `find` finds something in the session, such as work, and returns it.
     pub fn wait_for<T>(&self, mut find: impl FnMut(&mut Session, Instant) -> Option<T>) -> T {
         let mut shared = self.lock();
         loop {
@@ -100,7 +100,8 @@ impl SharedSession {
         shared.session.shown.version != known
     }
 
-    /// Replaces the picture with one made for this key, with all samples or some of them.
+    /// Replaces the picture with one made for this key. `is_complete` says whether it contains all
+    /// samples.
     pub fn show_picture(&self, png: Vec<u8>, key: Key, is_complete: bool) {
         let mut shared = self.lock();
         shared.session.show_picture(key, is_complete);

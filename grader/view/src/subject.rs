@@ -1,4 +1,4 @@
-//! The subjects that can be viewed: scenes and questions of the practice exam.
+//! The subjects that can be viewed: scenes and questions from the practice exam.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,19 +7,22 @@ use framework::scene::{Camera, Scene};
 use glam::{DVec3, Vec3};
 use grader::nearest_name::suggestion;
 use grader::workspace::Workspace;
+use judging::judge::tree::TreeCriteria;
 use judging::judge::tree::bounds::Bounds;
-use protocol::{Question, Ray};
+use protocol::{Question, Ray, Shape};
 use serde::{Serialize, Serializer};
 use view_probe::messages::TreeSize;
 use view_probe::scene_data::{Aim, PathSettings, SceneData, TreeSource};
 
 use crate::error::ViewError;
+use crate::model::tree::CHECKS;
 use crate::model::viewpoint::Viewpoint;
+use crate::sweep_costs;
 
 /// The folder of scenes.
 const SCENES: &str = "scenes";
 
-/// A scene or a question of the exam, ready to be sent to a program.
+/// A scene or a question from the exam, ready to be sent to a program.
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// The name on the page.
@@ -36,17 +39,19 @@ pub struct Subject {
     pub camera: Camera,
     /// The viewpoint of the scene's own camera.
     pub viewpoint: Viewpoint,
-    /// The exam's question, if the subject is one.
+    /// The question from the exam, if the subject is one.
     pub question: Option<ExamRay>,
+    /// The SAH cost of the tree with the best split at every node, if it is known.
+    pub sweep_cost: Option<f64>,
 }
 
-/// A ray of the exam and the texts of its question.
+/// A ray from the exam and the texts of its question.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExamRay {
     /// The ray, if the question is about one. The page only sees whether it exists.
     #[serde(rename = "has_ray", serialize_with = "is_some")]
     pub ray: Option<Ray>,
-    /// Boxes to draw, as corners: for questions about boxes.
+    /// The corners of the boxes to draw, for questions about boxes.
     pub boxes: Vec<[Vec3; 2]>,
     /// The question.
     pub asked: String,
@@ -76,10 +81,27 @@ impl Subject {
             camera: scene.camera,
             viewpoint,
             question: None,
+            sweep_cost: sweep_costs::find(&scene.shapes, scene.max_leaf_size),
         }
     }
 
-    /// Returns why a tree isn't read, or `None` if it isn't much larger than a correct tree can be.
+    /// Returns the criteria for a tree over these shapes. A tree from the exam isn't checked,
+    /// because its decoys are defects.
+    pub fn tree_criteria<'a>(&self, shapes: &'a [Shape]) -> TreeCriteria<'a> {
+        let is_complete = shapes.len() == self.data.shapes.len();
+        TreeCriteria {
+            checks: match self.data.tree {
+                TreeSource::Build => &CHECKS,
+                TreeSource::Prebuilt(_) | TreeSource::List => &[],
+            },
+            sweep_cost: self.sweep_cost.filter(|_| is_complete),
+            shapes,
+            max_leaf_size: self.data.max_leaf_size,
+        }
+    }
+
+    /// Returns the reason that a tree of this size isn't read, or `None` if it isn't much larger
+    /// than a correct tree can be.
     pub fn oversize(&self, size: TreeSize) -> Option<String> {
         let shapes = self.data.shapes.len();
         let own = match &self.data.tree {
@@ -96,8 +118,8 @@ impl Subject {
             ))
         } else if primitives as usize > limit {
             Some(format!(
-                "it has {primitives} primitives, but the scene only {shapes}. Does `Bvh::build` add \
-                 primitives more than once?"
+                "it has {primitives} primitives, but the scene only contains {shapes}. Does `Bvh::build` \
+                 add primitives more than once?"
             ))
         } else {
             None
@@ -144,8 +166,8 @@ impl SceneList {
         SceneList { scenes }
     }
 
-    /// Returns the name of a scene given by name or path on the command line. A file from elsewhere
-    /// is added to the list.
+    /// Returns the name of the scene that the command line specifies by its name or path. A file
+    /// from elsewhere is added to the list.
     pub fn name_of(&mut self, scene: &str) -> Result<String, ViewError> {
         let stem = Path::new(scene)
             .file_stem()
@@ -186,7 +208,7 @@ impl SceneList {
         let nearest = suggestion(name, known.iter().map(String::as_str));
         let known = known.join(", ");
         ViewError::Usage(format!(
-            "there is no scene `{name}`{nearest}; the folder `scenes` contains: {known}"
+            "there is no scene `{name}`{nearest}; the `scenes` folder contains: {known}"
         ))
     }
 }

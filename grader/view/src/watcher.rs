@@ -1,5 +1,5 @@
 //! The threads that compile. One watches the files and builds the program that draws. The other
-//! builds the program that records when it is needed.
+//! builds the program that records, but only when that is needed.
 
 use std::fs;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use crate::shared_session::SharedSession;
 
 /// The folders that usually contain a submission's files.
 const USUAL_FOLDERS: [&str; 3] = ["", "src", "student/src"];
-/// The polling interval for the times and sizes of the files.
+/// The interval at which the times and sizes of the files are polled.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 /// The time after which the files are read again even if they don't seem to have changed.
 const READ_INTERVAL: Duration = Duration::from_secs(1);
@@ -77,7 +77,7 @@ impl<'a> Stamps<'a> {
     }
 }
 
-/// Builds the submission, then again after each save, until the process ends.
+/// Builds the submission and rebuilds it after each save, until the process ends.
 pub fn watch(shared: &SharedSession, programs: &Programs, first: Submission) {
     let watcher = SaveWatcher::new(|| programs.collect().ok());
     let mut stamps = Stamps::new(programs);
@@ -98,7 +98,7 @@ pub fn watch(shared: &SharedSession, programs: &Programs, first: Submission) {
     }
 }
 
-/// Builds recording programs whenever one is needed, until the process ends.
+/// Builds the recording program whenever it is needed, until the process ends.
 pub fn build_recordings(shared: &SharedSession, programs: &Programs) {
     loop {
         let (version, submission) = shared.wait_for(|session, _| session.wanted_recording());

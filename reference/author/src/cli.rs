@@ -9,11 +9,12 @@ use crate::authoring::Authoring;
 use crate::generated_file::Mode;
 use crate::package::Platform;
 
-/// The default folders of the built book: with all chapters, and with students' chapters only.
+/// The default output folders for the book with all chapters and for the book with only the
+/// students' chapters.
 const DEFAULT_BOOK: &str = "target/handout";
 const DEFAULT_STUDENTS_BOOK: &str = "target/students-handout";
 
-/// Writes every generated file of this repository, and tests the exam
+/// Writes every generated file in this repository, and tests the exam
 #[derive(Debug, Parser)]
 #[command(name = "cargo author", bin_name = "cargo author", version)]
 pub struct Cli {
@@ -32,13 +33,13 @@ pub enum Command {
     Starter(CheckArgs),
     /// Write the practice exam
     Exams(CheckArgs),
-    /// Print the final exam of a seed
+    /// Print the final exam for a seed
     Exam {
         /// The seed that all questions are drawn from; keep it secret
         #[arg(long)]
         seed: u64,
     },
-    /// Write the handout's lists of tasks, and check its links, names and commands
+    /// Write the handout's lists of tasks and check its links, names and commands
     Handout {
         /// Change nothing; fail if a list differs from what would be written
         #[arg(long, conflicts_with = "book")]
@@ -51,25 +52,27 @@ pub enum Command {
         #[arg(long, requires = "book")]
         students: bool,
     },
+    /// Draw the handout's pictures of right and wrong solutions
+    Gallery(CheckArgs),
     /// Write the students' bundle, as an archive or as a folder for a Git repository
     Bundle(BundleArgs),
     /// Write the autograder package that instructors upload to a platform
     Package(PackageArgs),
-    /// Write the items that each known mistake fails with every seed, and the table that shows which
-    /// items of the practice exam it fails
+    /// For each known mistake, write the items that it fails with every seed, and the table of the
+    /// items that it fails in the practice exam
     Mistakes(MistakesArgs),
-    /// Write the table of which sentences of the contract the exam asks, and where
+    /// Write the table of the contract's sentences and the items that test them
     Coverage(CheckArgs),
     /// Measure how well hints recognise known and unknown mistakes, with the practice exam or with
     /// final exams
     Hints(HintsArgs),
-    /// Make every mechanical change to the reference (operators, bodies, epsilons, confused names,
-    /// dropped properties, kept state), and grade each of these mutants
+    /// Make many small mechanical changes to the reference (operators, bodies, epsilons, confused
+    /// names, dropped properties, kept state) and grade each of these mutants
     Mutants {
         /// Grade only a fixed sample of the mutants
         #[arg(long)]
         fast: bool,
-        /// Grade only the mutants of one task, such as sphere, or of all tasks of a file, such as
+        /// Grade only the mutants of one task, such as sphere, or of all tasks in a file, such as
         /// bvh
         #[arg(long, value_name = "TASK", conflicts_with = "record")]
         task: Option<String>,
@@ -77,7 +80,7 @@ pub enum Command {
         #[command(flatten)]
         record: RecordArgs,
     },
-    /// Grade every variant with the exams of all seeds, and every mistake with the exams of the
+    /// Grade every variant with the exams for all seeds, and every mistake with the exams for the
     /// first few seeds
     Prove(ProveArgs),
     /// Measure how far correct answers and mistakes are from every threshold of the exam
@@ -94,11 +97,11 @@ pub struct BundleArgs {
     #[arg(long, value_name = "FOLDER")]
     pub book: Option<PathBuf>,
     /// Leave out the files that students write, so that they can unpack the archive over an older
-    /// one
+    /// version
     #[arg(long, conflicts_with = "check")]
     pub update: bool,
-    /// Unpack the bundle with an empty home directory, run the commands that its documents
-    /// show, and grade the starter and the reference
+    /// Unpack the bundle in an empty home directory, run the commands shown in its documentation,
+    /// and grade the starter and the reference
     #[arg(long)]
     pub check: bool,
 }
@@ -121,8 +124,8 @@ pub struct PackageArgs {
     /// default
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
-    /// Set up and run the package as the platform does, without a network and with half a core;
-    /// grade the reference, the starter, an empty submission and, for gradescope, an attacking
+    /// Set up and run the package the way the platform does, without a network and with half a
+    /// core; grade the reference, the starter, an empty submission and, for gradescope, a malicious
     /// one (on Linux, as root or with sudo)
     #[arg(long)]
     pub check: bool,
@@ -135,7 +138,7 @@ pub struct MistakesArgs {
     /// with `--check`. The 50 mistakes that are caught least clearly get ten times as many
     #[arg(long, value_name = "N")]
     pub seeds: Option<u64>,
-    /// Write only the table, with the lists as they are, which takes a minute
+    /// Write only the table and leave the lists unchanged, which takes a minute
     #[arg(long, conflicts_with_all = ["seeds", "check"])]
     pub table: bool,
     /// Whether to write or to check the lists and the table.
@@ -152,19 +155,19 @@ pub struct HintsArgs {
     /// The seeds of final exams, such as 0..20
     #[arg(long, value_parser = parse_seeds)]
     pub seeds: Option<Range<u64>>,
-    /// Measure two mistakes at once: all pairs in one task, or the given number of them
+    /// Measure two mistakes at once: all pairs in the same task, or only the given number of pairs
     #[arg(long, value_name = "N", conflicts_with = "seeds")]
     #[allow(
         clippy::option_option,
         reason = "absent, without a value, with a value"
     )]
     pub pairs: Option<Option<usize>>,
-    /// Measure known mistakes that are written into variants, with the practice exam; fail if
-    /// one of them costs nothing
+    /// Measure known mistakes made in variants, with the practice exam; fail if one of them doesn't
+    /// cost any points
     #[arg(long, conflicts_with_all = ["seeds", "pairs"])]
     pub independent: bool,
-    /// Measure wrong solutions of no known kind, with the practice exam; fail if one of them costs
-    /// nothing
+    /// Measure wrong solutions that aren't known mistakes, with the practice exam; fail if one of
+    /// them doesn't cost any points
     #[arg(long, conflicts_with_all = ["seeds", "pairs", "independent"])]
     pub unknown: bool,
     /// Whether to record the result.
@@ -240,7 +243,7 @@ pub struct CheckArgs {
     pub check: bool,
 }
 
-/// The `--record` flag of commands that take long.
+/// The `--record` flag of commands that take a long time.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct RecordArgs {
     /// Write the result into the table of long runs, with the date and the commit

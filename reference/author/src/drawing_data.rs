@@ -10,8 +10,8 @@ use crate::oracle::{Ray64, scan, sweep};
 use crate::tree::Tree;
 use crate::tree::traversal::{Traversal, TraversalRule};
 
-/// The rule of the drawn traversal. Of all correct traversals, it is the one a student is most
-/// likely to write.
+/// The rule for the traversal that is drawn. Of all correct traversals, it is the one a student is
+/// most likely to write.
 const RULE: TraversalRule = TraversalRule {
     left_first: true,
     tests_on_entry: false,

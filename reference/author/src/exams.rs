@@ -33,7 +33,7 @@ pub fn load_practice(root: &Path, authoring: &Authoring) -> Result<Exam, Error> 
 /// different numbers.
 pub fn final_exam_text(authoring: &'static Authoring, seed: u64) -> Result<String> {
     if Seed(seed) == Seed::PRACTICE {
-        bail!("the seed {seed} is that of the practice exam; choose another one");
+        bail!("seed {seed} belongs to the practice exam; choose a different one");
     }
     exam_text(authoring, "final", Seed(seed))
 }
@@ -44,14 +44,13 @@ fn exam_text(authoring: &'static Authoring, id: &str, seed: Seed) -> Result<Stri
     Ok(to_text(&with_drawing_data(with_hints(exam, &solutions)?))?)
 }
 
-/// Generates an exam without hints, whose pictures the reference renders.
+/// Generates an exam without hints. The reference renders its pictures.
 pub fn generate(id: &str, seed: Seed, solutions: &Solutions) -> Result<Exam> {
     let exam = assemble(solutions.workbench.authoring(), id, seed);
     solutions.recorder.record(exam)
 }
 
-/// Assembles an exam without hints and without recorded pictures, with each item after the items it
-/// needs.
+/// Assembles an exam without hints or recorded pictures. Each item comes after the items it needs.
 pub fn assemble(authoring: &Authoring, id: &str, seed: Seed) -> Exam {
     let assignment = authoring.handed_out.assignment;
     Exam::new(assignment, id, items::items(authoring.tasks, seed))
@@ -92,7 +91,7 @@ mod tests {
         let error = final_exam_text(&RAYS, Seed::PRACTICE.0).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "the seed 2025 is that of the practice exam; choose another one"
+            "seed 2025 belongs to the practice exam; choose a different one"
         );
     }
 

@@ -1,5 +1,5 @@
 //! Adds the signatures of known mistakes to an exam. The grader's hints are based on them. To
-//! record the signatures, every mistake is built and answers the exam's questions like any
+//! record the signatures, every mistake is built and run on the exam's questions, like any
 //! submission.
 
 use std::collections::BTreeSet;
@@ -14,13 +14,13 @@ use rayon::prelude::*;
 use crate::solutions::Solutions;
 use crate::solutions::workbench::Answers;
 
-/// The maximum number of an item's elements that a signature records.
+/// The maximum number of elements that a signature records for an item.
 const MAX_ELEMENTS: usize = 24;
-/// The minimum number of recorded elements, even if fewer distinguish all known mistakes. The
+/// The minimum number of recorded elements, even if fewer would distinguish all known mistakes. The
 /// additional elements help to recognise unknown mistakes.
 const MIN_ELEMENTS: usize = 12;
 
-/// Returns the exam with every known mistake's answers to some of its questions.
+/// Adds to the exam every known mistake's answers to some of its questions.
 pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
     let answers: Vec<Vec<Option<Vec<ObservedAnswer>>>> = solutions
         .mistakes
@@ -81,7 +81,7 @@ pub fn observed_answers(item: &Item, answers: &Answers) -> Vec<ObservedAnswer> {
     }
 }
 
-/// Returns the signatures of an item, given the correct answers and each mistake's answers.
+/// Returns the signatures for an item, given the correct answers and each mistake's answers.
 fn signatures(
     correct: &[ObservedAnswer],
     by_mistake: &[(u32, &[ObservedAnswer])],
@@ -145,7 +145,7 @@ fn choose_elements(
         let left = (0..correct.len()).filter(|element| !chosen.contains(element));
         let gain = |element| pairs.iter().filter(|pair| differ(element, pair)).count();
         let gains = left.map(|element| (gain(element), element));
-        // For equal gains, choose the first element, so that the result is deterministic.
+        // Among elements with equal gains, choose the first, so that the result is deterministic.
         let Some((gain, best)) = gains.min_by_key(|(gain, element)| (usize::MAX - gain, *element))
         else {
             break;

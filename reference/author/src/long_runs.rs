@@ -1,11 +1,12 @@
-//! The table of the results of long runs, `.github/long-runs.md`.
+//! The table with the results of long runs, `.github/long-runs.md`.
 
 use std::io;
 use std::path::Path;
 use std::process::Command;
 
-/// Replaces a run's row with its result, with today's date and the commit. `exams` are the seeds of
-/// the final exams, or the practice exam. `.ci/record` keeps the table.
+/// Replaces a run's row in the table with the new result, today's date and the commit. `exams`
+/// names the seeds of the final exams, or the practice exam. The script `.ci/record` maintains the
+/// table.
 pub fn record(root: &Path, run: &str, exams: &str, result: &str) -> io::Result<()> {
     let script = Command::new("bash")
         .current_dir(root)
@@ -15,7 +16,7 @@ pub fn record(root: &Path, run: &str, exams: &str, result: &str) -> io::Result<(
         Ok(())
     } else {
         Err(io::Error::other(format!(
-            "the result of {run} was not recorded: see what .ci/record says above"
+            "the result of {run} was not recorded: see the output of .ci/record above"
         )))
     }
 }

@@ -1,4 +1,5 @@
-//! Random numbers from a seed and an item's name. They are the same on every machine.
+//! Random numbers that are derived from a seed and an item's name. They are the same on every
+//! machine.
 
 use glam::DVec3;
 use rand::{RngExt, SeedableRng};
@@ -18,8 +19,8 @@ impl Seed {
         Seed(self.rng("next").numbers.random())
     }
 
-    /// Returns the random numbers of one item. Each item has its own sequence, so that changing one
-    /// item doesn't affect the others.
+    /// Returns the random numbers for one item. Each item has its own sequence, so that changing
+    /// one item doesn't affect the others.
     pub fn rng(self, item: &str) -> Rng {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&self.0.to_le_bytes());
@@ -42,7 +43,8 @@ pub struct Rng {
 }
 
 impl Rng {
-    /// Returns another sequence of the same seed. It is independent of the numbers drawn from this one.
+    /// Returns a different sequence for the same seed. It is independent of the numbers drawn from
+    /// this one.
     pub fn sequence(&self, name: &str) -> Rng {
         self.seed.rng(name)
     }

@@ -42,7 +42,8 @@ pub fn reference_root(root: &Path, handed_out: &HandedOut) -> Result<GeneratedFi
     Ok(GeneratedFile::new(path, with_modules(&source, handed_out)))
 }
 
-/// Replaces the declarations at the end of the crate's `lib.rs` with one for each file.
+/// Replaces the module declarations at the end of the crate's `lib.rs` with one declaration for
+/// each file.
 fn with_modules(root: &str, handed_out: &HandedOut) -> String {
     let (before, _) = root.split_once("pub mod ").unwrap_or((root, ""));
     let given = handed_out.given.iter().skip(1).map(|file| file.name);

@@ -43,8 +43,8 @@ impl Contender for wide::Bvh {
     }
 }
 
-/// Returns the distances of complete hits. The compiler cannot optimise the hits down to their
-/// distances.
+/// Computes complete hits and returns their distances. The compiler cannot leave out the other
+/// parts of the hits.
 fn trace_distances(rays: &[Ray], hit: impl Fn(&Ray) -> Option<Trace>) -> Vec<f32> {
     let distance = |ray| black_box(hit(ray)).map_or(f32::INFINITY, |trace| trace.distance);
     rays.iter().map(distance).collect()

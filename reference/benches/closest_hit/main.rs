@@ -32,12 +32,12 @@ const ROUNDS: usize = 5;
 
 /// The width and height of the picture, in pixels.
 const SIDE: u32 = 512;
-/// The same in the short form.
+/// The width and height for the short form of the benchmark.
 const SHORT_SIDE: u32 = 32;
 
-/// The number of rays a contender traces before it is the next one's turn. The number is small
-/// enough (a few milliseconds) that a slow moment of the machine affects all contenders, and large
-/// enough that the caches fill with the contender's own data.
+/// The number of rays a contender traces before it is the next contender's turn. The number is
+/// small enough (a few milliseconds) that a slow moment of the machine affects all contenders, and
+/// large enough that the caches fill with the contender's own data.
 const RAYS_PER_TURN: usize = 1 << 15;
 
 fn main() {
@@ -88,7 +88,7 @@ impl Trees<'_> {
     }
 }
 
-/// Builds all trees once per round and reports the times. Returns the trees of the last round.
+/// Builds all trees once per round and reports the times. Returns the trees from the last round.
 fn build_trees<'a>(
     mesh: &Mesh,
     embree: Option<&'a Embree>,
@@ -135,7 +135,7 @@ fn build_trees<'a>(
     trees.expect("there is at least one round")
 }
 
-/// Traces the same rays with all contenders in turns and compares their hits.
+/// Traces the same rays with all contenders, which take turns, and compares their hits.
 fn measure_rays(
     contenders: &[(&'static str, &dyn Contender)],
     rays: &Rays,

@@ -15,7 +15,7 @@ pub struct Mesh {
     pub name: String,
     pub corners: Vec<[Vec3; 3]>,
     pub bbox: BBox,
-    /// Whether the mesh is a building. The camera is then inside.
+    /// Whether the mesh is a building. If it is, the camera is inside.
     pub is_building: bool,
 }
 

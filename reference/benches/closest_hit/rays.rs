@@ -14,8 +14,8 @@ pub struct Rays {
     pub rays: Vec<Ray>,
 }
 
-/// Returns the rays of all three kinds. Each kind has about as many rays as a picture with the
-/// width and height `side` has pixels.
+/// Returns the rays of all three kinds. There are about `side`² rays of each kind, as many as a
+/// square picture has pixels.
 pub fn all_kinds(mesh: &Mesh, bvh: &Bvh, side: u32) -> [Rays; 3] {
     let primary = primary(mesh, side);
     let bounce = bounce(mesh, bvh, &primary);

@@ -50,15 +50,15 @@ impl Report {
         Some(Spread::of(rounds.iter().copied()))
     }
 
-    /// Returns the median, over all rounds, of the ratio of two contenders. The ratio of their
-    /// medians would be less reliable, since all contenders are slow in a slow round.
+    /// Returns the median, over all rounds, of the ratio between two contenders' values. The ratio
+    /// of their medians would be less reliable, since all contenders are slow in a slow round.
     fn ratio(&self, column: &str, name: &str, other: &str) -> Option<f64> {
         let rounds = self.rounds(name, column)?.iter();
         let ratios = rounds.zip(self.rounds(other, column)?).map(|(a, b)| a / b);
         Some(Spread::of(ratios).median)
     }
 
-    /// Returns the speed of a contender relative to the others, for each kind of rays. If there are
+    /// Returns the speed of a contender relative to the others, for each kind of ray. If there are
     /// several others, it is compared with the fastest.
     fn speedups(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
         let mut ratios = [0.0; 3];

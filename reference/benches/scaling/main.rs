@@ -1,5 +1,5 @@
 //! Shows how the work grows with the number of triangles: plots the number of boxes and triangles
-//! each ray is tested with and the number of build calls each triangle is part of. The work is
+//! each ray is tested against and the number of build calls each triangle is part of. The work is
 //! counted rather than timed, so the plot is the same on every machine. It is written to
 //! `reference/benches/scaling.svg`, or compared with that file if the argument is `--check`.
 

@@ -9,7 +9,7 @@ use crate::marks::{Line, MarkError, lines_without_solutions};
 /// The indentation of the items in an `impl` block.
 const IN_IMPL: &str = "    ";
 
-/// Why there is no given code for a variant.
+/// The reason there is no given code for a variant.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GivenCodeError {
     /// The marks in the reference are wrong.
@@ -27,8 +27,8 @@ pub enum GivenCodeError {
 /// the same name: a method to write, a given method, or a given struct that the variant adds
 /// private fields to.
 ///
-/// The given code follows the variant's own, so that the compiler's errors refer to lines of the
-/// variant's file.
+/// The given code comes after the variant's own code, so that the compiler's errors refer to lines
+/// of the variant's file.
 pub fn given_code(reference: &str, variant: &str) -> Result<String, GivenCodeError> {
     let lines: Vec<&str> = lines_without_solutions(reference)?
         .into_iter()
@@ -68,7 +68,8 @@ pub fn given_code(reference: &str, variant: &str) -> Result<String, GivenCodeErr
     ))
 }
 
-/// Returns the items of each `impl` block with the block's name and the other items with "".
+/// Returns the name and the items of each `impl` block. All other items are returned together,
+/// under the name "".
 fn blocks<'a>(lines: &[&'a str]) -> Vec<(&'a str, Vec<Item<'a>>)> {
     let mut blocks = Vec::new();
     let mut others = Vec::new();
@@ -82,7 +83,7 @@ fn blocks<'a>(lines: &[&'a str]) -> Vec<(&'a str, Vec<Item<'a>>)> {
     blocks
 }
 
-/// Joins lines, without the blank lines left by removed items.
+/// Joins lines, and drops the blank lines that removed items left behind.
 fn join<'a>(lines: impl Iterator<Item = &'a str>) -> String {
     let mut text = String::new();
     for line in lines {

@@ -27,9 +27,9 @@ impl Item<'_> {
     }
 }
 
-/// Returns the items with this indentation in some of the lines of a file.
+/// Returns the items with this indentation in a range of a file's lines.
 ///
-/// An item begins after the end of the previous one. It ends with the first line of this
+/// An item begins after the end of the previous one. Its last line is the first one with this
 /// indentation that ends with a brace or a semicolon.
 pub(crate) fn items<'a>(
     lines: &[&'a str],

@@ -1,8 +1,8 @@
-//! Projects a task file of the reference, where solutions are marked, to one of two things:
+//! Turns a task file of the reference, in which the solutions are marked, into one of two things:
 //!
 //! - [`starter`]: the file that students get, with stubs instead of the solutions
-//! - [`Replacement::given_code`]: the given code that a variant, another solution, needs to be a
-//!   complete file
+//! - [`Replacement::given_code`]: the given code that turns a variant, which is another solution,
+//!   into a complete file
 //!
 //! This is a separate package because both `author` and the build script of `variants` use it.
 

@@ -46,7 +46,7 @@ pub(crate) enum Line<'a> {
     Starter(&'a str, &'a str),
 }
 
-/// The role of a line of a marked file.
+/// The role of a line in a marked file.
 enum LineKind<'a> {
     Begin,
     End,

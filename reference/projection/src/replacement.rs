@@ -1,7 +1,7 @@
 //! The files that make up a variant. Its own files, the *parts*, are `STEM/…/NAME.rs` in the folder
-//! of variants. Helpers used by several variants are in `STEM/shared/NAME.rs`. Such a file belongs
-//! to each variant whose code contains the word `NAME` but doesn't define a function with that
-//! name.
+//! of variants. Helpers used by several variants are in `STEM/shared/NAME.rs`. Such a shared file
+//! belongs to each variant whose code contains the word `NAME` but doesn't define a function with
+//! that name.
 
 use std::fs;
 use std::io;
@@ -19,7 +19,7 @@ pub struct Replacement {
     pub files: Vec<(PathBuf, String)>,
 }
 
-/// A file of a variant cannot be read.
+/// The error for a variant's file or folder that cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot read {}: {source}", path.display())]
 pub struct ReadError {
@@ -29,8 +29,9 @@ pub struct ReadError {
     pub source: io::Error,
 }
 
-/// Reads the files of a variant in `folder`, the folder of all variants. `parts` are the paths of its
-/// parts without `.rs`. If there are none, its id is the path, with a slash instead of the dot.
+/// Reads a variant's files from `folder`, which contains all variants. `parts` are the paths of its
+/// parts without `.rs`. If there are none, the variant has one part, whose path is the variant's id
+/// with a slash instead of the dot.
 pub fn replacements(
     folder: &Path,
     id: &str,
@@ -56,8 +57,8 @@ pub fn replacements(
 }
 
 impl Replacement {
-    /// Returns the given code that completes the variant's files, given the marked text of the
-    /// reference's task file.
+    /// Returns the part of the reference's given code that completes the variant's files.
+    /// `reference` is the text of the reference's task file, including its marks.
     pub fn given_code(&self, reference: &str) -> Result<String, GivenCodeError> {
         given_code(reference, &self.own_code())
     }
@@ -74,7 +75,8 @@ impl Replacement {
         texts.collect()
     }
 
-    /// Adds the shared files used by the code, including those only used by shared files.
+    /// Adds the shared files used by the code, including those that are only used by other shared
+    /// files.
     fn add_shared_files(&mut self, folder: &Path) -> Result<(), ReadError> {
         let mut unused = names(folder, &Path::new(&self.stem).join("shared"));
         let is_used = |code: &str, path: &Path| {
@@ -99,7 +101,8 @@ fn uses(code: &str, name: &str) -> bool {
     words.contains(&name) && !words.windows(2).any(|pair| pair == ["fn", name])
 }
 
-/// Returns the paths of the files in a subfolder, sorted. Empty if there is no such folder.
+/// Returns the sorted paths of the files in a subfolder. There are none if the folder doesn't
+/// exist.
 fn names(folder: &Path, subfolder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder.join(subfolder)).into_iter().flatten();
     let names = entries.flatten().map(|entry| entry.file_name());

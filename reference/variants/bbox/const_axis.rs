@@ -11,7 +11,7 @@ impl BBox {
     fn clip_to_slab<const AXIS: usize>(&self, ray: &Ray, times: Interval) -> Option<Interval> {
         let (min, max) = (self.min[AXIS], self.max[AXIS]);
         let (origin, inverse) = (ray.origin[AXIS], ray.dir[AXIS].recip());
-        // Dividing by −0 gives −∞, so that the sign of the inverse decides which plane comes first.
+        // Dividing by −0 gives −∞, so the sign of the inverse decides which plane comes first.
         let (near, far) = if inverse.is_sign_negative() {
             (max, min)
         } else {

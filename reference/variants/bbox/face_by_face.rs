@@ -1,5 +1,6 @@
 // Intersects the six faces, each a rectangle. The result is the interval from the earliest to the
-// latest of these hits, or of the ends of `times` if the ray is inside the box then.
+// latest of these hits. An end of `times` counts as a hit if the ray is inside the box at that
+// time.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

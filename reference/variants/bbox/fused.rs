@@ -1,6 +1,7 @@
-// Computes each time with one fused multiply-add: plane · inverse − origin · inverse. A component of
-// the direction that is almost 0 is replaced, so that its inverse is finite. See Wald, Woop, Benthin,
-// Johnson and Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG 33(4), 2014.
+// Computes each time with one fused multiply-add: plane · inverse − origin · inverse. A component
+// of the direction that is almost 0 is replaced, so that its inverse is finite. See Wald, Woop,
+// Benthin, Johnson and Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG
+// 33(4), 2014.
 
 /// The minimum absolute value of a direction's component.
 const LEAST: Vec3 = Vec3::splat(1e-18);

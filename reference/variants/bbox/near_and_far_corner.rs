@@ -1,5 +1,5 @@
-// Selects the corners at which the ray enters and leaves the slabs by the signs of the inverse
-// direction, for all axes at once.
+// Uses the signs of the inverse direction to select the corners at which the ray enters and leaves
+// the slabs, for all axes at once.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

@@ -1,7 +1,7 @@
-// Selects the plane where the ray enters each slab by the sign of the inverse direction. The sign
-// of the direction itself would not be enough: −0 is not less than 0, but its inverse is −∞. See
-// Williams, Barrus, Morley and Shirley, "An Efficient and Robust Ray-Box Intersection Algorithm",
-// Journal of Graphics Tools 10(1), 2005.
+// Uses the sign of the inverse direction to select the plane where the ray enters each slab. The
+// sign of the direction itself would not be enough: −0 is not less than 0, but its inverse is −∞.
+// See Williams, Barrus, Morley and Shirley, "An Efficient and Robust Ray-Box Intersection
+// Algorithm", Journal of Graphics Tools 10(1), 2005.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

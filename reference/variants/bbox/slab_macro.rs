@@ -1,4 +1,4 @@
-// Expands a macro for each of the three axes with the name of the coordinate.
+// Expands a macro once for each of the three axes, passing it the name of the coordinate.
 
 /// Shortens an interval to the part where the ray is in the slab of one axis.
 macro_rules! clip_to_slab {

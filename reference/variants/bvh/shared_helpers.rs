@@ -1,4 +1,4 @@
-// Uses helpers of this solution's own bbox.rs: boxes can be added and summed, and a function returns
+// Uses helpers from this solution's bbox.rs: boxes can be added and summed, and a function returns
 // the time when a ray enters a box.
 
 use crate::bbox::entry_or_infinity;

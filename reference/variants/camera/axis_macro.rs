@@ -2,7 +2,7 @@
 
 use framework::math::tan;
 
-/// The position along an axis, from −1 to 1 across the film.
+/// The position along an axis, which runs from −1 to 1 across the film.
 macro_rules! across_film {
     ($camera:expr, $pixel:expr, $offset:expr, $axis:ident) => {
         2.0 * ($pixel.$axis as f32 + $offset.$axis) / $camera.film.$axis as f32 - 1.0

@@ -1,6 +1,6 @@
-// Measures in pixels, as computer vision does: the focal length is the distance of the film from the
-// pinhole. See Hartley and Zisserman, "Multiple View Geometry in Computer Vision" (2nd edition),
-// section 6.1. Converts degrees with a rounded constant and multiplies by reciprocals.
+// Measures in pixels, as is usual in computer vision: the focal length is the distance of the film
+// from the pinhole. See Hartley and Zisserman, "Multiple View Geometry in Computer Vision" (2nd
+// edition), section 6.1. Converts degrees with a rounded constant and multiplies by reciprocals.
 
 use protocol::Interval;
 

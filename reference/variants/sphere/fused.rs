@@ -1,6 +1,6 @@
-// Uses fused multiply-adds everywhere. For the discriminant b² − a·c, this follows Kahan, "On the Cost
-// of Floating-Point Computation Without Extra-Precise Arithmetic", 2004: a fused multiply-add computes
-// the exact rounding error of the product a·c, which is then subtracted.
+// Uses fused multiply-adds everywhere. For the discriminant b² − a·c, this follows Kahan, "On the
+// Cost of Floating-Point Computation Without Extra-Precise Arithmetic", 2004: a fused multiply-add
+// computes the exact rounding error of the product a·c, which is then subtracted.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

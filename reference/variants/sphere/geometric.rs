@@ -1,6 +1,6 @@
 // Solves the problem geometrically: finds the point on the ray closest to the centre and goes half
-// the chord in either direction. See Haines, "Essential Ray Tracing Algorithms", in Glassner
-// (editor), "An Introduction to Ray Tracing", 1989.
+// the length of the chord in either direction. See Haines, "Essential Ray Tracing Algorithms", in
+// Glassner (editor), "An Introduction to Ray Tracing", 1989.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

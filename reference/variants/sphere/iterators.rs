@@ -1,4 +1,4 @@
-// Finds the smallest root in the range with an iterator over the two signs.
+// Uses an iterator over the two signs to find the smallest root in the range.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

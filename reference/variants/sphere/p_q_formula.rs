@@ -1,5 +1,5 @@
 // Divides the equation by a and solves t² + p·t + q = 0 with the p-q formula, which German schools
-// teach: −p/2 ± √((p/2)² − q). Adds from z to x and multiplies by reciprocals.
+// teach: −p/2 ± √((p/2)² − q). Adds components in the order z, y, x and multiplies by reciprocals.
 
 impl Sphere {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

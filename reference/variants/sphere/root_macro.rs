@@ -1,6 +1,6 @@
 // Tries the roots in turn with a macro that returns from the method.
 
-/// Returns the trace at a distance from the calling method if the distance is in the ray's range.
+/// Makes the calling method return the trace at a distance if that distance is in the ray's range.
 macro_rules! return_if_in_range {
     ($sphere:expr, $ray:expr, $t:expr) => {
         let t = $t;

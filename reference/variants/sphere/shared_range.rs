@@ -1,5 +1,5 @@
-// Defines a function that returns the first of several distances in the ray's range, for this file
-// and triangle.rs.
+// Defines a function for this file and triangle.rs. It returns the first of several distances that
+// is in the ray's range.
 
 /// Returns the first of these distances that is in the ray's range.
 pub fn first_in_range<const N: usize>(ray: &Ray, distances: [f32; N]) -> Option<f32> {

@@ -1,5 +1,5 @@
 // Computes signed volumes: the sign of the scalar triple product of the ray's direction and two
-// corners determines the side of their edge that the ray passes (Ericson, "Real-Time Collision
+// corners determines on which side of their edge the ray passes (Ericson, "Real-Time Collision
 // Detection", section 5.3.4). Here, the edge itself is used instead of one of the corners, since
 // rounding errors would otherwise be too large for small triangles.
 

@@ -1,5 +1,5 @@
-// Computes dot and cross products with fused multiply-adds. The cross product of two parallel vectors
-// is then not exactly 0 if their products are rounded.
+// Computes dot and cross products with fused multiply-adds. The cross product of two parallel
+// vectors is then not exactly 0 if their products are rounded.
 
 use glam::Vec3;
 

@@ -1,5 +1,5 @@
-// Intersects the plane first, then solves two equations of dot products with the edges for the
-// weights. See Ericson, "Real-Time Collision Detection", section 3.4.
+// Intersects the plane first, then computes the weights from two equations whose terms are dot
+// products with the edges. See Ericson, "Real-Time Collision Detection", section 3.4.
 
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

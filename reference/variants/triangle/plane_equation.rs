@@ -1,5 +1,6 @@
 // Uses the equation of the triangle's plane, n · x + k = 0, in world space, with a normal of length
-// one. The weights are the areas between the point on the plane and two corners each.
+// one. The weights are the areas of the triangles that the point on the plane forms with two
+// corners each.
 
 use glam::Vec3;
 

@@ -1,5 +1,5 @@
-// Uses Plücker coordinates to determine the side of each edge that the ray passes. For two lines
-// (d1, m1) and (d2, m2), it is the sign of d1·m2 + d2·m1. See Shoemake, "Plücker Coordinate
+// Uses Plücker coordinates to determine on which side of each edge the ray passes. For two lines
+// (d1, m1) and (d2, m2), the side is the sign of d1·m2 + d2·m1. See Shoemake, "Plücker Coordinate
 // Tutorial", Ray Tracing News 11(1), 1998.
 
 use glam::Vec3;
@@ -43,8 +43,8 @@ impl Line {
         }
     }
 
-    /// Returns a number whose sign is the side where the lines pass each other. It is zero if they
-    /// intersect or are parallel.
+    /// Returns a number whose sign tells on which side the lines pass each other. The number is
+    /// zero if they intersect or are parallel.
     fn side(self, other: Line) -> f32 {
         self.dir.dot(other.moment) + other.dir.dot(self.moment)
     }

@@ -1,5 +1,5 @@
-// Projects the triangle along the ray, onto two axes perpendicular to it. In this plane the ray is
-// a point, and the weights are ratios of areas.
+// Projects the triangle along the ray, onto two axes perpendicular to the ray. In this plane the
+// ray is a point, and the weights are ratios of areas.
 
 use glam::Vec2;
 

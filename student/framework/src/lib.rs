@@ -6,8 +6,9 @@
 //!
 //! To see how a pixel gets its colour, read [`render`] in this order:
 //! [`sampler`](render::sampler), where random numbers come from;
-//! [`integrator`](render::integrator), which follows paths of light and asks your code for their
-//! hits; [`light`](render::light), which chooses points on light sources; and
+//! [`clay`](render::clay), the simplest renderer, which asks your code for two hits per sample;
+//! [`integrator`](render::integrator), which follows paths of light;
+//! [`light`](render::light), which chooses points on light sources; and
 //! [`film`](render::film), which turns light into the colours of a screen.
 //!
 //! Modules only use modules in lower rows:

@@ -53,7 +53,7 @@ impl Drop for Folder {
 
 /// A submission that only supports spheres.
 pub(crate) struct SphereSubmission {
-    /// Returns the ray through a position on the film, from −1 to 1 in each direction.
+    /// Returns the ray through a position on the film, whose coordinates range from −1 to 1.
     pub(crate) ray: fn(Vec2) -> Ray,
     /// Changes each hit.
     pub(crate) alter: fn(&mut Trace),
@@ -143,7 +143,7 @@ impl Hierarchy for SphereList {
     }
 }
 
-/// Intersects a ray with a sphere geometrically: finds the point of the ray that is closest to the
+/// Intersects a ray with a sphere geometrically: finds the point on the ray that is closest to the
 /// centre, then moves half a chord in either direction.
 fn intersect(shape: &Shape, ray: &Ray) -> Option<Trace> {
     let Shape::Sphere {

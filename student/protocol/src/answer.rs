@@ -3,10 +3,9 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use crate::function::{LocalDirection, Output, Words};
+use crate::function::{LocalDirection, Output, ResultText};
 use crate::interval::Interval;
-use crate::ray::Ray;
-use crate::trace::Trace;
+use crate::ray::{Ray, Trace};
 use crate::tree::Tree;
 use crate::value::Record;
 
@@ -17,8 +16,8 @@ pub enum Answer {
     Rays(Vec<ElementOutcome<Ray>>),
     /// The answer to `Hit`: the closest hit of each ray.
     Hits(Vec<ElementOutcome<Option<Trace>>>),
-    /// The answer to `BBoxHit`: for each query, the part of its `times` interval that the ray spends
-    /// inside the box, or `None` if it is never inside.
+    /// The answer to `BBoxHit`: for each query, the part of its `times` interval that the ray
+    /// spends inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
     /// The answer to `Reflect`: a reflected direction for each direction.
     Directions(Vec<ElementOutcome<LocalDirection>>),
@@ -30,11 +29,11 @@ pub enum Answer {
 }
 
 /// The outcome of one row: the record that the function returned, or `None`.
-pub type Returned<'a> = ElementOutcome<Option<&'a dyn Record>>;
+pub type RowOutcome<'a> = ElementOutcome<Option<&'a dyn Record>>;
 
 impl Answer {
     /// Returns the rows, if this is the answer to a table.
-    pub fn rows(&self) -> Option<Vec<Returned<'_>>> {
+    pub fn rows(&self) -> Option<Vec<RowOutcome<'_>>> {
         match self {
             Answer::Rays(rows) => Some(returned(rows)),
             Answer::Hits(rows) => Some(returned(rows)),
@@ -55,13 +54,13 @@ impl Answer {
         }
     }
 
-    /// Returns how rows are printed, if this is the answer to a table.
-    pub fn words(&self) -> Option<Words> {
+    /// Returns the texts for printing rows, if this is the answer to a table.
+    pub fn result_text(&self) -> Option<ResultText> {
         match self {
-            Answer::Rays(_) => Some(<Ray as Output>::WORDS),
-            Answer::Hits(_) => Some(<Option<Trace> as Output>::WORDS),
-            Answer::Spans(_) => Some(<Option<Interval> as Output>::WORDS),
-            Answer::Directions(_) => Some(<LocalDirection as Output>::WORDS),
+            Answer::Rays(_) => Some(<Ray as Output>::RESULT_TEXT),
+            Answer::Hits(_) => Some(<Option<Trace> as Output>::RESULT_TEXT),
+            Answer::Spans(_) => Some(<Option<Interval> as Output>::RESULT_TEXT),
+            Answer::Directions(_) => Some(<LocalDirection as Output>::RESULT_TEXT),
             Answer::Tree(_) | Answer::Picture(_) => None,
         }
     }
@@ -79,7 +78,7 @@ impl Answer {
     }
 }
 
-fn returned<T: Output>(rows: &[ElementOutcome<T>]) -> Vec<Returned<'_>> {
+fn returned<T: Output>(rows: &[ElementOutcome<T>]) -> Vec<RowOutcome<'_>> {
     rows.iter().map(|row| row.map(Output::record)).collect()
 }
 
@@ -103,7 +102,7 @@ impl<T> ElementOutcome<T> {
         }
     }
 
-    /// Returns the outcome with its value replaced.
+    /// Returns the outcome with its value, if any, replaced by what `change` returns for it.
     pub fn map<'a, U>(&'a self, change: impl FnOnce(&'a T) -> U) -> ElementOutcome<U> {
         match self {
             ElementOutcome::Value(value) => ElementOutcome::Value(change(value)),

@@ -67,8 +67,8 @@ impl<'de, T: DeserializeOwned> Visitor<'de> for ListOrText<T> {
 pub mod text {
     use super::*;
 
-    /// Serialises a value: in text formats as the base64 form of its binary encoding, in binary
-    /// formats unchanged.
+    /// Serialises a value as the base64 form of its binary encoding in text formats, and unchanged
+    /// in binary formats.
     pub fn serialize<T: Serialize, S: Serializer>(value: &T, out: S) -> Result<S::Ok, S::Error> {
         if !out.is_human_readable() {
             return value.serialize(out);

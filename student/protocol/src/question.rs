@@ -1,4 +1,4 @@
-//! The size of questions and of their answers.
+//! The sizes of questions and answers.
 
 use glam::UVec2;
 
@@ -21,7 +21,7 @@ impl Question {
         self.table().map_or(1, AnyTable::count)
     }
 
-    /// Returns the number of pixels, across and up, if the question asks for a picture.
+    /// Returns the picture's width and height in pixels, if the question asks for a picture.
     pub fn film(&self) -> Option<UVec2> {
         match self {
             Question::Radiance { film, .. } => Some(*film),
@@ -30,7 +30,7 @@ impl Question {
     }
 
     /// Returns the maximum number of nodes in a tree over this many primitives. A binary tree with
-    /// one primitive per leaf has `2n - 1`. The limit is higher to allow for unused nodes.
+    /// one primitive per leaf has `2n - 1` nodes. The limit is higher to allow for unused nodes.
     pub fn max_nodes(primitives: usize) -> usize {
         primitives.saturating_mul(4).saturating_add(64)
     }

@@ -1,7 +1,27 @@
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::vertex::Vertex;
+/// A corner of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Vertex {
+    /// The position of the corner.
+    pub position: Vec3,
+    /// The surface normal at this corner, of length one. It can differ from the face's normal.
+    pub normal: Vec3,
+    /// The texture coordinates.
+    pub uv: Vec2,
+}
+
+impl Vertex {
+    /// Creates a vertex.
+    pub const fn new(position: Vec3, normal: Vec3, uv: Vec2) -> Self {
+        Vertex {
+            position,
+            normal,
+            uv,
+        }
+    }
+}
 
 /// A primitive as described to a submission, which converts it to its own type.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,14 +34,14 @@ pub enum Shape {
         /// The number to report as `shape` in the `Trace`.
         shape: u32,
     },
-    /// A triangle given only by its corners. See [`Shape::flat_triangle_vertices`].
+    /// A triangle defined only by its corners. See [`Shape::flat_triangle_vertices`].
     FlatTriangle {
         /// The corners p0, p1, p2.
         corners: [Vec3; 3],
         /// The number to report as `shape` in the `Trace`.
         shape: u32,
     },
-    /// A sphere, given by its centre and radius.
+    /// A sphere, defined by its centre and radius.
     Sphere {
         /// The centre.
         center: Vec3,

@@ -8,8 +8,7 @@
 
 use glam::{UVec2, Vec2};
 
-use crate::ray::Ray;
-use crate::trace::Trace;
+use crate::ray::{Ray, Trace};
 use crate::tree::{Tree, TreeNode};
 
 /// A submission's camera.

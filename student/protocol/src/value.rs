@@ -33,7 +33,7 @@ pub enum Value<'a> {
     Angle(f32),
     /// A ratio of two lengths.
     Ratio(f32),
-    /// The number of pixels, across and up.
+    /// The width and height of a film, in pixels.
     Film(UVec2),
     /// A pixel. (0, 0) is at the bottom left.
     Pixel(UVec2),
@@ -80,7 +80,7 @@ impl dyn Record + '_ {
     }
 }
 
-/// The subject of a function without a subject.
+/// The empty record, which stands for the subject of a function that has none.
 impl Record for () {
     fn names(&self) -> &'static [&'static str] {
         &[]

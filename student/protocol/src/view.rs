@@ -9,9 +9,9 @@ use crate::ray::Ray;
 pub struct PinholeCamera {
     /// The full vertical field of view, in degrees.
     pub vertical_fov: f32,
-    /// The width of the sensor divided by its height. Independent of `film`.
+    /// The width of the sensor divided by its height. It is independent of `film`.
     pub aspect_ratio: f32,
-    /// The number of pixels, across and up.
+    /// The width and height of the film, in pixels.
     pub film: UVec2,
 }
 
@@ -36,7 +36,7 @@ impl Sample {
     }
 }
 
-/// The five positions in every pixel where deterministic pictures are compared.
+/// The five positions in every pixel at which deterministic pictures are compared.
 pub const PIXEL_OFFSETS: [Vec2; 5] = [
     vec2(0.5, 0.5),
     vec2(0.375, 0.125),
@@ -65,7 +65,7 @@ pub struct ExamCamera {
     pub right: Vec3,
     /// The vector from the centre of the film to the centre of its upper edge.
     pub up: Vec3,
-    /// The number of pixels, across and up.
+    /// The width and height of the film, in pixels.
     pub film: UVec2,
 }
 

@@ -19,14 +19,14 @@ use crate::{Answer, Question};
 /// An error in reading or writing a frame.
 #[derive(Debug, thiserror::Error)]
 pub enum WireError {
-    /// The stream ended, within a frame or between two.
+    /// The stream ended, either within a frame or between two frames.
     #[error("the stream ended")]
     EndOfStream,
     /// Reading from or writing to the stream failed.
     #[error("the stream failed: {0}")]
     Io(io::Error),
     /// The header states a length above the limit.
-    #[error("a frame has {length} bytes, and at most {limit} are allowed")]
+    #[error("a frame has {length} bytes, but at most {limit} are allowed")]
     TooLong {
         /// The length in the header, in bytes.
         length: usize,

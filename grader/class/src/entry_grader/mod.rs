@@ -8,12 +8,11 @@ use grader::report::html::Reload;
 use grader::report_files::ReportFiles;
 use grader::submission::Submission;
 use judging::content_hash::ContentHash;
-use judging::sanitize::sanitize;
 
 use crate::entry::Entry;
 use crate::error::Error;
 use crate::estimate::Estimate;
-use crate::input::{NotCollected, collect_submission};
+use crate::input::collect_submission;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
 use crate::progress::Progress;
 use crate::queue;
@@ -24,8 +23,6 @@ use crate::submission_grader::SubmissionGrader;
 /// The maximum number of attempts to grade an entry. If all of them fail, the entry doesn't get a
 /// score in this run.
 const ATTEMPTS: usize = 3;
-/// The maximum length of a fault's message, in characters.
-const MAX_FAULT_CHARS: usize = 2_000;
 
 /// Grades entries and stores their results.
 pub struct EntryGrader<'a> {
@@ -70,16 +67,15 @@ impl EntryGrader<'_> {
         })
     }
 
-    /// Returns whether an entry need not be graded, because it has a valid result or nothing to
-    /// grade.
+    /// Returns whether an entry need not be graded, because it already has a valid result or there
+    /// is nothing to grade.
     fn is_done(&self, entry: &Entry) -> bool {
         match collect_submission(entry, self.grader.handed_out()) {
             Ok(submission) => {
                 let key = self.key(&submission);
                 self.store.cached_score(&entry.id, &key).is_some()
             }
-            Err(NotCollected::NothingToGrade(_)) => true,
-            Err(NotCollected::MachineFault(_)) => false,
+            Err(outcome) => matches!(outcome, EntryOutcome::NothingToGrade(_)),
         }
     }
 
@@ -106,15 +102,10 @@ impl EntryGrader<'_> {
                     }
                 }
             }
-            Err(not_collected) => {
+            Err(outcome) => {
                 self.store.set_score_aside(&entry.id, self.run.round)?;
-                match not_collected {
-                    NotCollected::MachineFault(why) => (fault(&why), true),
-                    NotCollected::NothingToGrade(why) => {
-                        let is_new = !self.store.has_nothing_to_grade(&entry.id, &why);
-                        (EntryOutcome::NothingToGrade(why), is_new)
-                    }
-                }
+                let is_new = !self.store.has_nothing_to_grade(&entry.id, &outcome);
+                (outcome, is_new)
             }
         };
         let result = EntryResult {
@@ -124,13 +115,13 @@ impl EntryGrader<'_> {
         };
         // Only scores can stay valid in the next run.
         let key = result.score().map_or("", |_| &key);
-        // Save even a stored result again, because the rosters may contain new information about
-        // the people.
+        // Save the result again even if it was stored, because the rosters may contain new
+        // information about the people.
         self.store.save_result(&result, key, self.run.round)?;
         Ok((result, is_new))
     }
 
-    /// Grades an entry, with several attempts.
+    /// Grades an entry, making several attempts if necessary.
     fn grade_with_retries(
         &self,
         entry: &Entry,
@@ -148,10 +139,10 @@ impl EntryGrader<'_> {
             match graded {
                 Ok(Ok(score)) => return Ok(EntryOutcome::Graded(Box::new(score))),
                 Ok(Err(error)) => why = error.to_string(),
-                Err(_) => why = "the grader panicked, with the message above".to_owned(),
+                Err(_) => why = "the grader panicked: see the message above".to_owned(),
             }
         }
-        Ok(fault(&why))
+        Ok(EntryOutcome::fault(&why))
     }
 
     /// Grades an entry once. Its score and its pages are written once all items are graded.
@@ -169,13 +160,9 @@ impl EntryGrader<'_> {
     }
 }
 
-fn fault(why: &str) -> EntryOutcome {
-    EntryOutcome::Fault(sanitize(why, MAX_FAULT_CHARS))
-}
-
 /// Returns the cache key: a hash of everything that the output files of an entry depend on. The
-/// only policy setting it includes is what students may see, since no other rule affects these
-/// files.
+/// only policy setting it includes is the one that controls what students may see, since no other
+/// setting affects these files.
 fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     let mut hash = ContentHash::default();
     let mut part = |bytes: &[u8]| hash.add(bytes);

@@ -125,8 +125,9 @@ fn a_submission_that_cannot_be_graded_is_tried_again_and_then_a_fault() {
     assert!(!folder.is_done(&entry));
 }
 
-/// Otherwise, a run that is killed while writing an entry's files could leave an old stamp next to
-/// a new score. That score would be used if the submission was changed back to the old version.
+/// If an old result were kept, a run that is killed while writing an entry's files could leave an
+/// old stamp next to a new score. That score would be used if the submission was changed back to
+/// the old version.
 #[test]
 fn an_entry_has_no_result_while_it_is_graded_again() {
     let folder = Folder::new();

@@ -14,12 +14,11 @@ use crate::anonymous::Pseudonyms;
 use crate::cli::{ClassArguments, Lists};
 use crate::corrected;
 use crate::entry::{Entry, EntryInfo};
+use crate::entry_completion;
 use crate::entry_grader::EntryGrader;
 use crate::error::Error;
 use crate::input::Input;
-use crate::layout::{CLASSROOM50_SCORES, Layout};
 use crate::list_memory::UsedLists;
-use crate::lists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, check_lists};
 use crate::paths::contains;
@@ -44,12 +43,12 @@ pub fn grade_class(
     grade_class_with(arguments, options, prepare)
 }
 
-/// A function that returns a grader with these options.
+/// A function that takes grading options and returns a grader.
 pub type PrepareGrader<'p> =
     dyn for<'a> Fn(&'a GradeOptions) -> Result<Box<dyn SubmissionGrader + 'a>, Error> + 'p;
 
-/// Like [`grade_class`], with the grader returned by `prepare`, which is called after the input and
-/// the lists have been read.
+/// Like [`grade_class`], but with the grader returned by `prepare`, which is called after the input
+/// and the lists have been read.
 pub fn grade_class_with(
     arguments: &ClassArguments,
     options: &GradeOptions,
@@ -59,7 +58,7 @@ pub fn grade_class_with(
         policy: options.policy.clone(),
         ..arguments.lists.clone()
     };
-    let used = UsedLists::choose(lists, arguments.out.as_deref(), &[])?;
+    let mut used = UsedLists::choose(lists, arguments.out.as_deref(), &[])?;
     let given = &used.lists;
     check_lists(given)?;
     let mut options = options.clone();
@@ -76,13 +75,12 @@ pub fn grade_class_with(
             similarity::check_folder(folder, &others, option)?;
         }
     }
-    let input = Input::open(
-        &arguments.choice,
-        path,
-        &workspace.cache_folder().join("classes"),
-        options.handed_out,
-        &roster::read_lists(given)?,
-    )?;
+    let last = out.map(|out| Store::new(out).read_run()).transpose()?;
+    let last = last.flatten().map(|run| run.choice);
+    let choice = arguments.choice.or(&last.unwrap_or_default());
+    let (cache, handed_out) = (workspace.cache_folder().join("classes"), options.handed_out);
+    let known = roster::read_lists(given)?;
+    let input = Input::open(&choice, path, &cache, handed_out, &known)?;
     let mut recognised = input.class.clone();
     if let Some(out) = out {
         let pseudonyms = Pseudonyms::read(&Store::new(out))?;
@@ -92,26 +90,24 @@ pub fn grade_class_with(
     }
     let entries = recognised.entries.iter_mut();
     let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
-    let lists = resolve_lists(&input, given);
-    let findings = lists::complete_entries(&lists, options.handed_out, &mut infos)?;
+    used.add_downloaded(input.class.layout.find_list(&input.root), out)?;
+    let given = &used.lists;
+    let findings = entry_completion::complete_entries(given, handed_out, &mut infos)?;
     recognised.notes.extend_from_slice(&findings.warnings);
     match (&arguments.corrected, out) {
         (Some(folder), _) => {
-            corrected::replace_files(&mut recognised, folder, path, options.handed_out)?;
+            corrected::replace_files(&mut recognised, folder, path, handed_out)?;
         }
         (None, Some(out)) => corrected::check_none_lost(&Store::new(out))?,
         (None, None) => {}
     }
     if let Some(folder) = &arguments.similarity_input {
-        let written = similarity::write_input(folder, &recognised.entries, options.handed_out);
-        print(written?);
+        let entries = &recognised.entries;
+        print(similarity::write_input(folder, entries, handed_out)?);
     }
     let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
-        print(render_preview(
-            &recognised,
-            &findings.missing,
-            options.handed_out,
-        ));
+        let missing = &findings.missing;
+        print(render_preview(&recognised, missing, handed_out));
         if let Err(error) = findings.check(given) {
             print(format!("  this class would not be graded: {error}\n\n"));
         }
@@ -127,8 +123,8 @@ pub fn grade_class_with(
     let run = start_or_resume(&store, settings, arguments.regrade)?;
     store.remove_temporary_files()?;
     let warnings = render_warnings(&recognised);
-    let all = recognised.entries.iter().map(|entry| entry.id.as_str());
-    let all: Vec<&str> = all.collect();
+    let all = recognised.entries.iter();
+    let all: Vec<&str> = all.map(|entry| entry.id.as_str()).collect();
     let removed = find_removed(&[&store], &all)?;
     let class = file_hash(all.join("\n").as_bytes());
     let shard = arguments.shard.unwrap_or(Shard::ALL);
@@ -136,6 +132,7 @@ pub fn grade_class_with(
     let run = Run {
         shard: arguments.shard,
         lists: used.kept.clone(),
+        choice,
         items: grader.item_points(),
         entries: entries.iter().map(|entry| entry.id.clone()).collect(),
         class,
@@ -164,21 +161,11 @@ pub fn grade_class_with(
         run: &run,
         lists: given,
         policy: grader.policy(),
-        handed_out: options.handed_out,
+        handed_out,
         findings,
     };
-    class.finish(results, removed)
-}
-
-/// Returns the lists given on the command line. If no roster is given, uses the one that
-/// classroom50 writes next to its clones.
-fn resolve_lists(input: &Input, lists: &Lists) -> Lists {
-    let mut lists = lists.clone();
-    if lists.roster.is_none() && input.class.layout == Layout::GitHub {
-        let own = input.root.find(CLASSROOM50_SCORES);
-        lists.roster = own.map(|node| node.path.clone());
-    }
-    lists
+    let finished = class.finish(results, removed);
+    used.forget_refused(finished, &store, &run)
 }
 
 /// Returns the run to resume or to start. Scores from different settings are never mixed, and
@@ -188,7 +175,7 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
         (None, true) => {
             let out = store.folder().display();
             Err(Error::user(format!(
-                "{out} holds no scores yet: leave out --regrade"
+                "{out} contains no scores yet: leave out --regrade"
             )))
         }
         (None, false) => Ok(Run::first_round(settings)),
@@ -199,24 +186,23 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
         }
         (Some(run), true) => Ok(run.next_round(settings)),
         (Some(run), false) => Err(Error::user(format!(
-            "{} has scores that cannot be compared with new ones: {} changed; use --regrade to \
-             grade everything again and list the changes, or name a new folder",
+            "{} contains scores that can't be compared with new ones: {} changed; use --regrade to grade \
+             everything again and list the changes, or choose a new folder",
             store.folder().display(),
             run.settings.differences(&settings).join(", ")
         ))),
     }
 }
 
-/// Saves the scores from before a regrade if this hasn't been done. `run.json` already contains the
-/// new round at this point. Otherwise, a run killed here could be resumed as the previous round,
-/// and that round's comparison with the one before it would be lost.
+/// Saves the scores from before a regrade, unless this has already been done. `run.json` already
+/// contains the new round at this point. If it didn't, a run killed here could be resumed as the
+/// previous round, and that round's comparison with the one before it would be lost.
 fn save_previous_scores(store: &Store, mut run: Run) -> Result<Run, Error> {
-    if run.state != RoundState::SavesPrevious {
-        return Ok(run);
+    if run.state == RoundState::SavesPrevious {
+        store.save_previous_scores()?;
+        run.state = RoundState::Started;
+        store.write_run(&run)?;
     }
-    store.save_previous_scores()?;
-    run.state = RoundState::Started;
-    store.write_run(&run)?;
     Ok(run)
 }
 
@@ -225,7 +211,7 @@ fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Er
     let out = store.folder();
     if input.is_dir() && contains(input, out) {
         return Err(Error::user(format!(
-            "{} is in {}: the results would be taken for submissions; choose another folder for --out",
+            "{} is inside {}, so the results would be mistaken for submissions: choose a different folder for --out",
             out.display(),
             input.display()
         )));
@@ -236,7 +222,8 @@ fn check_out(store: &Store, input: &Path, shard: Option<Shard>) -> Result<(), Er
     };
     match store.read_run()? {
         Some(run) if run.shard != shard => Err(Error::user(format!(
-            "{} has the results of {}, and not of {}: name another folder, or remove this one",
+            "{} contains the results of {}, not of {}: choose a different folder, or remove this \
+             one",
             out.display(),
             title(run.shard),
             title(shard)

@@ -3,10 +3,7 @@
 
 use std::fs;
 
-use grader::handed_out::RAYS;
-
 use super::*;
-use crate::layout::LayoutChoice;
 use crate::store::tests::{run, store};
 
 #[test]
@@ -56,7 +53,7 @@ fn the_output_must_be_outside_of_the_input_and_of_the_same_part() {
     store.write_run(&of_part).unwrap();
     check_out(&store, &input, Some(part)).unwrap();
     let error = refused(&input);
-    let text = "of part 1/2, and not of the whole class";
+    let text = "of part 1/2, not of the whole class";
     assert!(error.contains(text), "{error}");
 }
 
@@ -64,35 +61,4 @@ fn the_output_must_be_outside_of_the_input_and_of_the_same_part() {
 fn a_given_number_of_slots_counts_and_otherwise_there_is_at_least_one() {
     assert_eq!(slot_count(Some(3)), 3);
     assert!(slot_count(None) >= 1);
-}
-
-#[test]
-fn the_roster_beside_clones_is_used_unless_another_is_given() {
-    let folder = tempfile::tempdir().unwrap();
-    for name in ["task-ann", "task-bob"] {
-        fs::create_dir(folder.path().join(name)).unwrap();
-        fs::write(folder.path().join(name).join("sphere.rs"), "new").unwrap();
-    }
-    let scores = folder.path().join(CLASSROOM50_SCORES);
-    fs::write(&scores, "username\nann\n").unwrap();
-    let parent = tempfile::tempdir().unwrap();
-    let input = Input::open(
-        &LayoutChoice::default(),
-        folder.path(),
-        parent.path(),
-        &RAYS,
-        &[],
-    )
-    .unwrap();
-    let given = |roster: Option<&str>| Lists {
-        roster: roster.map(Into::into),
-        hand_back: true,
-        ..Lists::default()
-    };
-    let found = resolve_lists(&input, &given(None));
-    let found_path = found.roster.unwrap().canonicalize().unwrap();
-    assert_eq!(found_path, scores.canonicalize().unwrap());
-    assert!(found.hand_back, "the other lists are kept");
-    let found = resolve_lists(&input, &given(Some("other.csv")));
-    assert_eq!(found.roster, Some("other.csv".into()));
 }

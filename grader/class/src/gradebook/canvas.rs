@@ -8,11 +8,11 @@ use std::path::Path;
 use super::{FilledGradebook, Gradebook, Key, KeyKind, fill};
 use crate::error::Error;
 use crate::graded_class::GradedClass;
-use crate::names::is_number;
+use crate::names::{given_name_first, is_number, joined};
 use crate::roster::POINTS_POSSIBLE;
 use crate::table::{Table, missing_column};
 
-const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and name that file";
+const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and pass that file";
 /// The last column that identifies people.
 const SECTION: &str = "Section";
 /// Texts that mark ignored columns. Canvas silently ignores any column whose title contains one of
@@ -81,18 +81,16 @@ fn find_target(
     let names = table.header.iter().enumerate().skip(section + 1);
     let names: Vec<(usize, &str)> = names.map(|(index, name)| (index, name.trim())).collect();
     let is_ignored = |name: &str| IGNORED_TITLES.iter().any(|title| name.contains(title));
-    let is_wanted = |name: &str| match column {
-        Some(column) => {
-            name == column
-                || without_assignment_number(name) == column
-                || assignment_number(name) == Some(column)
+    let is_wanted = |title: &str| {
+        let (name, number) = split_title(title);
+        match column {
+            Some(column) => [title, name].contains(&column) || number == Some(column),
+            None => number.is_some(),
         }
-        None => assignment_number(name).is_some(),
     };
-    let found: Vec<(usize, &str)> = names
-        .into_iter()
-        .filter(|(_, name)| is_wanted(name))
-        .collect();
+    let found = names.iter().filter(|(_, name)| is_wanted(name)).copied();
+    let found: Vec<(usize, &str)> = found.collect();
+    let titles = |names: &[(usize, &str)]| joined(names.iter().map(|(_, name)| *name), "; ");
     let title = column.unwrap_or("that is clearly the assignment's");
     let missing = |remedy: &str| Err(missing_column(path, title, remedy));
     match found.as_slice() {
@@ -100,34 +98,21 @@ fn find_target(
             "Canvas ignores columns with a title like {name:?}: rename the assignment"
         )),
         [(index, _)] => Ok(*index),
-        [] => missing(
-            "with --column, name a column by its title or by the number at the end of the title",
-        ),
-        several => {
-            let names: Vec<&str> = several.iter().map(|(_, name)| *name).collect();
-            missing(&format!("choose one with --column: {}", names.join("; ")))
-        }
+        [] => missing(&format!(
+            "choose one of these with --column, by its title or by the number at the end of its \
+             title: {}",
+            titles(&names)
+        )),
+        several => missing(&format!("choose one with --column: {}", titles(several))),
     }
 }
 
-/// Returns `123456` for `Path Tracer (123456)`, and `None` for a title without a number.
-fn assignment_number(title: &str) -> Option<&str> {
-    let (_, number) = title.strip_suffix(')')?.rsplit_once('(')?;
-    is_number(number).then_some(number)
-}
-
-/// Returns `Path Tracer` for `Path Tracer (123456)`.
-fn without_assignment_number(title: &str) -> &str {
-    match assignment_number(title) {
-        None => title,
-        Some(number) => title[..title.len() - number.len() - 2].trim_end(),
-    }
-}
-
-/// Returns `Jane Doe` for `Doe, Jane`.
-fn given_name_first(name: &str) -> String {
-    match name.split_once(',') {
-        Some((last, first)) => format!("{} {}", first.trim(), last.trim()),
-        None => name.to_owned(),
+/// Splits `Path Tracer (123456)` into the name and the number. Other titles have no number.
+fn split_title(title: &str) -> (&str, Option<&str>) {
+    let parts = title.strip_suffix(')');
+    let parts = parts.and_then(|rest| rest.rsplit_once('('));
+    match parts.filter(|(_, number)| is_number(number)) {
+        Some((name, number)) => (name.trim_end(), Some(number)),
+        None => (title, None),
     }
 }

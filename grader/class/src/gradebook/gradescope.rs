@@ -1,5 +1,5 @@
-//! Grades downloaded from Gradescope: a list of the class with email addresses and student ids,
-//! which courses import into their own gradebook.
+//! Grades downloaded from Gradescope: a class list with email addresses and student ids, which
+//! courses import into their gradebooks.
 
 use std::path::Path;
 

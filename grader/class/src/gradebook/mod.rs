@@ -1,4 +1,4 @@
-//! Fills in one column in a copy of a gradebook exported from a platform.
+//! Copies a gradebook exported from a platform and fills in one column of the copy.
 //!
 //! If a person cannot be matched with certainty, this is reported and the row stays unchanged,
 //! because a wrong grade in a gradebook is only found weeks later, if ever. All other cells are
@@ -12,8 +12,8 @@ mod moodle;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::entry::Person;
-use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
-use crate::names::{are_alike, are_equal, fold, number_at_end};
+use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
+use crate::names::{are_alike, are_equal, fold, fold_name, joined, number_at_end};
 use crate::roster::POINTS_POSSIBLE;
 use crate::table::Table;
 
@@ -24,9 +24,9 @@ pub use moodle::fill_moodle;
 /// A copy of a gradebook with the points filled in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilledGradebook {
-    /// The gradebook's name for messages.
+    /// The name used for the gradebook in messages.
     pub title: String,
-    /// The copy's table, with the points filled in.
+    /// The copy's table with the points filled in.
     pub table: Table,
     /// The cells that changed.
     pub changes: Vec<CellChange>,
@@ -51,8 +51,8 @@ struct Gradebook {
     table: Table,
     /// The column to fill in.
     target: usize,
-    /// The columns that identify people, the most reliable first. A row without the first key isn't
-    /// about a person.
+    /// The columns that identify people, the most reliable first. A row in which the first of them
+    /// is empty isn't about a person.
     keys: Vec<Key>,
     /// The columns with the parts of a person's name, for messages.
     names: Vec<usize>,
@@ -62,19 +62,20 @@ struct Gradebook {
     maximum: Option<String>,
 }
 
-/// A column that identifies people: a row matches if its text equals one of the person's texts.
+/// A column that identifies people. A row matches a person if its text in this column equals one of
+/// the person's texts.
 struct Key {
     kind: KeyKind,
     column: usize,
-    /// Returns the text for comparisons from a cell.
+    /// Returns the part of a cell's text to compare.
     text: fn(&str) -> String,
 }
 
 /// A kind of text that identifies people.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum KeyKind {
-    /// The platform's own number. A file name can contain the same number by chance, so the names
-    /// must be alike too.
+    /// The platform's number for a person. A file name can contain the same number by chance, so
+    /// the names must be alike too.
     Number,
     /// A student id. It is unique per person, so a row with a different id is somebody else's.
     Sid,
@@ -86,9 +87,19 @@ enum KeyKind {
     Name,
 }
 
+impl KeyKind {
+    /// Normalises a text for comparisons.
+    fn fold(self, text: &str) -> String {
+        match self {
+            KeyKind::Name => fold_name(text),
+            KeyKind::Number | KeyKind::Sid | KeyKind::Login | KeyKind::Email => fold(text),
+        }
+    }
+}
+
 impl Key {
-    /// Returns the key of a column. Its cells are compared unchanged, or by the number at their
-    /// end.
+    /// Returns the key for a column. If the column contains the platform's numbers, only the number
+    /// at the end of each cell is compared. Otherwise, cells are compared unchanged.
     fn new(kind: KeyKind, column: usize) -> Self {
         let text = match kind {
             KeyKind::Number => number_in,
@@ -97,26 +108,26 @@ impl Key {
         Key { kind, column, text }
     }
 
-    /// Returns the keys of those columns that exist in the table.
+    /// Returns the keys for those of the columns that exist in the table.
     fn of_columns(table: &Table, columns: &[(KeyKind, &str)]) -> Vec<Self> {
         let key = |(kind, name): &(KeyKind, &str)| Some(Key::new(*kind, table.column(name)?));
         columns.iter().filter_map(key).collect()
     }
 
     fn row_text(&self, row: &[String]) -> String {
-        fold(&(self.text)(&row[self.column]))
+        self.kind.fold(&(self.text)(&row[self.column]))
     }
 
     fn person_texts(&self, person: &Person) -> Vec<String> {
-        let [text, other] = match self.kind {
-            KeyKind::Number => [&person.number, ""],
-            KeyKind::Sid => [&person.sid, ""],
-            KeyKind::Login => [&person.login, person.email.as_str()],
-            KeyKind::Email => [&person.email, ""],
-            KeyKind::Name => [&person.name, ""],
+        let texts = match self.kind {
+            KeyKind::Number => vec![&person.number],
+            KeyKind::Sid => vec![&person.sid],
+            KeyKind::Login => vec![&person.login, &person.email],
+            KeyKind::Email => vec![&person.email],
+            KeyKind::Name => vec![&person.name],
         };
-        let texts = [text, other].into_iter().filter(|text| !text.is_empty());
-        texts.map(fold).collect()
+        let known = texts.into_iter().filter(|text| !text.is_empty());
+        known.map(|text| self.kind.fold(text)).collect()
     }
 
     /// Returns whether the key proves that a row is this person's.
@@ -145,10 +156,21 @@ const EXCUSED: &str = "EX";
 impl Gradebook {
     /// Returns the name of the person in a row, for messages.
     fn name(&self, row: &[String]) -> String {
-        let names: Vec<&str> = self.names.iter().map(|name| row[*name].as_str()).collect();
-        match names.join(" ").trim() {
+        let names = self.names.iter().map(|name| &row[*name]);
+        match joined(names, " ").trim() {
             "" => row[self.keys[0].column].clone(),
             name => name.to_owned(),
+        }
+    }
+
+    /// Returns the name and, if others in the list share it, the most reliable key.
+    fn title(&self, row: &[String]) -> String {
+        let name = self.name(row);
+        let mut others = self.table.rows.iter().filter(|other| *other != row);
+        if others.any(|other| self.name(other) == name) {
+            format!("{name} ({})", row[self.keys[0].column].trim())
+        } else {
+            name
         }
     }
 
@@ -168,29 +190,29 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
     let mut changes = Vec::new();
     for (row_index, matches) in matches_of {
         let row = &gradebook.table.rows[row_index];
-        let (who, is_locked) = (gradebook.name(row), gradebook.is_locked(row));
+        let (name, who) = (gradebook.name(row), gradebook.title(row));
+        let is_locked = gradebook.is_locked(row);
         let ids = matches.iter().map(|(row, _, _)| row.result.id.as_str());
         let ids: BTreeSet<&str> = ids.collect();
         if ids.len() > 1 {
-            let ids = Vec::from_iter(ids).join(", ");
+            let ids = joined(ids, ", ");
             warnings.push(format!(
-                "{who} has several submissions ({ids}): keep one; left unchanged"
+                "{who} has several submissions ({ids}), so this row is left unchanged: keep only one"
             ));
             continue;
         }
         // A submission may list a person twice, or two people with the same email address.
-        let is_named = |(_, person, _): &&GradebookMatch| are_alike(&person.name, &who);
+        let is_named = |(_, person, _): &&GradebookMatch| are_alike(&person.name, &name);
         let best = matches.iter().find(is_named).unwrap_or(&matches[0]);
         let (class_row, first, grade) = *best;
         let others = matches.iter().filter(|(_, person, other)| {
             other.counted != grade.counted || !are_equal(&person.name, &first.name)
         });
-        let others: Vec<&str> = others.map(|(_, person, _)| person.display_name()).collect();
+        let others = joined(others.map(|(_, person, _)| person.display_name()), ", ");
         if !others.is_empty() {
             let id = &class_row.result.id;
             warnings.push(format!(
-                "{} of {id} could be {who} as well: fill in by hand",
-                others.join(", ")
+                "{others} from {id} could also be {who}: enter the points by hand"
             ));
             if !is_named(&best) {
                 continue;
@@ -232,28 +254,27 @@ fn match_rows<'c>(
     class: &'c GradedClass,
 ) -> (BTreeMap<usize, Vec<GradebookMatch<'c>>>, Vec<String>) {
     let Gradebook { keys, table, .. } = gradebook;
-    let name_in = |row_index: &usize| gradebook.name(&table.rows[*row_index]);
-    // For each key, the indices of the rows with each text. A text that occurs in several rows
-    // doesn't identify anybody.
-    let index_rows = |key: &Key| {
-        let mut index: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-        for (row_index, row) in table.rows.iter().enumerate() {
-            let text = key.row_text(row);
-            if gradebook.is_person(row) && !text.is_empty() {
-                index.entry(text).or_default().push(row_index);
+    let name_in = |row_index: &usize| gradebook.title(&table.rows[*row_index]);
+    // For each key, map each text to the indices of the rows that contain it. A text that occurs in
+    // several rows doesn't identify anybody.
+    let mut indices: Vec<BTreeMap<String, Vec<usize>>> = vec![BTreeMap::new(); keys.len()];
+    for (row_index, row) in table.rows.iter().enumerate() {
+        for (key, index) in keys.iter().zip(&mut indices) {
+            if gradebook.is_person(row) {
+                let rows = index.entry(key.row_text(row)).or_default();
+                rows.push(row_index);
             }
         }
-        index
-    };
-    let indices: Vec<BTreeMap<String, Vec<usize>>> = keys.iter().map(index_rows).collect();
+    }
     let mut matches: BTreeMap<usize, Vec<GradebookMatch>> = BTreeMap::new();
     let mut warnings = Vec::new();
     for class_row in &class.rows {
         for (person, grade) in class_row.people() {
             // The row gets the points of the valid attempt.
-            if matches!(grade.problem, Some(GradeProblem::OtherAttempt(_))) {
+            if grade.is_superseded() {
                 continue;
             }
+            let who = person.display_name();
             let found = keys.iter().zip(&indices).find_map(|(key, index)| {
                 let texts = key.person_texts(person);
                 let rows = texts.iter().find_map(|text| index.get(text))?;
@@ -272,16 +293,16 @@ fn match_rows<'c>(
             };
             match found {
                 Some((key, [row_index])) if is_other(key, *row_index) => {
-                    let (person, listed) = (person.display_name(), name_in(row_index));
+                    let listed = name_in(row_index);
                     warnings.push(if key.kind == KeyKind::Number {
                         format!(
-                            "{person} is not {listed}, who has the same number in this list: fill in \
-                             by hand"
+                            "{who} is not {listed}, who has the same number in this list: enter \
+                             the points by hand"
                         )
                     } else {
                         format!(
-                            "{person} is not in this list: {listed} has another number or student id; \
-                             fill in by hand"
+                            "{who} is not in this list: {listed} has a different number or student id; \
+                             enter the points by hand"
                         )
                     });
                 }
@@ -290,14 +311,12 @@ fn match_rows<'c>(
                     of_row.push((class_row, person, grade));
                 }
                 Some((_, several)) => {
-                    let names: Vec<String> = several.iter().map(name_in).collect();
+                    let names = joined(several.iter().map(name_in), "; ");
                     warnings.push(format!(
-                        "{} could be any of {}: fill in by hand",
-                        person.display_name(),
-                        names.join("; ")
+                        "{who} could be any of {names}: enter the points by hand"
                     ));
                 }
-                None => warnings.push(format!("{} is not in this list", person.display_name())),
+                None => warnings.push(format!("{who} is not in this list")),
             }
         }
     }

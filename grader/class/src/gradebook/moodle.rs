@@ -12,8 +12,9 @@ use crate::table::Table;
 const REMEDY: &str =
     "download the grading worksheet from the assignment's page (it must allow offline grading)";
 
-const TRANSLATED: &str = "it is a grading worksheet in another language than English: switch Moodle \
-    to English in its menu or in your preferences, and download it again";
+const TRANSLATED: &str = "it is a grading worksheet in a language other than English: switch \
+                          Moodle to English in its menu or in your preferences, and download it \
+                          again";
 
 /// Reads the worksheet at `path` and fills in the class's points.
 pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, Error> {
@@ -44,9 +45,9 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
     Ok(fill(gradebook, class))
 }
 
-/// Returns whether the table's first column looks like a worksheet's, e.g. `Teilnehmer/in 123`,
-/// regardless of its header. Moodle writes headers in the language of the person who downloads the
-/// worksheet.
+/// Returns whether the table's first column looks like the first column of a worksheet, with cells
+/// such as `Teilnehmer/in 123`. The header is ignored. Moodle writes headers in the language of the
+/// person who downloads the worksheet.
 fn is_translated(table: &Table) -> bool {
     let is_numbered = |row: &Vec<String>| {
         let cell = row.first().map_or("", |cell| cell.trim());

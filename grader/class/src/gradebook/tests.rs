@@ -4,14 +4,14 @@ use grader::policy::Policy;
 use serde_json::json;
 
 use super::*;
-use crate::graded_class::tests;
+use crate::graded_class::{GradeProblem, tests};
 use crate::outcome::EntryOutcome;
 
 fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
     tests::person(json!({ "name": name, "email": email, "sid": sid, "number": number }))
 }
 
-/// Returns a class whose people each have 80 of 100 points.
+/// Returns a class where each person has 80 of 100 points.
 fn class(people: &[(&str, Person)]) -> GradedClass {
     let class_row = |(id, person): &(&str, Person)| {
         let mut result = tests::result(id, &[], tests::graded(80));
@@ -66,7 +66,9 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
                 ("y", person("Eve", "", "", "7001")),
             ],
             ["100", "", "80", ""],
-            vec!["Eve is not Doe, Jane, who has the same number in this list: fill in by hand"],
+            vec![
+                "Eve is not Doe, Jane, who has the same number in this list: enter the points by hand",
+            ],
         ),
         (
             vec![
@@ -77,9 +79,10 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
             ],
             ["100", "", "", ""],
             vec![
-                "Ann Lee could be any of Lee, Ann; Lee, Ann: fill in by hand",
+                "Ann Lee could be any of Lee, Ann (7002); Lee, Ann (7003): enter the points by \
+                 hand",
                 "Nobody is not in this list",
-                "Doe, Jane has several submissions (b, c): keep one; left unchanged",
+                "Doe, Jane has several submissions (b, c), so this row is left unchanged: keep only one",
             ],
         ),
         // A namesake with several submissions doesn't affect Jane's points.
@@ -90,7 +93,9 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
                 ("c", with_sid("u2")),
             ],
             ["100", "", "", "80"],
-            vec!["Lee, Ann has several submissions (a, c): keep one; left unchanged"],
+            vec![
+                "Lee, Ann (7002) has several submissions (a, c), so this row is left unchanged: keep only one",
+            ],
         ),
     ] {
         let filled = canvas(CANVAS, &class(&people));
@@ -112,7 +117,7 @@ fn a_namesake_with_another_id_gets_no_points() {
     for (person, is_other) in [
         (person("Jane Doe", "", "u9", ""), true),
         (person("Jane Doe", "", "", "9"), true),
-        // She may use a different address, or less may be known about her.
+        // Jane may use a different address, or less may be known about her.
         (person("Jane Doe", "jane@home.org", "", ""), false),
         (person("Jane Doe", "jane@home.org", "U1", ""), false),
     ] {
@@ -122,8 +127,8 @@ fn a_namesake_with_another_id_gets_no_points() {
             let mut wanted = Vec::new();
             if is_other {
                 wanted.push(format!(
-                    "Jane Doe is not in this list: {name} has another number or student id; fill in \
-                     by hand"
+                    "Jane Doe is not in this list: {name} has a different number or student id; \
+                     enter the points by hand"
                 ));
             }
             assert_eq!(filled.warnings, wanted);
@@ -181,7 +186,7 @@ Participant 6,Finn,,100.00,Yes
     Bob: the platform does not allow changes; left unchanged
     Carl is excused; left unchanged
     Eve: nothing to grade; left unchanged
-    Finn: b of the same person could count as well: remove one, or set `counts` under [attempts] in the policy; left unchanged
+    Finn: b by the same person could also count: remove one, or set `counts` under [attempts] in the policy; `latest` needs the times of all attempts; left unchanged
     ");
 }
 
@@ -330,7 +335,8 @@ fn people_of_one_submission_who_share_a_row_are_told_apart_by_the_name() {
         (filled.table.rows[0][4].clone(), filled.warnings)
     };
     assert_eq!(fill(&["Ann Lee", "ann lee"]), ("80".to_owned(), vec![]));
-    let wanted = |name: &str| format!("{name} of x could be Ann Lee as well: fill in by hand");
+    let wanted =
+        |name: &str| format!("{name} from x could also be Ann Lee: enter the points by hand");
     let (filled, warnings) = fill(&["Bob", "Ann Lee"]);
     assert_eq!((filled.as_str(), warnings), ("80", vec![wanted("Bob")]));
     let (filled, warnings) = fill(&["Bob", "Cid"]);
@@ -344,7 +350,7 @@ fn a_worksheet_in_another_language_is_named_as_such() {
         let error = fill_moodle(file.path(), &class(&[]))
             .unwrap_err()
             .to_string();
-        error.contains("in another language than English")
+        error.contains("in a language other than English")
     };
     assert!(fill(
         "ID,Vollständiger Name,Bewertung\nTeilnehmer/in 301,José Núñez,\n"

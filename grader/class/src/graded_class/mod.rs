@@ -1,22 +1,19 @@
 //! The data of a graded class. All files of the class are written from it.
 
-use grader::policy::{CountedPoints, Policy, TaskPoints};
+use grader::policy::{FinalPoints, Policy, TaskPoints};
 
 use crate::entry::Person;
 use crate::late::{UnclearTime, is_undated, lateness};
 use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
+use crate::run::Settings;
 
 /// The results of a class.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GradedClass {
-    /// The exam's name.
-    pub exam: String,
-    /// The hash of the exam file.
-    pub exam_hash: String,
-    /// The isolation level used to grade the submissions.
-    pub isolation: String,
-    /// The submissions, in the order of their ids.
+    /// The settings that the scores depend on.
+    pub settings: Settings,
+    /// The submissions, sorted by id.
     pub rows: Vec<ClassRow>,
     /// The people on the rosters who submitted nothing.
     pub missing: Vec<Person>,
@@ -36,8 +33,8 @@ pub struct ClassRow {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PersonGrade {
     /// The final points after applying the policy. `None` if there is no score or it isn't used.
-    pub counted: Option<CountedPoints>,
-    /// Why a score has no final points.
+    pub counted: Option<FinalPoints>,
+    /// The reason there are no final points.
     pub problem: Option<GradeProblem>,
     /// Whether the submission is treated as on time because its submission time is unknown.
     pub is_undated: bool,
@@ -45,26 +42,30 @@ pub struct PersonGrade {
     pub manual: Vec<ManualPoints>,
 }
 
-/// Why a score has no final points.
+/// The reason there are no final points.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GradeProblem {
     /// It is unclear how late the submission is.
     #[error(transparent)]
     UnclearTime(UnclearTime),
+    /// It is unclear who handed in the submission.
+    #[error("{0}")]
+    UnclearPerson(String),
     /// Another submission by the same person is used.
-    #[error("the submission {0} of the same person counts")]
+    #[error("submission {0} by the same person counts instead")]
     OtherAttempt(String),
     /// The teacher hasn't chosen between several submissions by the same person.
     #[error(
-        "{} of the same person could count as well: remove one, or set `counts` under [attempts] \
-         in the policy",
+        "{} by the same person could also count: remove one, or set `counts` under [attempts] \
+         in the policy; `latest` needs the times of all attempts",
         .0.join(" and ")
     )]
     SeveralAttempts(Vec<String>),
 }
 
 impl GradedClass {
-    /// Returns the results with a score, except superseded attempts and Canvas's test student.
+    /// Returns the results that have a score, except those of superseded attempts and of Canvas's
+    /// test student.
     pub fn scores(&self) -> impl Iterator<Item = (&EntryResult, &ScoreSummary)> {
         let counts = |row: &&ClassRow| !row.is_superseded() && !row.is_of_test_student();
         let rows = self.rows.iter().filter(counts);
@@ -72,7 +73,8 @@ impl GradedClass {
         results.filter_map(|result| Some((result, result.score()?)))
     }
 
-    /// Returns the exam's tasks, with the points of the first score. Empty if there are no scores.
+    /// Returns the exam's tasks, including the points from the first score. The slice is empty if
+    /// there are no scores.
     pub fn tasks(&self) -> &[TaskScore] {
         let first = self.rows.iter().find_map(|row| row.result.score());
         first.map_or(&[], |score| score.tasks.as_slice())
@@ -87,8 +89,8 @@ impl GradedClass {
 }
 
 impl ClassRow {
-    /// Creates the row of a result and applies the policy to its points. `manual` lists the manual
-    /// points of each person. `max_points` is the exam's maximum.
+    /// Creates the row for a result and applies the policy to its points. `manual` lists the manual
+    /// points of each person. `exam` contains the exam's tasks with their maximum points.
     pub fn new(
         result: EntryResult,
         policy: &Policy,
@@ -98,7 +100,8 @@ impl ClassRow {
         let grade = |(person, manual): (&Person, Vec<ManualPoints>)| {
             let earned = match &result.outcome {
                 EntryOutcome::Graded(score) => Some(score.tasks.as_slice()),
-                // Staff have looked at it, and their points count without any others.
+                // Staff have looked at the submission, so the points that they gave count even
+                // without a score.
                 EntryOutcome::NothingToGrade(_) if manual.iter().any(|own| own.delta != 0) => {
                     Some(exam)
                 }
@@ -112,9 +115,10 @@ impl ClassRow {
                 });
                 Ok(policy.count(&tasks.collect::<Vec<TaskPoints>>(), lateness))
             });
-            let (counted, problem) = match counted.transpose() {
-                Ok(counted) => (counted, None),
-                Err(unclear) => (None, Some(GradeProblem::UnclearTime(unclear))),
+            let (counted, problem) = match (counted.transpose(), &result.info.unclear_person) {
+                (Ok(Some(_)), Some(why)) => (None, Some(GradeProblem::UnclearPerson(why.clone()))),
+                (Ok(counted), _) => (counted, None),
+                (Err(unclear), _) => (None, Some(GradeProblem::UnclearTime(unclear))),
             };
             PersonGrade {
                 is_undated: counted.is_some() && is_undated(policy, &result.info),
@@ -127,7 +131,7 @@ impl ClassRow {
         ClassRow { result, grades }
     }
 
-    /// Returns the people, each with their grade.
+    /// Returns each person together with their grade.
     pub fn people(&self) -> impl Iterator<Item = (&Person, &PersonGrade)> {
         self.result.info.people.iter().zip(&self.grades)
     }
@@ -142,28 +146,22 @@ impl ClassRow {
 
     /// Returns a sentence about the files of a submission that was handed in again.
     pub fn correction(&self) -> Option<&'static str> {
-        let sentence = "The files are those that were handed in again; the time is that of the first \
-            submission.";
+        let sentence =
+            "The files were handed in again, but the time of the first submission counts.";
         self.result.info.is_corrected.then_some(sentence)
     }
 
-    /// Returns notes for staff: why there are no final points or else how they were computed, the
-    /// manual points, and the files that look like task files but were not graded.
+    /// Returns notes for staff: how the final points were computed (or why there are none), the
+    /// manual points, and any files that look like task files but were not graded.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = self.merge(|grade| {
-            let problem = match self.why(grade) {
-                why if why.is_empty() => None,
-                why => Some(format!("{}: {why}", self.status(grade))),
-            };
-            // Without either, the table's columns are enough.
-            let needs_words =
-                |counted: &CountedPoints| counted.late_days > 0 || counted.manual != 0;
-            let counted = grade
-                .counted
-                .as_ref()
-                .filter(|counted| needs_words(counted));
-            let counted = counted.filter(|_| grade.problem.is_none());
-            let counted = counted.map(|counted| counted.explanation());
+            let why = self.why(grade);
+            let problem = (!why.is_empty()).then(|| format!("{}: {why}", self.status(grade)));
+            let counted = grade.counted.iter().filter(|counted| {
+                // Without late days or manual points, the table's columns are enough.
+                (counted.late_days > 0 || counted.manual != 0) && grade.problem.is_none()
+            });
+            let counted = counted.map(FinalPoints::explanation);
             let manual = grade.manual.iter().map(ToString::to_string);
             problem.into_iter().chain(counted).chain(manual).collect()
         });
@@ -172,14 +170,12 @@ impl ClassRow {
         notes
     }
 
-    /// Returns the texts about all grades, prefixed with names if they differ.
+    /// Returns the sentences about all grades. They are prefixed with names unless they are the
+    /// same for everyone.
     fn merge(&self, texts: impl Fn(&PersonGrade) -> Vec<String>) -> Vec<String> {
         let all: Vec<Vec<String>> = self.grades.iter().map(texts).collect();
-        let Some(first) = all.first() else {
-            return Vec::new();
-        };
-        if all.iter().all(|texts| texts == first) {
-            return first.clone();
+        if all.windows(2).all(|pair| pair[0] == pair[1]) {
+            return all.into_iter().next().unwrap_or_default();
         }
         let own = self.people().zip(&all).flat_map(|((person, _), texts)| {
             let name = person.display_name();
@@ -188,21 +184,18 @@ impl ClassRow {
         own.collect()
     }
 
-    /// Returns whether other submissions are used for all of its people.
+    /// Returns whether other submissions are used for all people in this row.
     pub fn is_superseded(&self) -> bool {
-        let mut grades = self.grades.iter();
-        let is_superseded =
-            |grade: &PersonGrade| matches!(grade.problem, Some(GradeProblem::OtherAttempt(_)));
-        !self.grades.is_empty() && grades.all(is_superseded)
+        !self.grades.is_empty() && self.grades.iter().all(PersonGrade::is_superseded)
     }
 
-    /// Returns whether only the test student handed it in.
+    /// Returns whether only the test student handed in this submission.
     fn is_of_test_student(&self) -> bool {
         let people = &self.result.info.people;
         !people.is_empty() && people.iter().all(Person::is_test_student)
     }
 
-    /// Returns the first of its people's problems.
+    /// Returns the first problem with a person's grade, if any.
     pub fn problem(&self) -> Option<&GradeProblem> {
         self.grades.iter().find_map(|grade| grade.problem.as_ref())
     }
@@ -214,6 +207,7 @@ impl ClassRow {
             (EntryOutcome::Fault(_), None | Some(GradeProblem::UnclearTime(_))) => "not graded",
             (_, Some(GradeProblem::UnclearTime(unclear))) if unclear.is_draft => "draft",
             (_, Some(GradeProblem::UnclearTime(_))) => "time unclear",
+            (_, Some(GradeProblem::UnclearPerson(_))) => "person unclear",
             (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
             (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",
             (EntryOutcome::NothingToGrade(_), None) if grade.counted.is_some() => "points by hand",
@@ -221,33 +215,35 @@ impl ClassRow {
         }
     }
 
-    /// Returns why the score or the final points are missing, or an empty string if neither is.
+    /// Returns the reason that the score or the final points are missing, or an empty string if
+    /// neither is missing.
     pub fn why(&self, grade: &PersonGrade) -> String {
         match (&self.result.outcome, &grade.problem) {
-            (EntryOutcome::Graded(_), None) => String::new(),
-            (EntryOutcome::Graded(_), Some(problem)) => problem.to_string(),
-            (EntryOutcome::NothingToGrade(_), Some(GradeProblem::UnclearTime(unclear))) => {
-                unclear.to_string()
+            (EntryOutcome::Graded(_), Some(problem))
+            | (EntryOutcome::NothingToGrade(_), Some(problem @ GradeProblem::UnclearTime(_))) => {
+                problem.to_string()
             }
-            (EntryOutcome::NothingToGrade(why) | EntryOutcome::Fault(why), _) => why.clone(),
+            (outcome, _) => outcome.why().to_owned(),
         }
     }
 }
 
 impl PersonGrade {
-    /// Returns whether another attempt by the person is used or may still be chosen.
-    pub fn is_set_aside(&self) -> bool {
-        match &self.problem {
-            Some(GradeProblem::OtherAttempt(_) | GradeProblem::SeveralAttempts(_)) => true,
-            Some(GradeProblem::UnclearTime(_)) | None => false,
-        }
+    /// Returns whether another attempt by the person is used.
+    pub fn is_superseded(&self) -> bool {
+        matches!(self.problem, Some(GradeProblem::OtherAttempt(_)))
     }
 
-    /// Returns sentences that explain how the score contributes to the grade, and staff comments.
-    /// Empty if the score is used unchanged.
+    /// Returns whether another attempt by the person is used or may still be chosen.
+    pub fn is_set_aside(&self) -> bool {
+        self.is_superseded() || matches!(self.problem, Some(GradeProblem::SeveralAttempts(_)))
+    }
+
+    /// Returns sentences that explain how the score contributes to the grade, followed by the
+    /// staff's comments. There are none if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {
         let counts = match (&self.problem, &self.counted) {
-            (Some(problem), _) => Some(format!("No points count: {problem}.")),
+            (Some(problem), _) => Some(format!("No points count towards the grade: {problem}.")),
             (None, Some(counted)) => counted.explanation_if_changed(),
             (None, None) => None,
         };

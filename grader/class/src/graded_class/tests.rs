@@ -1,4 +1,4 @@
-//! Tests for the grade of each person and for its explanation.
+//! Tests for each person's grade and the explanation of the grade.
 
 use tempfile::TempDir;
 
@@ -9,7 +9,7 @@ use crate::late::ONLY_A_FLAG;
 use crate::list_kind::ListKind;
 use crate::outcome::{FileNotes, TaskScore};
 
-/// Returns the result of these people's submission, with this outcome.
+/// Returns a result with this outcome for a submission by these people.
 pub(crate) fn result(id: &str, people: &[&str], outcome: EntryOutcome) -> EntryResult {
     EntryResult {
         id: id.to_owned(),
@@ -26,7 +26,7 @@ pub(crate) fn person(fields: serde_json::Value) -> Person {
     serde_json::from_value(fields).unwrap()
 }
 
-/// Returns an outcome with this many of 100 points, all of them for spheres.
+/// Returns an outcome with this many points out of 100, all of them for spheres.
 pub(crate) fn graded(points: u32) -> EntryOutcome {
     EntryOutcome::Graded(Box::new(ScoreSummary {
         points,
@@ -87,7 +87,7 @@ fn points_by_hand(delta: i32) -> ManualPoints {
     }
 }
 
-/// Returns the row of a submission by these people, with their manual points.
+/// Returns the row for a submission by these people, who also have manual points.
 fn row(outcome: EntryOutcome, policy_text: &str, people: &[(&str, &[i32])]) -> ClassRow {
     let names: Vec<&str> = people.iter().map(|(name, _)| *name).collect();
     let by_hand = |deltas: &&[i32]| deltas.iter().copied().map(points_by_hand).collect();
@@ -132,11 +132,11 @@ fn the_status_and_the_reason_follow_from_the_outcome_and_the_problem() {
     }
     insta::assert_snapshot!(lines.join("\n"), @r"
     graded ()
-    time unclear (the platform says that it is late, but a)
-    another attempt counts (the submission b of the same person coun)
-    several attempts (b and c of the same person could count a)
+    time unclear (the platform says that the submission is)
+    another attempt counts (submission b by the same person counts i)
+    several attempts (b and c by the same person could also co)
     nothing to grade (the folder is empty)
-    time unclear (the platform says that it is late, but a)
+    time unclear (the platform says that the submission is)
     another attempt counts (the folder is empty)
     several attempts (the folder is empty)
     not graded (the disk is full)
@@ -209,7 +209,7 @@ fn notes_give_the_reason_why_there_are_no_points() {
     assert_eq!(
         row.notes(),
         [
-            "another attempt counts: the submission b of the same person counts",
+            "another attempt counts: submission b by the same person counts instead",
             by_hand
         ]
     );
@@ -219,9 +219,9 @@ fn notes_give_the_reason_why_there_are_no_points() {
 fn a_problem_is_explained_instead_of_points() {
     let texts = problems().map(|problem| with_problem(problem).explanation().join("\n"));
     insta::assert_snapshot!(texts.join("\n"), @"
-    No points count: the platform says that it is late, but an extension can be applied only if the submission time and the due time are known: add a column `datetime` to the roster, and `due` to the policy.
-    No points count: the submission b of the same person counts.
-    No points count: b and c of the same person could count as well: remove one, or set `counts` under [attempts] in the policy.
+    No points count towards the grade: the platform says that the submission is late, but an extension can be applied only if the submission time and the due time are known: add a `datetime` column to the roster, and `due` to the policy.
+    No points count towards the grade: submission b by the same person counts instead.
+    No points count towards the grade: b and c by the same person could also count: remove one, or set `counts` under [attempts] in the policy; `latest` needs the times of all attempts.
     ");
     assert_eq!(PersonGrade::default().explanation(), Vec::<String>::new());
 }

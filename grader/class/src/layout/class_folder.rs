@@ -1,42 +1,43 @@
-//! Finds the folder with the entries. In an archive, that is often a folder in it.
+//! Finds the folder with the entries. In an archive, this is often a subfolder.
 //!
-//! A single folder may be the class or the class's only submission. Its contents don't decide this,
-//! because a student may have written them. Its name does, if it was chosen by a platform or a
-//! teacher.
+//! A single folder may be the class itself or the class's only submission. Its contents aren't used
+//! to tell which, because a student may have written them. Its name is used if a platform or a
+//! teacher chose it.
 
 use super::METADATA;
 use super::platforms::{SAKAI_ARCHIVE, TEAMS_DRAFTS, TEAMS_SUBMITTED};
-use crate::listing::Node;
+use crate::file_tree::Node;
 use crate::names::{fold, is_number};
 
-/// Returns the folder with the entries, and a note if it isn't `root` or could be a different one.
-/// `archive` is the name of the archive that the folder was unpacked from.
+/// Returns the folder with the entries, and a note if it isn't `root` or could also be a different
+/// folder. `archive` is the name of the archive that the folder was unpacked from.
 pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node, Option<String>) {
     if let Some(found) = find_teams_folder(root) {
         return found;
     }
-    match root.children() {
-        [only] if only.is_folder() && !only.is_link => {
-            let name = &only.name;
-            let is_sakais = archive.unwrap_or(&root.name).starts_with(SAKAI_ARCHIVE);
-            let is_packed = || archive.is_some_and(|archive| is_packed(name, archive));
-            if is_gradescopes(only) || is_sakais || is_packed() {
-                let note = format!("the submissions are those in the folder {name}");
-                return (only, Some(note));
-            }
-            let unpack = archive.map_or("", |_| "unpack the archive and ");
-            let note = format!(
-                "there is only the folder {name}, which is taken for one submission; if it is the \
-                 folder of the class, {unpack}pass its path"
-            );
-            (root, Some(note))
-        }
-        _ => (root, None),
+    let [only] = root.children() else {
+        return (root, None);
+    };
+    if !only.is_folder() || only.is_link {
+        return (root, None);
     }
+    let name = &only.name;
+    let is_sakais = archive.unwrap_or(&root.name).starts_with(SAKAI_ARCHIVE);
+    let is_packed = || archive.is_some_and(|archive| is_packed(name, archive));
+    if is_gradescopes(only) || is_sakais || is_packed() {
+        let note = format!("the submissions are those in the folder {name}");
+        return (only, Some(note));
+    }
+    let unpack = archive.map_or("", |_| "unpack the archive and ");
+    let note = format!(
+        "there is only the folder {name}, which is treated as one submission; if it contains the \
+         whole class, {unpack}pass its path"
+    );
+    (root, Some(note))
 }
 
-/// Returns the folder with the submissions in a Microsoft Teams library, and a note. The rest of the
-/// library only contains drafts.
+/// Returns the folder that contains the submissions of a Microsoft Teams library, and a note. The
+/// rest of the library only contains drafts.
 fn find_teams_folder(root: &Node) -> Option<(&Node, Option<String>)> {
     let names = root.children().iter().map(|node| node.name.as_str());
     let mut others = names.filter(|name| *name != TEAMS_SUBMITTED);
@@ -50,7 +51,8 @@ fn find_teams_folder(root: &Node) -> Option<(&Node, Option<String>)> {
     Some((submitted, Some(note)))
 }
 
-/// Returns whether a folder is named like an export from Gradescope, `assignment_55_export`.
+/// Returns whether a folder is named like an export from Gradescope, such as
+/// `assignment_55_export`.
 fn is_gradescopes(node: &Node) -> bool {
     let number = node.name.strip_prefix("assignment_");
     let number = number.and_then(|rest| rest.strip_suffix("_export"));
@@ -58,7 +60,7 @@ fn is_gradescopes(node: &Node) -> bool {
 }
 
 /// Returns whether an archive is named after the folder in it, as if the folder had been packed.
-/// Drives and browsers append a time or a number.
+/// Drives and browsers append a time or a number to the name.
 fn is_packed(folder: &str, archive: &str) -> bool {
     let letters =
         |name: &str| -> String { fold(name).chars().filter(|c| c.is_alphanumeric()).collect() };

@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 
-use super::reader::SubmissionRecord;
+use super::records::SubmissionRecord;
 use crate::entry::Person;
 use crate::error::Error;
 
@@ -18,29 +17,21 @@ struct Metadata {
     #[serde(alias = ":submitters", default)]
     submitters: Vec<Submitter>,
     #[serde(alias = ":created_at", default)]
-    created_at: Option<Scalar>,
+    created_at: Option<String>,
 }
 
+/// A person who submitted. Student ids may be numbers without quotes, which are read as text.
 #[derive(Debug, Deserialize)]
 struct Submitter {
     #[serde(alias = ":name", default)]
-    name: Option<Scalar>,
+    name: Option<String>,
     #[serde(alias = ":sid", default)]
-    sid: Option<Scalar>,
+    sid: Option<String>,
     #[serde(alias = ":email", default)]
-    email: Option<Scalar>,
+    email: Option<String>,
 }
 
-/// A YAML value that is read as text. Student ids may be numbers without quotes.
-#[derive(Debug, Deserialize)]
-#[serde(untagged)]
-enum Scalar {
-    Text(String),
-    Number(u64),
-    Other(IgnoredAny),
-}
-
-/// Parses the file. Returns the record of each submission by the name of its folder.
+/// Parses the file. Returns the record of each submission, keyed by the name of its folder.
 pub(super) fn read_metadata(metadata: &str) -> Result<BTreeMap<String, SubmissionRecord>, Error> {
     // The exports of large classes include all earlier results and exceed the default limits, which
     // are meant for untrusted input.
@@ -60,31 +51,19 @@ pub(super) fn read_metadata(metadata: &str) -> Result<BTreeMap<String, Submissio
         ))
     })?;
     let submissions = submissions.into_iter();
-    Ok(submissions
-        .map(|(name, metadata)| (name, record(metadata)))
-        .collect())
+    let records = submissions.map(|(name, metadata)| (name, record(metadata)));
+    Ok(records.collect())
 }
 
 fn record(metadata: Metadata) -> SubmissionRecord {
-    let text = |scalar: Option<Scalar>| scalar.and_then(Scalar::text).unwrap_or_default();
     let person = |submitter: Submitter| Person {
-        name: text(submitter.name),
-        email: text(submitter.email),
-        sid: text(submitter.sid),
+        name: submitter.name.unwrap_or_default(),
+        email: submitter.email.unwrap_or_default(),
+        sid: submitter.sid.unwrap_or_default(),
         ..Person::default()
     };
     SubmissionRecord {
         people: metadata.submitters.into_iter().map(person).collect(),
-        time: metadata.created_at.and_then(Scalar::text),
-    }
-}
-
-impl Scalar {
-    fn text(self) -> Option<String> {
-        match self {
-            Scalar::Text(text) => Some(text),
-            Scalar::Number(number) => Some(number.to_string()),
-            Scalar::Other(_) => None,
-        }
+        time: metadata.created_at,
     }
 }

@@ -1,19 +1,19 @@
 //! Finds entries of a plain class that seem to belong to several people: a folder for a tutorial
 //! with a folder for each student, or the files of several people side by side, numbered by a
-//! browser or a drive. It would be unclear who gets the points.
+//! browser or a drive. It would be unclear who gets the points for such an entry.
 
 use grader::handed_out::{HandedOut, TaskFile};
 
 use crate::entry::{Entry, Source};
-use crate::listing::Node;
-use crate::names::is_number;
+use crate::file_tree::Node;
+use crate::names::{is_number, joined};
 use crate::roster::Member;
 
 /// The maximum number of names in a message.
 const MAX_NAMES: usize = 3;
 
-/// Marks each entry that seems to belong to several people as one without files. Returns the
-/// reasons. An entry of somebody on a list is always one submission, regardless of its folders.
+/// Marks each entry that seems to belong to several people as having no files. Returns the reasons.
+/// An entry that belongs to somebody on a list is always one submission, regardless of its folders.
 pub(super) fn reject_mixtures(
     root: &Node,
     entries: &mut [Entry],
@@ -22,10 +22,9 @@ pub(super) fn reject_mixtures(
 ) -> Vec<String> {
     let mut mixtures = Vec::new();
     for entry in entries {
-        let Source::Path(path) = &entry.source else {
-            continue;
-        };
-        let Some(node) = root.children().iter().find(|node| node.path == *path) else {
+        let is_source =
+            |node: &&Node| matches!(&entry.source, Source::Path(path) if *path == node.path);
+        let Some(node) = root.children().iter().find(is_source) else {
             continue;
         };
         let is_known = || {
@@ -36,8 +35,9 @@ pub(super) fn reject_mixtures(
             let inside = submissions_inside(node, handed_out)?;
             (!is_known()).then(|| {
                 format!(
-                    "the folder {} has several submissions ({}): if they are of several students, \
-                     pass this folder, or move theirs out of it; if of one, keep the one that counts",
+                    "the folder {} contains several submissions ({}): if they are from different students, \
+                     pass this folder, or move them out of it; if they are from one student, keep only the \
+                     one that counts",
                     node.name,
                     listed(&inside)
                 )
@@ -51,8 +51,9 @@ pub(super) fn reject_mixtures(
     mixtures
 }
 
-/// Returns the reason a folder seems to contain the files of several people: several versions of task
-/// files, or many of one, with numbers appended by a browser or a drive.
+/// Returns the reason a folder seems to contain the files of several people: several versions of
+/// more than one task file, or many versions of a single one. A browser or a drive has appended
+/// numbers to their names.
 pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     let versions = |file: &TaskFile| -> Vec<&str> {
         let names = node.children().iter().filter(|node| !node.is_folder());
@@ -64,8 +65,9 @@ pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     let most = several.iter().max_by_key(|names| names.len())?;
     (several.len() > 1 || most.len() > 2).then(|| {
         format!(
-            "the folder {} has several versions of {} side by side ({}): if they are of several \
-             students, put those of each into a folder; if of one, keep those that count",
+            "the folder {} contains several versions of {} side by side ({}): if they are from different \
+             students, put each student's files into a separate folder; if they are from one student, keep \
+             only those that count",
             node.name,
             match several.len() {
                 1 => "a task file".to_owned(),
@@ -76,36 +78,35 @@ pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     })
 }
 
-/// Returns whether a name is that of the file or of a numbered copy: `bvh (1).rs` or `bvh(1).rs`.
+/// Returns whether a name is the file's name or that of a numbered copy, such as `bvh (1).rs` or
+/// `bvh(1).rs`.
 fn is_version(name: &str, file: &str) -> bool {
-    let stem = |name: &str| Some(name.to_lowercase().strip_suffix(".rs")?.to_owned());
-    let (Some(name), Some(file)) = (stem(name), stem(file)) else {
-        return false;
-    };
+    let (name, file) = (name.to_lowercase(), file.to_lowercase());
     let number = || {
-        name.strip_prefix(&file)?
-            .trim()
-            .strip_prefix('(')?
-            .strip_suffix(')')
+        let copy = name.strip_suffix(".rs")?;
+        let number = copy.strip_prefix(file.strip_suffix(".rs")?)?.trim();
+        number.strip_prefix('(')?.strip_suffix(')')
     };
     name == file || number().is_some_and(is_number)
 }
 
 /// Returns the names of the subfolders that look like submissions, if there are several and the
-/// folder itself isn't a submission. A folder that only contains one other is skipped.
+/// folder itself isn't a submission. If a folder contains nothing but another folder, looks inside
+/// that one instead.
 fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<&'a str>> {
     if is_submission(node, handed_out) {
         return None;
     }
-    let folders = || node.children().iter().filter(|node| node.is_folder());
     if let [only] = node.children()
         && only.is_folder()
     {
         return submissions_inside(only, handed_out);
     }
     let other_folders = handed_out.assignment.other_folders;
-    let inside = folders().filter(|node| !other_folders.contains(&node.name.as_str()));
-    let inside = inside.filter(|node| has_task_files(node, handed_out));
+    let inside = node.children().iter().filter(|node| {
+        let is_other = other_folders.contains(&node.name.as_str());
+        node.is_folder() && !is_other && has_task_files(node, handed_out)
+    });
     let mut inside: Vec<&str> = inside.map(|node| node.name.as_str()).collect();
     if inside.is_empty() {
         let archives = node.children().iter().filter(|node| node.is_archive());
@@ -114,8 +115,8 @@ fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<
     (inside.len() > 1).then_some(inside)
 }
 
-/// Returns whether a folder contains repositories but isn't one itself. A repository is recognised by
-/// the hidden folder that Git creates, which nobody can hand in, or by its task files.
+/// Returns whether a folder contains repositories but isn't one itself. A repository is recognised
+/// by the hidden folder that Git creates, which nobody can hand in, or by its task files.
 pub(super) fn is_section(node: &Node, handed_out: &HandedOut) -> bool {
     let is_repository = |node: &Node| node.path.join(".git").exists();
     let has_repositories = || node.children().iter().any(is_repository);
@@ -145,10 +146,6 @@ fn contains_task_file(folder: &Node, handed_out: &HandedOut) -> bool {
 }
 
 fn listed(names: &[&str]) -> String {
-    let first = names.iter().take(MAX_NAMES).copied();
-    let mut text = Vec::from_iter(first).join(", ");
-    if names.len() > MAX_NAMES {
-        text += ", …";
-    }
-    text
+    let more = (names.len() > MAX_NAMES).then_some(&"…");
+    joined(names.iter().take(MAX_NAMES).chain(more), ", ")
 }

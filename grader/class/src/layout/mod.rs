@@ -3,40 +3,46 @@
 //!
 //! Files that don't fit the layout are reported, never silently ignored.
 
+mod canvas;
 mod class_folder;
 mod gradescope;
 mod mixture;
+mod names;
 mod platforms;
 mod reader;
+mod records;
 mod template;
 mod times;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
 
-use self::platforms::{CLASSROOM50_RESULT, Platform, SUBMISSIONS_SUFFIX, TEAMS_SUBMITTED};
-use self::reader::{Reader, SAKAI_MEMBERS, SAKAI_TIME, common_prefix, is_name};
+use self::names::{common_prefix, first_readings, is_name};
+use self::platforms::{
+    CLASSROOM50_RESULT, CLASSROOM50_SCORES, Platform, SUBMISSIONS_SUFFIX, TEAMS_SUBMITTED,
+};
+use self::reader::Reader;
+use self::records::{SAKAI_MEMBERS, SAKAI_TIME};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::listing::Node;
+use crate::file_tree::Node;
 use crate::roster::Member;
 
 pub use crate::layout_kind::{Layout, LayoutChoice};
 pub use class_folder::find_class_folder;
 pub use gradescope::METADATA;
 pub use mixture::side_by_side;
-pub use platforms::CLASSROOM50_SCORES;
 
 /// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecognisedClass {
     /// The layout that the input was recognised as.
     pub layout: Layout,
-    /// The entries, in the order of their ids.
+    /// The entries, sorted by id.
     pub entries: Vec<Entry>,
     /// The files and folders that don't belong to any entry.
     pub unmatched: Vec<UnmatchedPath>,
@@ -55,13 +61,30 @@ pub struct UnmatchedPath {
     pub why: String,
 }
 
+impl UnmatchedPath {
+    /// Returns an unmatched path with this name and reason.
+    pub fn new(name: impl Into<String>, why: impl Into<String>) -> Self {
+        UnmatchedPath {
+            name: name.into(),
+            why: why.into(),
+        }
+    }
+}
+
 impl Layout {
     /// Returns a description for messages.
     pub fn description(self) -> &'static str {
-        Platform::of(self).description
+        &Platform::of(self).description
     }
 
-    /// Returns whether a file or folder is named as in this layout.
+    /// Returns the path of the list of people in a platform's download. `root` is the class's
+    /// folder.
+    pub fn find_list(self, root: &Node) -> Option<PathBuf> {
+        let list = root.find(Platform::of(self).list.as_ref()?)?;
+        Some(list.path.clone())
+    }
+
+    /// Returns whether a file or folder with this name fits this layout.
     pub fn has_name(self, name: &str) -> bool {
         is_name(Platform::of(self), name)
     }
@@ -69,15 +92,17 @@ impl Layout {
 
 /// Returns whether a file is written by a platform and its text should be read.
 pub fn is_record(name: &str) -> bool {
-    let receipts = Platform::of(Layout::Blackboard).texts.iter();
-    let mut receipts = receipts.map(|template| template::readings(template, name));
-    let lists = [METADATA, CLASSROOM50_SCORES, SAKAI_TIME, SAKAI_MEMBERS];
-    lists.contains(&name) || receipts.any(|ways| !ways.is_empty())
+    let lists = Platform::all().iter();
+    let mut lists = lists.filter_map(|platform| platform.list.as_deref());
+    [METADATA, SAKAI_TIME, SAKAI_MEMBERS].contains(&name)
+        || lists.any(|list| list == name)
+        || !first_readings(&Platform::of(Layout::Blackboard).texts, name).is_empty()
 }
 
-/// Returns a folder's entries. Recognises the layout if `choice` doesn't name one. `metadata` is the
-/// text of Gradescope's metadata file, if any, and `known` are the people on lists. The contents of
-/// entries are ignored: only the names that the platform or the teacher has chosen are used.
+/// Returns a folder's entries. Recognises the layout if `choice` doesn't name one. `metadata` is
+/// the text of Gradescope's metadata file, if any, and `known` contains the people on the class's
+/// lists. The contents of entries are ignored: only names chosen by the platform or the teacher are
+/// used.
 pub fn recognise(
     choice: &LayoutChoice,
     root: &Node,
@@ -95,23 +120,21 @@ pub fn recognise(
         None if metadata.is_some() => Layout::Gradescope,
         None => recognise_layout(root, reader)?,
     };
-    let (mut entries, unmatched) = reader(layout).read(root, metadata, choice)?;
+    let (mut entries, unmatched, notes) = reader(layout).read(root, metadata, choice)?;
     reject_links(root, &mut entries);
-    // Other layouts specify who handed in each entry. A person who chooses this one vouches for
-    // that.
-    let mixtures = match choice.layout {
-        None if layout == Layout::Plain => {
-            mixture::reject_mixtures(root, &mut entries, handed_out, known)
-        }
-        None | Some(_) => Vec::new(),
-    };
+    // The other layouts specify who handed in each entry. A person who explicitly chooses the plain
+    // layout vouches for that.
+    let mut mixtures = Vec::new();
+    if layout == Layout::Plain && choice.layout.is_none() {
+        mixtures = mixture::reject_mixtures(root, &mut entries, handed_out, known);
+    }
     entries.sort_by(|one, other| one.id.cmp(&other.id));
     make_ids_unique(&mut entries);
     Ok(RecognisedClass {
         layout,
         entries,
         unmatched,
-        notes: Vec::new(),
+        notes,
         mixtures,
     })
 }
@@ -131,7 +154,7 @@ fn recognise_layout<'a>(
     let is_one = |layout: &Layout| {
         let platform = Platform::of(*layout);
         let is_canvas_download = || reader(*layout).is_canvas_download(root);
-        is_majority(root, platform) && (!platform.has_attachments() || is_canvas_download())
+        is_majority(root, platform) && (!platform.has_attachments || is_canvas_download())
     };
     let found: Vec<Layout> = by_names.into_iter().filter(is_one).collect();
     match found.as_slice() {
@@ -158,28 +181,24 @@ fn is_github_classroom(root: &Node) -> bool {
     let has_results = || folders().all(|node| node.find(CLASSROOM50_RESULT).is_some());
     root.name.ends_with(SUBMISSIONS_SUFFIX)
         || root.find(CLASSROOM50_SCORES).is_some()
-        // A student can add this file but cannot make all folders begin alike.
+        // A student can add this file but cannot make all folder names begin alike.
         || (!common_prefix(&names, '-').is_empty() && has_results())
 }
 
-/// Marks each entry whose files include a link as an entry without files.
+/// Marks each entry whose files include a link as having no files.
 fn reject_links(root: &Node, entries: &mut [Entry]) {
     let mut links = BTreeMap::new();
     add_links(root, &mut links);
     for entry in entries {
-        let link = match &entry.source {
-            Source::Path(path) => links.get(path.as_path()),
-            Source::Files(files) => files.iter().find_map(|(_, path)| links.get(path.as_path())),
-            Source::Missing(_) => None,
-        };
-        if let Some(name) = link {
+        let mut paths = entry.source.paths().into_iter();
+        if let Some(name) = paths.find_map(|path| links.get(path)) {
             let why = format!("{name} is a link, and links are not followed");
             entry.source = Source::Missing(why);
         }
     }
 }
 
-/// Adds the paths and names of all links in a folder.
+/// Adds the paths and names of all links in a folder to `links`.
 fn add_links<'a>(folder: &'a Node, links: &mut BTreeMap<&'a Path, &'a str>) {
     for node in folder.children() {
         if node.is_link {
@@ -189,10 +208,10 @@ fn add_links<'a>(folder: &'a Node, links: &mut BTreeMap<&'a Path, &'a str>) {
     }
 }
 
-/// Returns whether more than half of the files and folders in `root` are named as on the platform,
-/// ignoring those that it writes in addition to the submissions.
-fn is_majority(root: &Node, platform: &Platform) -> bool {
-    let is_own = |node: &&Node| platform.own_files.contains(&node.name.as_str());
+/// Returns whether more than half of the files and folders in `root` have names in the platform's
+/// format, ignoring those that the platform writes in addition to the submissions.
+fn is_majority(root: &Node, platform: &'static Platform) -> bool {
+    let is_own = |node: &&Node| platform.own_files.contains(&node.name);
     let nodes = root.children().iter().filter(|node| !is_own(node));
     let count = nodes.clone().filter(|node| is_name(platform, &node.name));
     2 * count.count() > nodes.count()
@@ -208,7 +227,7 @@ fn make_ids_unique(entries: &mut [Entry]) {
     }
 }
 
-/// Returns the name, with a number appended if the name is taken. Adds the result to `used`, in lower
+/// Returns the name, and appends a number to it if it is taken. Adds the result to `used`, in lower
 /// case.
 pub fn unique_name(wanted: &str, used: &mut BTreeSet<String>) -> String {
     let mut name = wanted.to_owned();
@@ -220,8 +239,9 @@ pub fn unique_name(wanted: &str, used: &mut BTreeSet<String>) -> String {
     name
 }
 
-/// The entries of a layout, and the paths that don't belong to any.
-type LayoutContents = (Vec<Entry>, Vec<UnmatchedPath>);
+/// The entries found in a folder, the paths that don't belong to any entry, and sentences about how
+/// the folder was read.
+type LayoutContents = (Vec<Entry>, Vec<UnmatchedPath>, Vec<String>);
 
 #[cfg(test)]
 mod tests;

@@ -1,21 +1,22 @@
 //! Templates for the names that platforms give to files and folders, such as
-//! `{name}[_{number}]_assignsubmission_file[_{file}]`: text, fields in braces, and optional parts in
-//! brackets. A field is as short as possible. Its name determines which texts it accepts.
+//! `{name}[_{number}]_assignsubmission_file[_{file}]`: text, fields in braces, and optional parts
+//! in brackets. A field is as short as possible. Its name determines which texts it accepts.
 
 use std::collections::BTreeMap;
 
-use super::times::written_time;
+use super::times::normalize_time;
 use crate::names::is_number;
 
-/// The template for one of the people in a name or file from Sakai.
-const MEMBER: &str = "{last},[ {first}]({eid})";
+/// The template for one of the people in a name or file from Sakai, which removes letters that
+/// aren't Latin.
+const MEMBER: &str = "[{last}],[ ][{first}]({eid})";
 
 /// The texts in the fields of a template.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Parts<'a>(BTreeMap<&'static str, &'a str>);
 
 impl<'a> Parts<'a> {
-    /// Returns the text in a field, or an empty string if the name doesn't have it.
+    /// Returns the text in a field, or an empty string if the name doesn't contain the field.
     pub fn get(&self, field: &str) -> &'a str {
         self.0.get(field).copied().unwrap_or_default()
     }
@@ -30,26 +31,27 @@ impl<'a> Parts<'a> {
         self.0.insert(field, text);
     }
 
-    /// Returns the parts without some fields.
+    /// Returns the parts without these fields.
     pub fn without(&self, fields: &[&str]) -> Self {
         let others = self.0.iter().filter(|(field, _)| !fields.contains(field));
         Parts(others.map(|(field, text)| (*field, *text)).collect())
     }
 
-    /// Returns the parts of both.
+    /// Returns the parts of both names.
     pub fn join(&self, other: &Parts<'a>) -> Self {
         let both = self.0.iter().chain(&other.0);
         Parts(both.map(|(field, text)| (*field, *text)).collect())
     }
 
-    /// Fills in the first template whose fields all have a text, or returns an empty string. Parts
-    /// in brackets are left out if a field in them is empty.
-    pub fn fill_first(&self, templates: &[&'static str]) -> String {
-        let mut filled = templates.iter().filter_map(|template| self.fill(template));
+    /// Fills in the first template whose fields all have text. If there is none, returns an empty
+    /// string. Parts in brackets are left out if a field in them is empty.
+    pub fn fill_first(&self, templates: &[impl AsRef<str>]) -> String {
+        let templates = templates.iter().map(AsRef::as_ref);
+        let mut filled = templates.filter_map(|template| self.fill(template));
         filled.next().unwrap_or_default()
     }
 
-    fn fill(&self, mut template: &'static str) -> Option<String> {
+    fn fill(&self, mut template: &str) -> Option<String> {
         let mut text = String::new();
         while let Some((item, rest)) = next_item(template) {
             match item {
@@ -72,24 +74,23 @@ pub fn readings<'a>(template: &'static str, name: &'a str) -> Vec<Parts<'a>> {
     found
 }
 
-/// Returns the people in a text such as `Lee, Ann(ann); Kim, Bob(bob)`, or `None` if it has a
+/// Returns the people in a string such as `Lee, Ann(ann); Kim, Bob(bob)`, or `None` if it has a
 /// different form.
 pub fn read_members(text: &str) -> Option<Vec<Parts<'_>>> {
-    let members = text
-        .split("; ")
-        .map(|member| readings(MEMBER, member.trim()));
+    let members = text.split("; ");
+    let members = members.map(|member| readings(MEMBER, member.trim()));
     members.map(|ways| ways.into_iter().next()).collect()
 }
 
 /// An item at the beginning of a template.
-enum Item {
-    Text(&'static str),
-    Field(&'static str),
-    Optional(&'static str),
+enum Item<'t> {
+    Text(&'t str),
+    Field(&'t str),
+    Optional(&'t str),
 }
 
 /// Splits off the first item of a template. Returns `None` at its end.
-fn next_item(template: &'static str) -> Option<(Item, &'static str)> {
+fn next_item(template: &str) -> Option<(Item<'_>, &str)> {
     if let Some(rest) = template.strip_prefix('{') {
         let (field, rest) = rest.split_once('}')?;
         Some((Item::Field(field), rest))
@@ -103,7 +104,7 @@ fn next_item(template: &'static str) -> Option<(Item, &'static str)> {
     }
 }
 
-/// Adds the readings of a text that follow the templates in `pending`, beginning with the last
+/// Adds the readings of a string that follow the templates in `pending`, beginning with the last
 /// template.
 fn find_readings<'a>(
     mut pending: Vec<&'static str>,
@@ -134,8 +135,8 @@ fn find_readings<'a>(
                     let ends = text.char_indices().map(|(end, _)| end);
                     for end in ends.chain([text.len()]) {
                         let (own, after) = text.split_at(end);
-                        // Most ends are ruled out by comparing the text that comes next, which is
-                        // fast.
+                        // Comparing the text that comes next is fast and rules out most ends of the
+                        // field.
                         if may_follow(&pending, after) && fits(field, own) {
                             let mut parts = parts.clone();
                             parts.set(field, own);
@@ -148,20 +149,16 @@ fn find_readings<'a>(
     }
 }
 
-/// Returns whether a text could follow templates, judging by their first item.
+/// Returns whether a string could match the pending templates, judging by their first item.
 fn may_follow(pending: &[&'static str], text: &str) -> bool {
-    let mut items = pending
-        .iter()
-        .rev()
-        .filter_map(|template| next_item(template));
-    match items.next() {
+    match pending.iter().rev().find_map(|own| next_item(own)) {
         None => text.is_empty(),
         Some((Item::Text(own), _)) => text.starts_with(own),
         Some((Item::Field(_) | Item::Optional(_), _)) => true,
     }
 }
 
-/// Returns whether a text can be in a field of this name.
+/// Returns whether a string can be the value of the field with this name.
 fn fits(field: &str, text: &str) -> bool {
     match field {
         "canvas_name" => is_canvas_name(text),
@@ -170,7 +167,7 @@ fn fits(field: &str, text: &str) -> bool {
         "kind" => !text.contains('_'),
         "anonymous" => !text.is_empty() && !text.contains('_'),
         "late" => text == "LATE",
-        "time" => written_time(text).is_some(),
+        "time" => normalize_time(text).is_some(),
         "eid" => !text.is_empty() && !text.contains(['(', ')']),
         "members" => read_members(text).is_some(),
         "uuid" => text.len() == 36 && text.chars().all(|c| c.is_ascii_hexdigit() || c == '-'),
@@ -179,8 +176,9 @@ fn fits(field: &str, text: &str) -> bool {
     }
 }
 
-/// Returns whether Canvas can have written a name. It must contain a letter, unlike a date, and no
-/// number in the middle, where Canvas removes them. `LATE` after the name is not part of it.
+/// Returns whether Canvas can have written a name. Unlike a date, such a name contains a letter. It
+/// has no number in the middle, because Canvas removes numbers there. `LATE` after the name is not
+/// part of it.
 fn is_canvas_name(name: &str) -> bool {
     let parts: Vec<&str> = name.split('_').collect();
     let inner = parts.get(1..parts.len() - 1).unwrap_or_default();

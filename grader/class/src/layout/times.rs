@@ -1,18 +1,19 @@
-//! Converts the times in the names and files of exports to forms that policies can read.
+//! Converts times from the names and files in exports to formats that policies can read.
 
 use crate::names::is_number;
 
-/// Returns a platform's time with the usual punctuation, or `None` for other texts. Times without a zone
-/// are local times.
-pub fn written_time(text: &str) -> Option<String> {
-    // The local times of Blackboard and of older versions of Sakai, which end in milliseconds.
+/// Returns a platform's time with the usual punctuation, or `None` for other texts. Times without a
+/// zone are local times.
+pub fn normalize_time(text: &str) -> Option<String> {
+    // Local times from Blackboard, and from older versions of Sakai, where they end in
+    // milliseconds.
     with_signs(text, "0000-00-00-00-00-00", "0000-00-00 00:00:00")
         .or_else(|| with_signs(text, "00000000000000000", "0000-00-00 00:00:00 UTC"))
         .or_else(|| with_month(text))
 }
 
-/// Writes the digits of a time between the punctuation of `written`, if it matches `form`, where
-/// `0` stands for a digit.
+/// Returns the digits of a time with the punctuation of `written`, if the time matches `form`. In
+/// `form`, `0` stands for a digit.
 fn with_signs(text: &str, form: &str, written: &str) -> Option<String> {
     let as_form = |sign: char| if sign.is_ascii_digit() { '0' } else { sign };
     let mut digits = text.chars().filter(char::is_ascii_digit);
@@ -27,7 +28,8 @@ fn with_signs(text: &str, form: &str, written: &str) -> Option<String> {
     signs.collect::<Option<String>>().filter(|_| is_of_form)
 }
 
-/// Brightspace's `Nov 20, 2026 1134 PM`. The colon is omitted in file names.
+/// Converts a time from Brightspace, such as `Nov 20, 2026 1134 PM`. The colon is omitted in file
+/// names.
 fn with_month(text: &str) -> Option<String> {
     let (time, half) = match text.rsplit_once(' ')? {
         (time, half @ ("AM" | "PM")) => (time, format!(" {half}")),
@@ -62,7 +64,7 @@ mod tests {
             ("Nov 20, 2026 9:04 AM", "2026-11-20T14:04:00Z"),
             ("20 November 2026 2334", "2026-11-21T04:34:00Z"),
         ] {
-            let written = written_time(text).unwrap();
+            let written = normalize_time(text).unwrap();
             let time = read_time(&written, Some(&zone)).unwrap();
             assert_eq!(time.to_string(), expected, "{text}");
         }
@@ -74,7 +76,7 @@ mod tests {
             "12026-11-20-23-34-05",
             "é 2026 93 PM",
         ] {
-            assert_eq!(written_time(other), None, "{other}");
+            assert_eq!(normalize_time(other), None, "{other}");
         }
     }
 }

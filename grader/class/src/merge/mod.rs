@@ -11,9 +11,10 @@ use judging::sanitize::sanitize_line;
 use crate::anonymous::Pseudonyms;
 use crate::cli::{Lists, MergeArguments};
 use crate::entry::EntryInfo;
+use crate::entry_completion;
 use crate::error::Error;
-use crate::list_memory::{KeptIn, UsedLists};
-use crate::lists;
+use crate::list_memory::{FolderCopies, UsedLists};
+use crate::names::joined;
 use crate::output::{ClassContext, Completion};
 use crate::paths::contains;
 use crate::regrade_diff::find_removed;
@@ -42,11 +43,10 @@ pub fn merge_shards(
     let parts: Vec<Shard> = shards.iter().filter_map(|(_, run)| run.shard).collect();
     let missing = Shard::missing(&parts);
     if !missing.is_empty() {
-        let missing: Vec<String> = missing.iter().map(Shard::to_string).collect();
+        let missing = joined(missing.iter().map(Shard::to_string), ", ");
         return Err(Error::user(format!(
-            "results are missing for {}: name the output folders of all parts, or the merged grades \
-             would lack submissions",
-            missing.join(", ")
+            "results are missing for {missing}: pass the output folders of all parts; otherwise, \
+             submissions would be missing from the merged grades"
         )));
     }
     let out = Store::new(&arguments.out);
@@ -54,10 +54,9 @@ pub fn merge_shards(
         policy: arguments.policy.clone(),
         ..arguments.lists.clone()
     };
-    let parts = shards
-        .iter()
-        .map(|(shard, run)| (shard.folder(), &run.lists));
-    let parts: Vec<KeptIn> = parts.collect();
+    let parts = shards.iter();
+    let parts = parts.map(|(shard, run)| (shard.folder(), &run.lists));
+    let parts: Vec<FolderCopies> = parts.collect();
     let used = UsedLists::choose(given, Some(&arguments.out), &parts)?;
     let lists = &used.lists;
     let policy = match &lists.policy {
@@ -74,7 +73,7 @@ pub fn merge_shards(
         for id in shard.ids()?.into_iter().filter(current) {
             if let Some(other) = sources.insert(id.clone(), shard) {
                 return Err(Error::user(format!(
-                    "{id} is in {} and in {}: were both given the same --shard?",
+                    "{id} is in both {} and {}: were they graded with the same --shard?",
                     other.folder().display(),
                     shard.folder().display()
                 )));
@@ -105,7 +104,7 @@ pub fn merge_shards(
             info.forget_groups_and_extensions();
         }
     }
-    let findings = lists::complete_entries(lists, handed_out, &mut infos)?;
+    let findings = entry_completion::complete_entries(lists, handed_out, &mut infos)?;
     findings.check(lists)?;
     for warning in &findings.warnings {
         print(format!("  {}\n", sanitize_line(warning, 400)));
@@ -123,7 +122,8 @@ pub fn merge_shards(
         handed_out,
         findings,
     };
-    class.finish(rows, removed)
+    let finished = class.finish(rows, removed);
+    used.forget_refused(finished, &out, run)
 }
 
 /// Rejects an output folder inside a shard's results, because each entry would be replaced while it
@@ -132,7 +132,7 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     let holds_out = |shard: &&PathBuf| contains(shard, &arguments.out);
     match arguments.shards.iter().find(holds_out) {
         Some(shard) => Err(Error::user(format!(
-            "{} is, or is in, the results of the shard {}: choose another folder for --out",
+            "{} is part of the results of the shard {}: choose a different folder for --out",
             arguments.out.display(),
             shard.display()
         ))),
@@ -149,14 +149,14 @@ fn read_finished_run(shard: Store) -> Result<(Store, Run), Error> {
             "{path} is not finished: run its `cargo class --shard` again"
         ))),
         None => Err(Error::user(format!(
-            "{path} contains no results of `cargo class --shard`"
+            "{path} contains no results from `cargo class --shard`"
         ))),
     }
 }
 
 /// Checks that two shards are parts of the same class, and that their scores can be compared: the
-/// exam, the isolation and the options must be the same. The grader's executable and the compiler may
-/// differ between machines.
+/// exam, the isolation and the options must be the same. The grader's executable and the compiler
+/// may differ between machines.
 fn check_compatible(one: &(Store, Run), other: &(Store, Run)) -> Result<(), Error> {
     let local = [
         "the grader",
@@ -165,8 +165,8 @@ fn check_compatible(one: &(Store, Run), other: &(Store, Run)) -> Result<(), Erro
     let mut what = one.1.settings.differences(&other.1.settings);
     what.retain(|what| !local.contains(what));
     let why = if one.1.class != other.1.class {
-        ", or somebody could be missing: submissions were added or removed between them; run each \
-         `cargo class --shard` again, which keeps what is graded"
+        " because submissions were added or removed between the two runs, so somebody could be missing: run \
+         each `cargo class --shard` again, which keeps existing results"
             .to_owned()
     } else if !what.is_empty() {
         format!(": they differ in {}", what.join(", "))

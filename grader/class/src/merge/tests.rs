@@ -38,7 +38,7 @@ impl Shards {
         Store::new(&self.path(&part.to_string()))
     }
 
-    /// Writes the finished run of a shard, with a change.
+    /// Writes the finished run of a shard after applying `change` to it.
     fn write(&self, part: usize, change: impl FnOnce(&mut Run)) {
         let mut run = Run {
             state: RoundState::Finished,
@@ -53,7 +53,7 @@ impl Shards {
         store.write_run(&run).unwrap();
     }
 
-    /// Writes a list and returns its path.
+    /// Writes a list and returns the lists of a run that uses it.
     fn list(&self, kind: ListKind, text: &str) -> Lists {
         let path = self.path("given");
         fs::write(&path, text).unwrap();
@@ -62,7 +62,7 @@ impl Shards {
         given
     }
 
-    /// Writes the run of a shard that was given a list.
+    /// Writes the run of a shard that was graded with this list.
     fn give(&self, part: usize, kind: ListKind, text: &str) {
         let used = UsedLists::choose(self.list(kind, text), None, &[]).unwrap();
         self.write(part, |run| run.lists = used.kept.clone());
@@ -80,7 +80,7 @@ impl Shards {
         }
     }
 
-    /// Returns the arguments of a merge that is given a list.
+    /// Returns the arguments for a merge that uses this list.
     fn given(&self, kind: ListKind, text: &str) -> MergeArguments {
         let lists = self.list(kind, text);
         MergeArguments {
@@ -214,7 +214,7 @@ fn the_merged_class_may_not_be_in_a_shard() {
     assert!(check("out").is_ok() && check("new/out").is_ok());
     for out in ["1", "2/new"] {
         let error = check(out).unwrap_err().to_string();
-        assert!(error.contains("another folder for --out"), "{error}");
+        assert!(error.contains("a different folder for --out"), "{error}");
     }
 }
 
@@ -236,6 +236,10 @@ fn the_lists_of_the_shards_count_and_a_merge_has_those_that_it_was_given() {
         shards.points(&shards.given(ListKind::ManualPoints, &text(7))),
         "87"
     );
+    assert_eq!(shards.points(&shards.arguments()), "87");
+    let refused = merge_shards(&shards.given(ListKind::ManualPoints, &text(50)), &RAYS);
+    let error = refused.unwrap_err().to_string();
+    assert!(error.contains("is out of range"), "{error}");
     assert_eq!(shards.points(&shards.arguments()), "87");
     let mut dropped = shards.arguments();
     dropped.lists.drop_list = vec![ListKind::ManualPoints];

@@ -2,45 +2,29 @@
 
 use crate::entry::Person;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
+use crate::names::joined;
+use crate::outcome::EntryResult;
 use crate::table::{Table, safe_cell};
 
-const COLUMNS_BEFORE_TASKS: [&str; 9] = [
-    "submission",
-    "name",
-    "email",
-    "sid",
-    "username",
-    "status",
-    "counts",
-    "points",
-    "max_points",
-];
-const COLUMNS_AFTER_TASKS: [&str; 9] = [
-    "manual",
-    "late_days",
-    "submitted",
-    "from",
-    "why",
-    "comments",
-    "report",
-    "late_flag",
-    "ignored_copies",
-];
+const COLUMNS_BEFORE_TASKS: &str =
+    "submission,name,email,sid,username,status,counts,points,max_points";
+const COLUMNS_AFTER_TASKS: &str =
+    "manual,late_days,submitted,from,why,comments,report,late_flag,ignored_copies";
 
-/// The mark of a submission that the platform marks as late.
+/// The text for a submission that the platform marks as late.
 pub const LATE: &str = "LATE";
 
 /// Returns the table of the class. If a submission doesn't have a score, its points are left empty:
 /// the teacher decides how many it gets.
 pub fn grades_table(class: &GradedClass) -> Table {
-    let tasks = class.tasks().iter();
-    let tasks: Vec<&str> = tasks.map(|task| task.id.as_str()).collect();
-    let header: Vec<&str> = [&COLUMNS_BEFORE_TASKS[..], &tasks, &COLUMNS_AFTER_TASKS].concat();
+    let tasks = class.tasks().iter().map(|task| task.id.as_str());
+    let header = COLUMNS_BEFORE_TASKS.split(',').chain(tasks.clone());
+    let header: Vec<&str> = header.chain(COLUMNS_AFTER_TASKS.split(',')).collect();
     let mut table = Table::new(&header);
     for class_row in &class.rows {
-        for (person, grade) in class_row.people() {
-            table.rows.push(row(class_row, person, grade, tasks.len()));
-        }
+        let people = class_row.people();
+        let rows = people.map(|(person, grade)| row(class_row, person, grade, tasks.len()));
+        table.rows.extend(rows);
     }
     for person in &class.missing {
         let mut row = person_cells("", person, "nothing submitted");
@@ -51,38 +35,34 @@ pub fn grades_table(class: &GradedClass) -> Table {
 }
 
 fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize) -> Vec<String> {
-    let mut row = person_cells(&class_row.result.id, person, class_row.status(grade));
+    let EntryResult { id, info, .. } = &class_row.result;
+    let mut row = person_cells(id, person, class_row.status(grade));
     let counted = grade.counted.as_ref();
-    let counted = counted.map(|counted| counted.points.to_string());
-    row.push(counted.unwrap_or_default());
-    match class_row.result.score() {
+    let counts = counted.map(|counted| counted.points.to_string());
+    row.push(counts.unwrap_or_default());
+    let score = class_row.result.score();
+    match score {
         Some(score) => {
             row.extend([score.points, score.max_points].map(|points| points.to_string()));
             row.extend(score.tasks.iter().map(|task| task.points.to_string()));
         }
         None => row.extend(vec![String::new(); 2 + tasks]),
     }
-    let late = match (&grade.counted, class_row.result.info.is_late()) {
-        (Some(counted), _) => counted.late_days.to_string(),
-        (None, true) => "late".to_owned(),
-        (None, false) => String::new(),
+    let late = match counted {
+        Some(counted) => counted.late_days.to_string(),
+        None => if info.is_late() { "late" } else { "" }.to_owned(),
     };
-    let info = &class_row.result.info;
-    let id = &class_row.result.id;
-    let report = class_row.result.score();
-    let report = report.map(|_| format!("students/{id}/report.html"));
-    let manual = grade.counted.as_ref().map_or(0, |counted| counted.manual);
-    let comments: Vec<String> = grade.manual.iter().map(ToString::to_string).collect();
+    let report = score.map(|_| format!("students/{id}/report.html"));
+    let manual = counted.filter(|counted| counted.manual != 0);
+    let manual = manual.map(|counted| counted.manual.to_string());
+    let comments = grade.manual.iter().map(ToString::to_string);
     row.extend([
-        match manual {
-            0 => String::new(),
-            points => points.to_string(),
-        },
+        manual.unwrap_or_default(),
         late,
         safe_cell(info.submitted().unwrap_or_default()),
         safe_cell(&info.from),
         safe_cell(&class_row.why(grade)),
-        safe_cell(&comments.join("; ")),
+        safe_cell(&joined(comments, "; ")),
         safe_cell(&report.unwrap_or_default()),
         if info.is_late() { LATE } else { "" }.to_owned(),
         safe_cell(&class_row.result.ignored_copies().join("; ")),
@@ -91,14 +71,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
 }
 
 fn person_cells(id: &str, person: &Person, status: &str) -> Vec<String> {
-    [
-        id,
-        &person.name,
-        &person.email,
-        &person.sid,
-        &person.login,
-        status,
-    ]
-    .map(safe_cell)
-    .to_vec()
+    let [email, sid, login] = person.own_identifiers();
+    let cells = [id, &person.name, email, sid, login, status];
+    cells.map(safe_cell).to_vec()
 }

@@ -1,5 +1,5 @@
-//! The reports on the terminal: a summary of the class, the changes to gradebooks, and the changes
-//! of a regrade.
+//! The reports for the terminal: a summary of the class, the changes to gradebooks, and the changes
+//! made by a regrade.
 
 use anstyle::Style;
 use judging::sanitize::sanitize_line;
@@ -8,16 +8,19 @@ use crate::distribution::Distribution;
 use crate::final_grades::GradeChanges;
 use crate::gradebook::{CellChange, FilledGradebook};
 use crate::hand_back::HandBack;
-use crate::regrade_diff::{Drift, ItemChange, RegradeChanges};
-use crate::summary::{Cause, ClassSummary};
-use grader::printing::counted;
+use crate::names::joined;
+use crate::regrade_diff::{Changes, Drift, ItemChange, RegradeChanges};
+use crate::summary::{Cause, ClassSummary, attention_groups};
+use grader::printing::{counted, wrap};
 
 const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
 /// The characters for the columns of a bar chart, from the lowest to the highest.
 const COLUMNS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-/// The maximum length of the reasons a submission needs attention, which may name many files.
-const MAX_WHY_CHARS: usize = 1_000;
+/// The maximum length of a sentence that says what to do, which may name many files.
+const MAX_SENTENCE_CHARS: usize = 1_000;
+/// The maximum length of a line that lists submissions, in characters.
+const MAX_WIDTH: usize = 90;
 /// The maximum number of changes to list for a gradebook or a regrade.
 const MAX_LINES: usize = 40;
 
@@ -25,30 +28,37 @@ const MAX_LINES: usize = 40;
 pub fn render_summary(summary: &ClassSummary) -> String {
     let ClassSummary { graded, exam, .. } = summary;
     let counts = [
-        (
-            summary.nothing_to_grade,
-            "without anything that can be graded",
-        ),
+        (summary.nothing_to_grade, "with nothing to grade"),
         (
             summary.not_graded,
-            "not graded because of the grader or the machine: run this again",
+            "not graded because of a problem with the grader or the machine: run this command \
+             again",
         ),
-        (summary.missing, "on a roster, but submitted nothing"),
+        (summary.missing, "on a roster, but without a submission"),
         (
             summary.unclear_times,
-            "without final points, since it is unclear when they were submitted: see class.html",
+            "without final points, because it is unclear when they were submitted: see class.html",
+        ),
+        (
+            summary.unclear_people,
+            "without final points, because it is unclear who handed them in: see class.html",
+        ),
+        (
+            summary.unlisted,
+            "handed in by people who aren't in the lists: see class.html",
         ),
         (
             summary.undecided,
-            "without final points, since the same person handed in several: see class.html",
+            "without final points, because the same person handed in several submissions: see \
+             class.html",
         ),
         (
             summary.superseded,
-            "that do not count, since another one of the same person does",
+            "not counted, because another submission by the same person counts",
         ),
         (
             summary.undated,
-            "counted as on time, since their submission time is unknown",
+            "counted as on time, because their submission time is unknown",
         ),
     ];
     let counts = counts.iter().filter(|(count, _)| *count > 0);
@@ -63,15 +73,26 @@ pub fn render_summary(summary: &ClassSummary) -> String {
     }
     let causes = summary.causes.iter();
     let causes = causes.map(|Cause { text, items, count }| {
-        let items: Vec<&str> = items.iter().map(String::as_str).collect();
-        one_line(&format!("{count:>4}  {text}  {}", items.join(", ")))
+        one_line(&format!("{count:>4}  {text}  {}", joined(items, ", ")))
     });
-    let outliers = summary.outliers.iter().map(|outlier| {
-        let why = sanitize_line(&outlier.why, MAX_WHY_CHARS);
-        format!("{}: {why}", one_line(&outlier.title()))
-    });
-    let lists: [(&str, Vec<String>); 2] = [
-        ("submissions that need attention", outliers.collect()),
+    let mut attention = Vec::new();
+    for (heading, submissions) in attention_groups(&summary.outliers) {
+        attention.push(format!("{}:", sentence(&heading)));
+        for (detail, submissions) in submissions {
+            let titles = submissions.iter().map(|outlier| one_line(&outlier.title()));
+            let line = match (sentence(detail), joined(titles, ", ")) {
+                (detail, who) if detail.is_empty() => who,
+                (detail, who) => format!("{detail}: {who}"),
+            };
+            attention.extend(
+                wrap(&line, MAX_WIDTH)
+                    .iter()
+                    .map(|line| format!("  {line}")),
+            );
+        }
+    }
+    let lists = [
+        ("submissions that need attention", attention),
         ("root causes of lost points", causes.collect()),
     ];
     for (title, lines) in lists.into_iter().filter(|(_, lines)| !lines.is_empty()) {
@@ -101,9 +122,8 @@ fn distribution_line(title: &str, distribution: &Distribution) -> String {
         upper_quartile,
         ..
     } = distribution;
-    format!(
-        "  {title:24} {bars}  {mean:>5.1} / {of:<3} {FAINT}quartiles {lower_quartile}, {median}, {upper_quartile}{FAINT:#}\n"
-    )
+    let quartiles = format!("quartiles {lower_quartile}, {median}, {upper_quartile}");
+    format!("  {title:24} {bars}  {mean:>5.1} / {of:<3} {FAINT}{quartiles}{FAINT:#}\n")
 }
 
 /// Renders the changes to the copy of a gradebook.
@@ -112,22 +132,17 @@ pub fn render_gradebook(filled: &FilledGradebook) -> String {
     let widths = changes.clone().map(|change| change.who.chars().count());
     let width = widths.max().unwrap_or(0);
     let line = |change: &CellChange| {
-        let was = match change.was.trim() {
-            "" => "–",
-            was => was,
-        };
-        let (who, was) = (one_line(&change.who), one_line(was));
+        let was = Some(change.was.trim()).filter(|was| !was.is_empty());
+        let (who, was) = (one_line(&change.who), one_line(was.unwrap_or("–")));
         format!("{who:width$}  {was} → {}", change.now)
     };
     let is_unchanged = filled.changes.is_empty();
     let none = is_unchanged.then(|| "nothing changes".to_owned());
     let warnings = filled.warnings.iter();
-    let warnings = warnings.map(|warning| format!("! {}", one_line(warning)));
+    let warnings = warnings.map(|warning| format!("! {}", sentence(warning)));
     let lines = changes.take(MAX_LINES).map(line);
-    let lines = lines
-        .chain(more(filled.changes.len(), ""))
-        .chain(none)
-        .chain(warnings);
+    let lines = lines.chain(more(filled.changes.len(), "")).chain(none);
+    let lines = lines.chain(warnings);
     section(&one_line(&filled.title), "", lines)
 }
 
@@ -135,64 +150,54 @@ pub fn render_gradebook(filled: &FilledGradebook) -> String {
 pub fn render_hand_back(hand_back: &HandBack) -> String {
     let title = format!("to hand back: {}", counted(hand_back.pages, "page"));
     let left_out = hand_back.left_out.iter();
-    let left_out = left_out.map(|line| format!("! not in it: {}", one_line(line)));
+    let left_out = left_out.map(|line| format!("! left out: {}", sentence(line)));
     section(&title, "", left_out)
 }
 
-/// Renders the changes of a regrade.
-pub fn render_regrade(regrade: &RegradeChanges) -> String {
+/// Renders the differences from earlier runs, if any.
+pub fn render_changes(changes: &Changes) -> String {
+    let mut text: String = changes.regrade.iter().map(render_regrade).collect();
+    let resubmitted = with_changed_points(&changes.resubmitted);
+    if !resubmitted.is_empty() {
+        let rest = " (replaced.json has the earlier score)";
+        text += &section("changed submissions", rest, drift_lines(&resubmitted, ""));
+    }
+    let grades = changes.grades.iter().filter(|grades| !grades.is_empty());
+    text.extend(grades.map(render_grade_changes));
+    if !changes.removed.is_empty() {
+        let rest = " (not in the tables; their folders are kept)";
+        let removed = changes.removed.iter().map(|entry| one_line(entry));
+        text += &section("no longer in the input", rest, removed);
+    }
+    text
+}
+
+fn render_regrade(regrade: &RegradeChanges) -> String {
     let causes = match regrade.causes.as_slice() {
         [] => "no setting changed".to_owned(),
         causes => format!("changed settings: {}", causes.join(", ")),
     };
     let drifts = with_changed_points(&regrade.drifts);
     let title = format!("regraded: {} changed", count_or_no(drifts.len(), "score"));
-    let same = match regrade.drifts.len() - drifts.len() {
-        0 => None,
-        count => Some(format!(
-            "{count} more with the same points for other items, in drift.json"
-        )),
-    };
+    let count = regrade.drifts.len() - drifts.len();
+    let same = format!(
+        "{count} more with the same total, but different points for some items, in drift.json"
+    );
+    let same = (count > 0).then_some(same);
     let lines = drift_lines(&drifts, ", in drift.json").chain(same);
     section(&title, &format!(" ({causes})"), lines)
 }
 
-/// Renders the scores that changed because their submission changed.
-pub fn render_resubmitted(drifts: &[Drift]) -> String {
-    let drifts = with_changed_points(drifts);
-    if drifts.is_empty() {
-        return String::new();
-    }
-    let rest = " (replaced.json has the earlier score)";
-    section("changed submissions", rest, drift_lines(&drifts, ""))
-}
-
-/// Renders the final grades that changed, with the causes.
-pub fn render_grade_changes(grades: &GradeChanges) -> String {
-    if grades.changes.is_empty() && grades.causes.is_empty() {
-        return String::new();
-    }
+fn render_grade_changes(grades: &GradeChanges) -> String {
     let causes = match grades.causes.as_slice() {
         [] => String::new(),
         causes => format!(" (changed: {})", causes.join(", ")),
     };
-    let title = format!(
-        "{} changed",
-        count_or_no(grades.changes.len(), "final grade")
-    );
+    let count = count_or_no(grades.changes.len(), "final grade");
+    let title = format!("{count} changed");
     // All grades are listed, because a change that goes unnoticed is only found weeks later.
-    let changes = grades.changes.iter().map(|change| one_line(change));
+    let changes = grades.changes.iter().map(|change| sentence(change));
     section(&title, &causes, changes)
-}
-
-/// Renders the entries that are no longer in the input.
-pub fn render_removed(removed: &[String]) -> String {
-    if removed.is_empty() {
-        return String::new();
-    }
-    let rest = " (not in the tables; their folders are kept)";
-    let removed = removed.iter().map(|entry| one_line(entry));
-    section("no longer in the input", rest, removed)
 }
 
 /// Returns the scores whose total changed.
@@ -203,9 +208,8 @@ pub fn with_changed_points(drifts: &[Drift]) -> Vec<&Drift> {
 
 /// Returns a score's points after a change.
 pub fn points_now(drift: &Drift) -> String {
-    drift
-        .now
-        .map_or("no score".to_owned(), |now| now.to_string())
+    let now = drift.now.map(|now| now.to_string());
+    now.unwrap_or_else(|| "no score".to_owned())
 }
 
 /// Returns an item's points before and after a change.
@@ -214,8 +218,8 @@ pub fn points_of_item(change: &ItemChange) -> [String; 2] {
     [change.was, change.now].map(|points| points.map_or("–".to_owned(), text))
 }
 
-/// Returns lines about the first scores that changed, and the number of others. `location` says where
-/// those can be found.
+/// Returns lines about the first scores that changed, and a line with the number of others.
+/// `location` says where the others can be found.
 fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String> {
     let mut lines = Vec::new();
     for drift in drifts.iter().take(MAX_LINES) {
@@ -232,10 +236,8 @@ fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String
 
 /// Returns a line about changes that aren't listed, if any.
 fn more(all: usize, location: &str) -> Option<String> {
-    match all.saturating_sub(MAX_LINES) {
-        0 => None,
-        more => Some(format!("and {more} more{location}")),
-    }
+    let more = all.saturating_sub(MAX_LINES);
+    (more > 0).then(|| format!("and {more} more{location}"))
 }
 
 fn count_or_no(number: usize, noun: &str) -> String {
@@ -243,6 +245,11 @@ fn count_or_no(number: usize, noun: &str) -> String {
         0 => format!("no {noun}"),
         number => counted(number, noun),
     }
+}
+
+/// Returns untrusted text on one line. The text says what to do.
+pub fn sentence(text: &str) -> String {
+    sanitize_line(text, MAX_SENTENCE_CHARS)
 }
 
 /// Returns untrusted text on one line, shortened and without control characters.

@@ -4,54 +4,26 @@ mod times;
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use crate::cli::Lists;
 use crate::entry::Person;
 use crate::error::Error;
 use crate::list_kind::ListKind;
 use crate::moodle_status::MoodleStatus;
-use crate::names::{are_equal, fold, number_at_end};
+use crate::names::{are_equal, are_same_name, fold, given_name_first, number_at_end};
 use crate::table::{Table, missing_column};
 
 pub use times::set_submission_times;
 
-/// Column names that platforms and people use for a person's full name. The lists below are for the
-/// other fields.
-const NAME: [&str; 4] = ["name", "full name", "student", "student name"];
-const FIRST: [&str; 3] = ["first name", "first_name", "given name"];
-const LAST: [&str; 4] = ["last name", "last_name", "surname", "family name"];
-const EMAIL: [&str; 3] = ["email", "email address", "e-mail"];
-const SID: [&str; 7] = [
-    "sid",
-    "student id",
-    "id number",
-    "sis user id",
-    "roster_identifier",
-    "matriculation number",
-    "user_id",
-];
-const LOGIN: [&str; 7] = [
-    "username",
-    "login",
-    "github",
-    "github_username",
-    "github username",
-    "sis login id",
-    "login_id",
-];
-/// Column names for submission times in classroom50 and GitHub Classroom.
-const SUBMISSION_TIME: [&str; 4] = [
-    "datetime",
-    "submission_timestamp",
-    // The lists exported by Gradescope and Moodle.
-    "submission time",
-    "last modified (submission)",
-];
-const GROUP: [&str; 4] = ["group", "group name", "group_name", "team"];
-const SECTION: [&str; 4] = ["section", "tutor", "tutorial", "lab"];
-const EXTENSION: [&str; 3] = ["extension", "extension_days", "extension days"];
+/// The column names from `columns.toml`, keyed by field.
+static COLUMNS: LazyLock<BTreeMap<String, Vec<String>>> =
+    LazyLock::new(|| toml::from_str(include_str!("columns.toml")).expect("the file is valid"));
 
-/// The name in the row of Canvas's gradebook with the maximum points.
+/// The maximum number of rows above the header. Sakai writes the assignment's title there.
+const MAX_ROWS_ABOVE: usize = 3;
+
+/// The name that Canvas's gradebook gives to the row with the maximum points.
 pub const POINTS_POSSIBLE: &str = "Points Possible";
 
 /// A row of a roster or gradebook.
@@ -78,104 +50,110 @@ impl Member {
         person.matches(&self.person) || self.matches_by_name(person)
     }
 
-    /// Returns whether the person's name equals the name or an identifier in this row. Names are
-    /// only compared if the person's email address, student id and account name are unknown, as in
-    /// a folder named after a student, and if the row or the person lacks a platform number.
+    /// Returns whether the person's name is the name or an identifier in this row. Names are only
+    /// compared if the person's email address, student id and account name are unknown, as for a
+    /// folder named after a student. If both the row and the person have a platform number, only an
+    /// identifier counts, and only if the numbers are the same.
     fn matches_by_name(&self, person: &Person) -> bool {
+        if !person.is_bare() {
+            return false;
+        }
         let known = &self.person;
-        let is_bare = person.own_identifiers() == [""; 3];
         let is_numbered = !person.number.is_empty() && !known.number.is_empty();
-        let name = (!self.has_namesake).then_some(known.name.as_str());
-        let mut names = known.own_identifiers().into_iter().chain(name);
-        let same = |known: &str| !known.is_empty() && are_equal(known, &person.name);
-        is_bare && !is_numbered && names.any(same)
+        let mut identifiers = known.own_identifiers().into_iter();
+        let is_identified = (!is_numbered || person.number == known.number)
+            && identifiers.any(|own| !own.is_empty() && are_equal(own, &person.name));
+        let is_named = !is_numbered && !self.has_namesake && self.is_called(person);
+        is_identified || is_named
+    }
+
+    /// Returns whether this row has the person's name.
+    fn is_called(&self, person: &Person) -> bool {
+        let known = &self.person.name;
+        let names = [&person.name, &given_name_first(&person.name)];
+        !known.is_empty() && names.iter().any(|name| are_same_name(known, name))
+    }
+
+    /// Returns whether the person is known only by a name that several people in this row's list
+    /// share.
+    pub fn is_namesake(&self, person: &Person) -> bool {
+        self.has_namesake && person.is_bare() && self.is_called(person)
     }
 
     fn is_namesake_of(&self, other: &Member) -> bool {
         let (one, other) = (&self.person, &other.person);
-        are_equal(&one.name, &other.name) && !one.matches(other) && one != other
+        are_same_name(&one.name, &other.name) && !one.matches(other) && one != other
     }
 }
 
 /// Reads the people in a roster or in a platform's gradebook.
 fn read_members(path: &Path, list: ListKind) -> Result<Vec<Member>, Error> {
-    let remedy = "it needs at least one of the columns name, email, sid and username; in another \
-        language, column heads are not recognised";
-    let members = parse_members(&Table::read(path)?, list);
+    let remedy = "it needs at least one of the columns name, email, sid and username; column \
+        headings in other languages are not recognised";
+    let table = Table::read(path)?;
+    let tables = (0..=MAX_ROWS_ABOVE).map_while(|rows| table.below(rows));
+    let mut members = tables.filter_map(|table| parse_members(&table, list));
+    let members = members.next();
     members.ok_or_else(|| missing_column(path, "that identifies people", remedy))
 }
 
 fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
-    let column = |names: &[&str]| names.iter().find_map(|name| table.column(name));
-    let columns = [
-        &NAME[..],
-        &FIRST,
-        &LAST,
-        &EMAIL,
-        &SID,
-        &LOGIN,
-        &GROUP,
-        &SECTION,
-        &EXTENSION,
-    ];
-    let columns = columns.map(column);
-    let [name, _, _, email, sid, login, ..] = columns;
-    let [submitted, late] = [column(&SUBMISSION_TIME), table.column("late")];
+    let column = |field: &str| COLUMNS[field].iter().find_map(|name| table.column(name));
     // Moodle writes a word in the site's language before the number.
     let identifier = table.column("Identifier");
-    // A list needs one of these columns to match its rows with submissions.
-    email.or(sid).or(login).or(name).or(identifier)?;
-    // Use the platform's own numbers if the list is recognised as Canvas's or Moodle's.
-    let number = match table.column("Student") {
+    let login = match table.column("Display ID") {
+        // This is Sakai's list of grades. The displayed id can differ from the account name.
         Some(_) => table.column("ID"),
-        None => identifier.or_else(|| table.column("canvas_user_id")),
+        None => column("login"),
+    };
+    // A list needs one of these columns to match its rows with submissions.
+    let names = ["email", "sid", "name"].into_iter().find_map(column);
+    names.or(login).or(identifier)?;
+    // Use the platform's numbers if the list is recognised as Canvas's or Moodle's.
+    let is_canvas = table.column("Student").is_some();
+    let number = if is_canvas {
+        table.column("ID")
+    } else {
+        identifier.or_else(|| table.column("canvas_user_id"))
     };
     // In other lists, a status column means something else.
-    let status = table.column("Identifier").and(table.column("Status"));
+    let status = identifier.and(table.column("Status"));
     let member = |(row_number, row): (usize, &Vec<String>)| {
         let cell = |column: Option<usize>| {
             let cell = column.and_then(|column| row.get(column));
             cell.map(|cell| cell.trim().to_owned()).unwrap_or_default()
         };
-        let [
-            name,
-            first,
-            last,
-            email,
-            sid,
-            login,
-            group,
-            section,
-            extension,
-        ] = columns.map(cell);
-        let parts = format!("{first} {last}").trim().to_owned();
+        let text = |field: &str| cell(column(field));
+        let name = match text("name") {
+            name if is_canvas => given_name_first(&name),
+            name => name,
+        };
+        let parts = format!("{} {}", text("first"), text("last"));
         // With blind marking, the list contains no names.
-        let names = [name, parts, cell(identifier)];
+        let names = [name, parts.trim().to_owned(), cell(identifier)];
         let name = names.into_iter().find(|name| !name.is_empty());
         let person = Person {
             name: name.unwrap_or_default(),
-            email,
-            sid,
-            login,
+            email: text("email"),
+            sid: text("sid"),
+            login: cell(login),
             number: number_at_end(&cell(number)).to_owned(),
-            group,
-            section,
-            extension,
+            group: text("group"),
+            section: text("section"),
+            extension: text("extension"),
             status: cell(status),
-            is_named_by_file: false,
-            is_from_group: false,
             is_listed: true,
+            ..Person::default()
         };
+        let submitted = Some(text("submission_time"));
         Member {
             list,
             row: row_number,
-            person,
             // Moodle writes a dash for participants who submitted nothing.
-            submitted: Some(cell(submitted))
-                .filter(|time| time != "-")
-                .unwrap_or_default(),
-            late: cell(late).eq_ignore_ascii_case("true")
-                || MoodleStatus::parse(&cell(status)).is_late,
+            submitted: submitted.filter(|time| time != "-").unwrap_or_default(),
+            late: text("late").eq_ignore_ascii_case("true")
+                || MoodleStatus::parse(&person.status).is_late,
+            person,
             has_namesake: false,
         }
     };
@@ -186,10 +164,8 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
             && !person.is_test_student()
     };
     let mut members: Vec<Member> = members.filter(is_person).collect();
-    let namesakes: Vec<bool> = members
-        .iter()
-        .map(|one| members.iter().any(|other| one.is_namesake_of(other)))
-        .collect();
+    let has_namesake = |one: &Member| members.iter().any(|other| one.is_namesake_of(other));
+    let namesakes: Vec<bool> = members.iter().map(has_namesake).collect();
     for (member, has_namesake) in members.iter_mut().zip(namesakes) {
         member.has_namesake = has_namesake;
     }
@@ -226,8 +202,18 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
         let others = others.into_iter().map(String::as_str);
         person.own_identifiers().into_iter().chain(others)
     });
-    let mut pairs = own.zip(others);
-    pairs.all(|(one, other)| are_equal(one, other))
+    own.zip(others).all(|(one, other)| are_equal(one, other))
+}
+
+/// Reads the people on the list in a platform's download. If the list is in another language,
+/// nothing in it is recognised.
+pub fn read_downloaded(path: &Path) -> Vec<Member> {
+    let mut members = read_members(path, ListKind::Downloaded).unwrap_or_default();
+    // If names are hidden, everybody has the same name.
+    if members.iter().all(|member| member.has_namesake) {
+        members.clear();
+    }
+    members
 }
 
 /// Reads the people on all lists. A person has one row per list they are on. No two people in the
@@ -238,20 +224,19 @@ pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, Error> {
         rows = read_members(path, ListKind::Roster)?;
         check_keys(path, &rows)?;
     }
-    for (path, list) in [
-        (&lists.canvas, ListKind::Canvas),
-        (&lists.moodle, ListKind::Moodle),
-        (&lists.gradescope, ListKind::Gradescope),
-    ] {
-        if let Some(path) = path {
-            rows.extend(read_members(path, list)?);
+    if let Some(path) = &lists.downloaded {
+        rows.extend(read_downloaded(path));
+    }
+    for list in ListKind::GRADEBOOKS {
+        if let Some(path) = lists.get(list) {
+            rows.extend(read_members(&path, list)?);
         }
     }
     Ok(rows)
 }
 
-/// Fills in unknown fields of `people` from the rows of lists. A row may add an identifier that
-/// matches another row, regardless of their order.
+/// Fills in unknown fields of `people`, using the rows of the lists. A row may add an identifier
+/// that matches another row, regardless of the order of the rows.
 pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
     for person in people {
         loop {

@@ -81,7 +81,7 @@ fn a_name_does_not_count_beside_another_identifier() {
 fn rows_without_a_person_are_left_out() {
     let canvas = "Student,ID,SIS Login ID\n\"Points Possible\",,\n\"Student, Test\",9,test\n,,\n\
         \"Lee, Ann\",1,ann\n";
-    assert_eq!(names(canvas), ["Lee, Ann"]);
+    assert_eq!(names(canvas), ["Ann Lee"]);
 }
 
 #[test]

@@ -8,8 +8,8 @@ use super::Member;
 use crate::entry::{EntryInfo, ListedTime};
 use crate::list_kind::ListKind;
 
-/// Copies submission times from the roster, Gradescope's list or Moodle's worksheet to entries
-/// without one in the platform's export.
+/// Copies submission times from the roster, Gradescope's list or Moodle's worksheet to entries that
+/// have none in the platform's export.
 pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     for info in entries.iter_mut().filter(|info| info.submitted.is_none()) {
         let theirs = rows.iter().filter(|row| {
@@ -17,7 +17,11 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
             let has_time = row.list != ListKind::Canvas && !row.submitted.is_empty();
             has_time && people.any(|person| row.matches(person))
         });
-        let theirs: Vec<&Member> = theirs.collect();
+        let mut theirs: Vec<&Member> = theirs.collect();
+        // The roster corrects the list in the download.
+        if theirs.iter().any(|row| row.list == ListKind::Roster) {
+            theirs.retain(|row| row.list != ListKind::Downloaded);
+        }
         // If there are several submissions, the last one was cloned. An unreadable time takes
         // precedence so that it is reported, because it is then unknown which submission is the
         // last.

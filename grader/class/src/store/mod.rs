@@ -1,5 +1,5 @@
 //! Stores the results of a class in the output folder. Files are written atomically, and an entry's
-//! stamp last, so a killed run never leaves an incomplete entry that looks complete.
+//! stamp is written last, so a killed run never leaves an incomplete entry that looks complete.
 
 use std::ffi::OsStr;
 use std::io::ErrorKind;
@@ -23,8 +23,11 @@ const FEEDBACK: &str = "feedback.html";
 /// The archive with the graded task files. The report's commands refer to it.
 pub const SUBMISSION: &str = "submission.zip";
 const STAMP: &str = "entry.json";
-const PREVIOUS: &str = "previous.json";
-const REPLACED: &str = "replaced.json";
+/// The file with an entry's score from before the current round.
+pub const PREVIOUS: &str = "previous.json";
+/// The file with an entry's score from earlier in the same round, for an older version of the
+/// submission.
+pub const REPLACED: &str = "replaced.json";
 const RUN: &str = "run.json";
 /// The prefix of temporary files, which are renamed when complete.
 const TEMPORARY_PREFIX: &str = ".tmp";
@@ -35,7 +38,7 @@ pub struct Store {
     folder: PathBuf,
 }
 
-/// Returns the error of a file with invalid contents.
+/// Returns the error for a file with invalid contents.
 fn damaged(path: &Path, why: &serde_json::Error) -> Error {
     let path = path.display();
     Error::machine(format!(
@@ -60,11 +63,9 @@ impl Store {
     pub fn remove_temporary_files(&self) -> Result<(), Error> {
         let entries = self.ids()?.into_iter().map(|id| self.entry_folder(&id));
         for folder in entries.chain([self.folder.clone()]) {
-            for file in list_if_exists(&folder)? {
-                if is_temporary(file.file_name().unwrap_or_default()) {
-                    files::remove_if_exists(file)?;
-                }
-            }
+            let mut files = list_if_exists(&folder)?;
+            files.retain(|file| is_temporary(file.file_name().unwrap_or_default()));
+            files.into_iter().try_for_each(files::remove_if_exists)?;
         }
         Ok(())
     }
@@ -106,6 +107,17 @@ impl Store {
         Ok(atomic_write::write(contents, &self.folder.join(name))?)
     }
 
+    /// Writes a file of an entry.
+    fn write_of_entry(
+        &self,
+        id: &str,
+        name: impl AsRef<Path>,
+        contents: impl AsRef<[u8]>,
+    ) -> Result<(), Error> {
+        let path = self.entry_folder(id).join(name);
+        Ok(atomic_write::write(contents, &path)?)
+    }
+
     /// Removes a file of the class from the output folder, if it exists.
     pub fn remove(&self, name: &str) -> Result<(), Error> {
         Ok(files::remove_if_exists(self.folder.join(name))?)
@@ -117,16 +129,16 @@ impl Store {
         (stamp.key == key).then(|| self.read_score(id))?.ok()
     }
 
-    /// Returns whether the entry is stored as having nothing to grade for this reason.
-    pub fn has_nothing_to_grade(&self, id: &str, why: &str) -> bool {
+    /// Returns whether this outcome is stored for the entry and says that there is nothing to
+    /// grade.
+    pub fn has_nothing_to_grade(&self, id: &str, outcome: &EntryOutcome) -> bool {
         let stamp = self.read_stamp(id).ok().flatten();
-        stamp.is_some_and(
-            |stamp| matches!(stamp.result.outcome, EntryOutcome::NothingToGrade(stored) if stored == why),
-        )
+        matches!(outcome, EntryOutcome::NothingToGrade(_))
+            && stamp.is_some_and(|stamp| stamp.result.outcome == *outcome)
     }
 
     /// Writes the stamp of an entry. If the entry has a score, it must already have been written.
-    /// Otherwise, the entry's files from earlier runs are removed. `round` is the round of the run.
+    /// Otherwise, the entry's files from earlier runs are removed. `round` is the run's round.
     pub fn save_result(&self, result: &EntryResult, key: &str, round: u32) -> Result<(), Error> {
         let folder = self.entry_folder(&result.id);
         if result.score().is_none() {
@@ -141,20 +153,18 @@ impl Store {
             round,
             result: result.clone(),
         };
-        Ok(atomic_write::write(json(&stamp), &folder.join(STAMP))?)
+        self.write_of_entry(&result.id, STAMP, json(&stamp))
     }
 
     /// Writes the page that the student may see.
     pub fn save_feedback(&self, id: &str, page: &str) -> Result<(), Error> {
-        let path = self.entry_folder(id).join(FEEDBACK);
-        Ok(atomic_write::write(page, &path)?)
+        self.write_of_entry(id, FEEDBACK, page)
     }
 
     /// Writes the graded task files.
     pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
-        let path = self.entry_folder(id).join(SUBMISSION);
         let archive = archive_bytes(submission).expect("writing to memory succeeds");
-        Ok(atomic_write::write(archive, &path)?)
+        self.write_of_entry(id, SUBMISSION, archive)
     }
 
     /// Reads the page that the student may see.
@@ -164,31 +174,21 @@ impl Store {
 
     /// Writes sentences that explain how the score contributes to the grade into the entry's pages.
     pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), Error> {
-        for name in [REPORT, FEEDBACK] {
-            let path = self.entry_folder(id).join(name);
-            // Older results of a shard may lack a page.
-            write_counted(&path, texts)?;
-        }
-        Ok(())
+        // Older results from a shard may lack a page.
+        write_counted(&self.entry_folder(id).join(REPORT), texts)?;
+        Ok(write_counted(&self.entry_folder(id).join(FEEDBACK), texts)?)
     }
 
-    /// Saves the score of an entry whose submission has changed, before it is graded again. Scores
-    /// from earlier rounds are kept by [`save_previous_scores`](Self::save_previous_scores).
+    /// Saves the score of an entry whose submission has changed, before the entry is graded again.
+    /// Scores from earlier rounds are kept by [`save_previous_scores`](Self::save_previous_scores).
     pub fn set_score_aside(&self, id: &str, round: u32) -> Result<(), Error> {
         let stamp = self.read_stamp(id)?;
-        let is_kept = |stamp: Stamp| stamp.is_graded() && stamp.round == round;
+        let is_kept = |stamp: Stamp| stamp.result.score().is_some() && stamp.round == round;
         if stamp.is_some_and(is_kept) {
-            let folder = self.entry_folder(id);
-            let path = folder.join(REPLACED);
-            let text = files::read_to_string(folder.join(SCORE))?;
-            atomic_write::write(&text, &path)?;
+            let text = files::read_to_string(self.entry_folder(id).join(SCORE))?;
+            self.write_of_entry(id, REPLACED, text)?;
         }
         Ok(())
-    }
-
-    /// Returns the score of an earlier version of the submission in the same round, if any.
-    pub fn replaced_score(&self, id: &str) -> Result<Option<ScoreSummary>, Error> {
-        self.read_kept_score(id, REPLACED)
     }
 
     /// Removes an entry's stamp before its other files change.
@@ -201,15 +201,15 @@ impl Store {
     /// score.
     pub fn copy_entry(&self, id: &str, from: &Store) -> Result<(), Error> {
         self.copy_files(id, from, id)?;
-        if let Some(stamp) = files::read_if_exists(from.entry_folder(id).join(STAMP))? {
-            atomic_write::write(stamp, &self.entry_folder(id).join(STAMP))?;
+        match files::read_if_exists(from.entry_folder(id).join(STAMP))? {
+            Some(stamp) => self.write_of_entry(id, STAMP, stamp),
+            None => Ok(()),
         }
-        Ok(())
     }
 
-    /// Replaces an entry's files, apart from the stamp, by those of the entry `old_id` in another
-    /// store. If the id is another, pages and scores name the submission by it, and the scores of
-    /// earlier runs are left out.
+    /// Replaces an entry's files, apart from the stamp, with those of the entry `old_id` in another
+    /// store. If the two ids differ, the new id replaces the old one in pages and scores, and the
+    /// scores of earlier runs are left out.
     pub fn copy_files(&self, id: &str, from: &Store, old_id: &str) -> Result<(), Error> {
         let folder = self.entry_folder(id);
         files::create_dir_all(&folder)?;
@@ -222,23 +222,25 @@ impl Store {
         let is_kept = |name: &OsStr| id == old_id || (name != PREVIOUS && name != REPLACED);
         for source in files::read_dir(from.entry_folder(old_id))? {
             let name = source.file_name().unwrap_or_default();
-            let target = folder.join(name);
-            if name == REPORT || name == FEEDBACK {
+            let contents = if name == REPORT || name == FEEDBACK {
                 let page = with_moved_submission(&files::read_to_string(&source)?, &was, &now);
-                atomic_write::write(with_name(&page, old_id, id), &target)?;
+                with_name(&page, old_id, id).into_bytes()
             } else if name == SCORE {
                 let field = |id: &str| format!("\"submission\": {}", json(&id).trim_end());
                 let score = files::read_to_string(&source)?;
                 let score = score.replacen(&field(old_id), &field(id), 1);
-                atomic_write::write(score, &target)?;
+                score.into_bytes()
             } else if name != STAMP && !is_temporary(name) && is_kept(name) {
-                atomic_write::write(files::read(&source)?, &target)?;
-            }
+                files::read(&source)?
+            } else {
+                continue;
+            };
+            self.write_of_entry(id, name, contents)?;
         }
         Ok(())
     }
 
-    /// Returns all results, in the order of their ids.
+    /// Returns all results, sorted by id.
     pub fn results(&self) -> Result<Vec<EntryResult>, Error> {
         let ids = self.ids()?;
         let results = ids.iter().map(|id| self.result(id));
@@ -247,17 +249,15 @@ impl Store {
 
     /// Returns the result of an entry, if any.
     pub fn result(&self, id: &str) -> Result<Option<EntryResult>, Error> {
-        let Some(stamp) = self.read_stamp(id)? else {
-            return Ok(None);
-        };
-        let mut result = EntryResult {
-            id: id.to_owned(),
-            ..stamp.result
-        };
-        if let EntryOutcome::Graded(score) = &mut result.outcome {
-            **score = self.read_score(id)?;
-        }
-        Ok(Some(result))
+        let stamp = self.read_stamp(id)?;
+        let result = stamp.map(|Stamp { mut result, .. }| {
+            id.clone_into(&mut result.id);
+            if let EntryOutcome::Graded(score) = &mut result.outcome {
+                **score = self.read_score(id)?;
+            }
+            Ok(result)
+        });
+        result.transpose()
     }
 
     /// Saves the last score of every entry as its previous score. If an entry had nothing to grade,
@@ -279,19 +279,15 @@ impl Store {
                 }
             };
             if let Some(text) = last {
-                atomic_write::write(&text, &path)?;
+                self.write_of_entry(&id, PREVIOUS, text)?;
             }
             files::remove_if_exists(folder.join(REPLACED))?;
         }
         Ok(())
     }
 
-    /// Returns the previous score of an entry, if any.
-    pub fn previous_score(&self, id: &str) -> Result<Option<ScoreSummary>, Error> {
-        self.read_kept_score(id, PREVIOUS)
-    }
-
-    fn read_kept_score(&self, id: &str, name: &str) -> Result<Option<ScoreSummary>, Error> {
+    /// Returns the earlier score of an entry in the file [`PREVIOUS`] or [`REPLACED`], if any.
+    pub fn earlier_score(&self, id: &str, name: &str) -> Result<Option<ScoreSummary>, Error> {
         let path = self.entry_folder(id).join(name);
         let text = files::read_if_exists(&path)?;
         text.map(|text| parse_score(&path, &text)).transpose()

@@ -7,8 +7,8 @@ use crate::graded_class::tests::{fault, graded, nothing, result};
 use crate::run::Settings;
 
 impl Store {
-    /// Stores a result as grading does, with the files of a graded entry. If there is a score, its
-    /// `score.json` only contains the numbers.
+    /// Stores a result in the same way as grading does, including the files of a graded entry. If
+    /// there is a score, its `score.json` only contains the numbers.
     pub(crate) fn save_graded(&self, result: &EntryResult, key: &str, round: u32) {
         let folder = self.entry_folder(&result.id);
         fs::create_dir_all(&folder).unwrap();
@@ -88,8 +88,8 @@ fn a_damaged_file_is_an_error_that_names_it() {
     }
     let errors = [
         store.result("a").map(drop),
-        store.previous_score("a").map(drop),
-        store.replaced_score("a").map(drop),
+        store.earlier_score("a", PREVIOUS).map(drop),
+        store.earlier_score("a", REPLACED).map(drop),
     ];
     for (error, name) in errors.into_iter().zip([SCORE, PREVIOUS, REPLACED]) {
         let error = error.unwrap_err().to_string();
@@ -113,7 +113,10 @@ fn a_stamp_is_never_left_without_its_score() {
 #[test]
 fn a_state_is_compared_with_its_reason() {
     let (_folder, store) = store();
-    let is_stored = |why| store.has_nothing_to_grade("a", why);
+    let is_stored = |why: &str| {
+        let outcome = EntryOutcome::NothingToGrade(why.to_owned());
+        store.has_nothing_to_grade("a", &outcome)
+    };
     assert!(!is_stored("the folder is empty"));
     store.save_graded(&result("a", &["Ann"], nothing()), "", 1);
     assert!(is_stored("the folder is empty") && !is_stored("other"));
@@ -168,12 +171,12 @@ fn the_scores_from_before_a_regrade_are_kept() {
     // Repeating it after an interruption changes nothing.
     for _ in 0..2 {
         store.save_previous_scores().unwrap();
-        assert_eq!(points(store.previous_score("graded")), Some(70));
-        assert_eq!(points(store.previous_score("nothing")), None);
-        assert_eq!(points(store.previous_score("fault")), Some(80));
-        assert_eq!(points(store.previous_score("new")), None);
+        assert_eq!(points(store.earlier_score("graded", PREVIOUS)), Some(70));
+        assert_eq!(points(store.earlier_score("nothing", PREVIOUS)), None);
+        assert_eq!(points(store.earlier_score("fault", PREVIOUS)), Some(80));
+        assert_eq!(points(store.earlier_score("new", PREVIOUS)), None);
         for id in ["graded", "nothing", "fault"] {
-            assert_eq!(points(store.replaced_score(id)), None, "{id}");
+            assert_eq!(points(store.earlier_score(id, REPLACED)), None, "{id}");
         }
     }
 }

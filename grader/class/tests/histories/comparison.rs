@@ -1,4 +1,4 @@
-//! Compares the files of a successful run with those of a run in a new folder.
+//! Compares the files from a successful run with those from a run in a new folder.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -12,8 +12,8 @@ use crate::world::{Target, World};
 
 /// The options for writing all files derived from the grades.
 pub const EXPORT: [&str; 2] = ["--hand-back", "--canvas=ROOT/gradebook.csv"];
-/// The files that record a folder's history. A new folder has none, so they are compared with the
-/// model instead.
+/// The files that record a folder's history. A new folder has no history, so these files are
+/// compared with the model instead.
 const HISTORY: [&str; 5] = [
     "run.json",
     "drift.json",
@@ -22,7 +22,7 @@ const HISTORY: [&str; 5] = [
     "replaced.json",
 ];
 
-/// Everything the files of a run in a new folder depend on.
+/// Everything that the files of a run in a new folder depend on.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Class {
     submissions: BTreeMap<&'static str, Option<u32>>,
@@ -33,12 +33,12 @@ struct Class {
 
 type Contents = BTreeMap<PathBuf, Vec<u8>>;
 
-/// The files of runs in new folders.
+/// The files that runs wrote into new folders, keyed by class.
 #[derive(Debug, Default)]
 pub struct FreshRuns(BTreeMap<Class, Contents>);
 
 impl FreshRuns {
-    /// Returns the files of a run in a new folder with the current class.
+    /// Returns the files that a run with the current class writes into a new folder.
     fn files(&mut self, world: &World, observed: &Observed) -> &Contents {
         // A gradebook also lists everyone who should have submitted something.
         let exported = observed.list("canvas").map(|_| EXPORT.map(str::to_owned));
@@ -62,7 +62,7 @@ impl FreshRuns {
         })
     }
 
-    /// Compares the files in a folder with those of a fresh run that gets all of the folder's
+    /// Compares the files in a folder with those from a fresh run that uses all of the folder's
     /// lists. `history` describes the folder, followed by the folders merged into it.
     /// `is_handed_back` says whether the run used [`EXPORT`].
     pub fn compare(

@@ -7,9 +7,9 @@ use std::sync::Mutex;
 
 use grader::disk::{self, Disk, Operation};
 
-/// A disk fault. The numbers count the changes in a step, from 1, or its reads for `ReadErrorAt`. A
-/// process is never killed during a read, because that leaves the same files as a kill before the
-/// next change.
+/// A disk fault. Each number says which operation of a step is affected, counted from 1.
+/// `ReadErrorAt` counts reads, and the others count changes. A process is never killed during a
+/// read, because that leaves the same files as a kill before the next change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiskFault {
     /// No fault.
@@ -25,7 +25,7 @@ pub enum DiskFault {
     ReadErrorAt(u64),
 }
 
-/// Numbers of operations.
+/// Operation counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Operations {
     /// Operations that change something.
@@ -43,7 +43,7 @@ impl Operations {
 
 #[derive(Debug)]
 struct State {
-    /// Only operations in this folder are counted and fail.
+    /// Only operations in this folder are counted and can fail.
     root: PathBuf,
     fault: DiskFault,
     done: Operations,
@@ -69,7 +69,7 @@ pub fn install() {
     assert!(disk::install(&DISK), "no other disk is installed");
 }
 
-/// Schedules the faults of a step.
+/// Schedules the fault for a step.
 pub fn start(root: &Path, fault: DiskFault) {
     *DISK.0.lock().unwrap() = State {
         root: root.to_owned(),
@@ -79,7 +79,7 @@ pub fn start(root: &Path, fault: DiskFault) {
     };
 }
 
-/// Ends the faults. Returns the step's numbers of operations and whether a fault occurred.
+/// Ends the faults. Returns the step's operation counts and whether a fault occurred.
 pub fn stop() -> (Operations, bool) {
     let mut state = DISK.0.lock().unwrap();
     state.fault = DiskFault::None;

@@ -16,7 +16,7 @@ use crate::observed::{Keys, ScoreId, all_files, observe};
 use crate::recorded_grader::{EXAMS, ProcessFault};
 use crate::world::{Ended, MANUAL_POINTS, PARTS, POLICIES, STUDENTS, Target, World};
 
-/// The largest number of steps.
+/// The maximum number of steps.
 const MAX_STEPS: usize = 14;
 
 /// A history in progress.
@@ -26,7 +26,7 @@ struct History {
     models: BTreeMap<Target, Model>,
     fresh: FreshRuns,
     next_version: u32,
-    /// For each target, the numbers of operations in the last run without a fault.
+    /// For each target, the operation counts of the last run without a fault.
     operations: BTreeMap<Target, Operations>,
     log: Vec<String>,
 }
@@ -108,7 +108,8 @@ impl History {
         }
     }
 
-    /// Grades all shards, as several machines would, while the class may change. Then merges them.
+    /// Grades all shards, as if on several machines, while the class may change. Then merges the
+    /// shards.
     fn grade_parts_and_merge(&mut self) -> Result<(), String> {
         for part in 1..=PARTS {
             if self.rng.u32(0..4) == 0 {
@@ -151,7 +152,7 @@ impl History {
         }
     }
 
-    /// Grades, with faults.
+    /// Grades a target while faults may occur.
     fn grade(&mut self, target: Target) -> Result<(), String> {
         let (disk, process) = (self.disk_fault(target), self.process_fault());
         let is_exported = self.rng.bool();
@@ -189,7 +190,7 @@ impl History {
             Target::Part(_) | Target::Merged | Target::Fresh => true,
         };
         let is_possible = is_possible && self.world.is_class();
-        // Manual points need their student to be in the class.
+        // Manual points are only possible if their student is in the class.
         let has_manual =
             !self.manual_option().is_empty() || observed.list("manual-points").is_some();
         let has_student = self.world.submissions.contains_key(STUDENTS[0]);
@@ -232,7 +233,7 @@ impl History {
             self.operations.insert(Target::Merged, ended.operations);
         }
         let is_complete = matches!(ended.result, Ok(Completion::Complete));
-        // The shards may have been graded before the last submissions.
+        // The shards may have been graded before the last submissions came in.
         if is_complete && self.parts_are_current() {
             self.check_leftovers(Target::Merged)?;
             let parts = (1..=PARTS).map(|part| &self.models[&Target::Part(part)].observed);
@@ -276,7 +277,7 @@ impl History {
         })
     }
 
-    /// Returns whether manual points are given to the next merge or were given to an earlier one.
+    /// Returns whether manual points are passed to the next merge or were passed to an earlier one.
     fn has_own_manual_points(&self) -> bool {
         let merged = self.models.get(&Target::Merged);
         let run = merged.and_then(|model| model.observed.run.as_ref());
@@ -285,7 +286,7 @@ impl History {
         self.world.manual > 0 || list.is_some_and(is_own)
     }
 
-    /// Returns the option for manual points, if they are given.
+    /// Returns the option for manual points, if they are used.
     fn manual_option(&self) -> Vec<&'static str> {
         match MANUAL_POINTS[self.world.manual] {
             "" => Vec::new(),
@@ -386,7 +387,7 @@ impl History {
         }
     }
 
-    /// Runs everything once more without faults and compares it with new folders.
+    /// Runs everything once more without faults and compares the results with those in new folders.
     fn end(&mut self) -> Result<(), String> {
         let none = (DiskFault::None, ProcessFault::None);
         // Shards with different lists cannot be merged.

@@ -136,7 +136,7 @@ fn run_in_processes(seeds: &Range<u64>, jobs: Option<u64>, until_lost: bool) -> 
     let mut lost = Vec::new();
     for (job, mut child) in (0..).zip(children) {
         if until_lost && !lost.is_empty() {
-            // It may already have ended.
+            // The process may already have ended.
             let _ = child.kill();
         }
         let status = child.wait().unwrap();

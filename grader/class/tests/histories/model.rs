@@ -1,4 +1,5 @@
-//! The model of a folder with results: the known facts, and the results allowed for the next run.
+//! A model of a results folder: what is known about it, and the results that the next run may
+//! produce.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -151,7 +152,7 @@ impl Model {
         }
     }
 
-    /// Returns the ids of the class's entries whose score a regrade changed.
+    /// Returns the ids of the class's entries whose score a regrade changed, with the previous scores.
     fn drifts(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
         let ids = class.keys().copied();
         let entries = &self.observed.entries;

@@ -1,4 +1,4 @@
-//! The contents of a folder with results, read without the class's own code, and the invariants
+//! The contents of a results folder, read without the class's own code, and the invariants
 //! that must hold at any time, regardless of how the last run ended.
 
 use std::collections::BTreeMap;
@@ -48,7 +48,7 @@ impl Files {
     }
 }
 
-/// A folder with results.
+/// A results folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Observed {
     /// `run.json`.
@@ -85,7 +85,8 @@ impl Observed {
         run.is_some_and(|run| !run["before"].is_null()) && !was_finished
     }
 
-    /// Returns the end of the path that a list was given as, if the folder contains the list.
+    /// If the folder contains a list of this kind, returns the last part of the path on the command
+    /// line.
     pub fn list(&self, kind: &str) -> Option<&str> {
         let path = self.run.as_ref()?["lists"][kind]["given_as"].as_str()?;
         path.rsplit('/').next()
@@ -96,7 +97,7 @@ impl Observed {
     }
 }
 
-/// The cache keys of stamps and the scores they have been seen with.
+/// The cache keys seen in stamps, and the scores that they were seen with.
 pub type Keys = BTreeMap<String, (String, ScoreId)>;
 
 /// Reads a folder. The error says what is wrong with it.
@@ -209,7 +210,7 @@ pub fn list(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Returns the contents of all files below a folder, by their relative paths.
+/// Returns the contents of all files below a folder, keyed by relative path.
 pub fn all_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
     let mut open = vec![folder.to_owned()];

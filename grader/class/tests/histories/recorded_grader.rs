@@ -79,12 +79,12 @@ pub fn exam_hash(exam: usize) -> String {
     format!("hash-of-exam-{exam}")
 }
 
-/// Returns the text of each task file of a version of a student's submission.
+/// Returns the text of each task file in this version of a student's submission.
 pub fn source(student: &str, version: u32) -> String {
     format!("// {student}, version {version}\n")
 }
 
-/// Returns the score of a submission's version.
+/// Returns the score for this version of a student's submission.
 pub fn score(student: &str, version: u32, exam: usize) -> Score {
     let name = ExamName {
         id: "exam".to_owned(),
@@ -114,7 +114,7 @@ pub fn score_file(student: &str, version: u32, exam: usize) -> String {
 }
 
 impl RecordedGrader {
-    /// Prepares a grader, like the real one.
+    /// Prepares a grader in the same way as the real one is prepared.
     pub fn new(options: &GradeOptions, exam: usize, fault: ProcessFault) -> Result<Self, Error> {
         Ok(RecordedGrader {
             exam,

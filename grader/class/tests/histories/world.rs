@@ -34,7 +34,7 @@ pub const MANUAL_POINTS: [&str; 3] = [
 /// The number of shards, if the class is divided.
 pub const PARTS: usize = 2;
 
-/// A folder with results.
+/// A results folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Target {
     /// The whole class.
@@ -43,7 +43,7 @@ pub enum Target {
     Part(usize),
     /// The merged shards.
     Merged,
-    /// A new folder for a run to compare other runs with.
+    /// A new folder for a run that other runs are compared with.
     Fresh,
 }
 
@@ -57,7 +57,7 @@ pub struct World {
     pub exam: usize,
     /// The policy.
     pub policy: usize,
-    /// The manual points. Number 0 omits the option, so the last run's are used.
+    /// The manual points. Number 0 omits the option, so those of the last run are used.
     pub manual: usize,
 }
 
@@ -66,7 +66,7 @@ pub struct World {
 pub struct Ended {
     /// The result of the command.
     pub result: Result<Completion, Error>,
-    /// The numbers of file operations.
+    /// The number of file operations of each kind.
     pub operations: Operations,
     /// Whether the disk's fault occurred.
     pub had_disk_fault: bool,
@@ -107,7 +107,7 @@ impl World {
         self.root.join(format!("policy-{number}.toml"))
     }
 
-    /// Returns the folder with these results.
+    /// Returns the path of the folder for these results.
     pub fn folder(&self, target: Target) -> PathBuf {
         self.root.join(match target {
             Target::Whole => "out".to_owned(),
@@ -117,7 +117,7 @@ impl World {
         })
     }
 
-    /// Removes a folder with results.
+    /// Removes a results folder.
     pub fn remove(&self, target: Target) {
         fs::remove_dir_all(self.folder(target)).ok();
     }
@@ -135,7 +135,8 @@ impl World {
         self.submissions.insert(student, version);
     }
 
-    /// Returns whether the class exists. A single folder is a class of one, even if it is empty.
+    /// Returns whether the class exists. A single folder is a class of one submission, even if the
+    /// folder is empty.
     pub fn is_class(&self) -> bool {
         !self.submissions.is_empty()
     }
@@ -146,7 +147,7 @@ impl World {
         self.submissions.remove(student);
     }
 
-    /// Changes all files' dates as if the clock had jumped by this many days. Nothing else in a
+    /// Changes all files' dates as if the clock had jumped by this many days. Nothing else about a
     /// file shows the time.
     pub fn jump_clock(&self, days: i64) {
         let by = Duration::from_secs(days.unsigned_abs() * 86_400);

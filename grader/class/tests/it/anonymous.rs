@@ -1,5 +1,5 @@
-//! Anonymous grading: a copy of the class with pseudonyms instead of names, which only the key
-//! resolves.
+//! Anonymous grading: a copy of the class with pseudonyms instead of names. Only the key file says
+//! whose pseudonyms they are.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -22,12 +22,7 @@ const SECRETS: [&str; 9] = [
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("leeward")
-        .with_reference("kimono")
-        .with_replaced(
-            "kimono/camera.rs",
-            "pixel.as_vec2() + offset",
-            "pixel.as_vec2() + 0.5",
-        )
+        .with_offset_mistake("kimono")
         .with("peeta/bvh_of_peeta.txt", "nothing to grade");
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
     let blind = class.path_beside("blind").display().to_string();
@@ -65,10 +60,8 @@ fn nothing_in_the_copy_names_anybody_and_pseudonyms_stay() {
         &page,
         &[&format!("<h1><span class=\"untrusted\">{bob}</span></h1>")],
     );
-    let mut replay = class_command();
-    replay.args(["--isolation", "none", "--replay", bob, "camera.offset"]);
-    replay.args(["--exam", &exam, "--out"]).arg(&blind);
-    let replayed = successful_stdout(&replay.output().unwrap());
+    let replayed = class.replay(&blind, &[bob, "camera.offset", "--exam", &exam]);
+    let replayed = successful_stdout(&replayed);
     assert_contains(&replayed, &["verdict  wrong: direction"]);
     let mut grades = fs::read_to_string(blind.join("grades.csv")).unwrap();
     for (id, pseudonym) in &key {
@@ -113,10 +106,15 @@ fn points_by_hand_can_name_a_pseudonym() {
         let error = error.replace(&folder, "FOLDER");
         error.replace(&class.out().display().to_string(), "OUT")
     };
-    insta::assert_snapshot!([refused("out/blind"), refused("class"), refused("blind")].concat());
+    insta::assert_snapshot!([refused("out/blind"), refused("class"), refused("blind")].concat(), @r"
+    FOLDER and OUT must not contain each other, or names would leak: choose a different folder for --anonymous
+    FOLDER is not empty: choose a new folder for --anonymous
+    FOLDER is not empty: choose a new folder for --anonymous
+    ");
 }
 
-/// Only the merged class has a key, not the shards, and its policy is checked without the exam.
+/// The merged class has a key, but the shards don't. The merged class's policy is checked without
+/// the exam.
 #[test]
 fn a_merged_class_has_pseudonyms_and_a_policy_that_fits_the_exam() {
     let class = TestClass::named("class")

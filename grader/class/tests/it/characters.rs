@@ -16,10 +16,8 @@ use class::regrade_diff::{Changes, Drift, ItemChange, RegradeChanges};
 use class::report::grades::grades_table;
 use class::report::page::render_page;
 use class::report::preview::render_preview;
-use class::report::text::{
-    render_grade_changes, render_gradebook, render_hand_back, render_regrade, render_removed,
-    render_resubmitted, render_summary,
-};
+use class::report::text::{render_changes, render_gradebook, render_hand_back, render_summary};
+use class::run::Settings;
 use class::similar_pairs::{ComparedFile, SimilarPair};
 use class::summary::ClassSummary;
 use class::table::Table;
@@ -27,7 +25,7 @@ use grader::handed_out::RAYS;
 use grader::policy::Policy;
 use judging::sanitize::affects_surroundings;
 
-/// Returns a text with every character that could affect the text around it.
+/// Returns text with every character that could affect the text around it.
 fn hostile_text() -> String {
     let characters = (0..=u32::from(char::MAX)).filter_map(char::from_u32);
     let hostile: String = characters.filter(|c| affects_surroundings(*c)).collect();
@@ -56,6 +54,8 @@ fn info(text: &str) -> EntryInfo {
         marks_late: true,
         is_corrected: true,
         needs_staff: false,
+        unclear_person: None,
+        is_unlisted: true,
         attempt: Some(2),
         listed: Some(ListedTime {
             submitted: text.to_owned(),
@@ -94,7 +94,7 @@ fn score(text: &str) -> ScoreSummary {
     }
 }
 
-/// Returns a class with this text everywhere a student can write.
+/// Returns a class that contains this text everywhere a student can write.
 fn class_with(text: &str) -> GradedClass {
     let outcomes = [
         EntryOutcome::Graded(Box::new(score(text))),
@@ -116,9 +116,12 @@ fn class_with(text: &str) -> GradedClass {
         ClassRow::new(result, &Policy::default(), vec![vec![manual]], &[])
     };
     GradedClass {
-        exam: text.to_owned(),
-        exam_hash: text.to_owned(),
-        isolation: text.to_owned(),
+        settings: Settings {
+            exam: text.to_owned(),
+            exam_hash: text.to_owned(),
+            isolation: text.to_owned(),
+            ..Settings::default()
+        },
         rows: outcomes.map(row).into(),
         missing: info(text).people,
     }
@@ -144,7 +147,7 @@ fn preview_with(text: &str) -> String {
     render_preview(&class, &info(text).people, &RAYS)
 }
 
-/// Returns everything a teacher reads, by name.
+/// Returns every text that a teacher reads, together with a name for it.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let class = class_with(text);
     let summary = ClassSummary::new(&class);
@@ -198,19 +201,7 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
         ),
         ("grades.csv", grades_table(&class).to_csv()),
         ("the summary", render_summary(&summary)),
-        (
-            "the changes of a regrade",
-            render_regrade(changes.regrade.as_ref().expect("it was just set")),
-        ),
-        (
-            "the changed submissions",
-            render_resubmitted(&changes.resubmitted),
-        ),
-        ("the removed entries", render_removed(&changes.removed)),
-        (
-            "the final grades that changed",
-            render_grade_changes(changes.grades.as_ref().expect("it was just set")),
-        ),
+        ("the changes", render_changes(&changes)),
         ("the changes of a gradebook", render_gradebook(&gradebook)),
         (
             "the archive to hand back",
@@ -221,7 +212,7 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
             }),
         ),
         (
-            "the text about handing in again",
+            "the message about handing in again",
             hand_in_again::render(&info(text).people[0], &[text.to_owned()], &RAYS),
         ),
         ("the preview", preview_with(text)),

@@ -12,6 +12,11 @@ fn rejects_an_ambiguous_gradebook_before_grading() {
     let canvas = class.write_beside("canvas-export.csv", canvas);
     let error = class.refused(&exam, &["--canvas", &canvas]);
     assert!(error.contains("choose one with --column"), "{error}");
+    let error = class.refused(&exam, &["--canvas", &canvas, "--column", "Three"]);
+    assert!(
+        error.contains("at the end of its title: One (1); Two (2)"),
+        "{error}"
+    );
     assert!(!class.out().exists(), "nothing must be graded");
 }
 

@@ -1,4 +1,4 @@
-//! The archive of pages to hand back, with the names each platform expects.
+//! The archive with the pages to hand back. The pages have the names that each platform expects.
 
 use grader::handed_out::RAYS;
 
@@ -23,7 +23,7 @@ fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
     files.iter().map(|(name, _)| name.as_str()).collect()
 }
 
-/// Canvas finds a submission by the numbers of the user and one of their attachments.
+/// Canvas identifies a submission by the user's id and the id of one of their attachments.
 #[test]
 fn canvas_gets_each_page_under_the_name_of_an_attachment() {
     let bvh = source("reference/src/bvh.rs");
@@ -44,16 +44,16 @@ fn canvas_gets_each_page_under_the_name_of_an_attachment() {
     assert_eq!(names(&files), expected);
     let expected = [
         "to hand back: 3 pages",
-        "not in it: emptyeve: nothing to grade",
+        "left out: emptyeve: nothing to grade",
     ];
     assert_contains(&text, &expected);
     let inner = unzip(&files[1].1);
-    assert_eq!(names(&inner), ["Doe__Jane_feedback.html"]);
+    assert_eq!(names(&inner), ["Jane_Doe_feedback.html"]);
     let page = String::from_utf8(inner[0].1.clone()).unwrap();
-    assert!(page.contains("Doe, Jane") && page.ends_with("</html>"));
+    assert!(page.contains("Jane Doe") && page.ends_with("</html>"));
     // The name in the gradebook is also in the table and on the class's page.
-    assert_contains(&class.read("grades.csv"), &["doejane_7001,\"Doe, Jane\","]);
-    assert_contains(&class.read("class.html"), &["Doe, Jane"]);
+    assert_contains(&class.read("grades.csv"), &["doejane_7001,Jane Doe,"]);
+    assert_contains(&class.read("class.html"), &["Jane Doe"]);
 }
 
 /// Moodle splits the name at its first four underscores. The second part is the participant.
@@ -100,12 +100,12 @@ fn elsewhere_each_person_gets_a_page_with_a_safe_name() {
         "_.._Ann_feedback.html",
         "_CON_feedback.html",
         "_-rf_feedback.html",
-        "Zoë_Lee_feedback.html",
+        "Zoë_Lee_d_feedback.html",
         "Bea_Berg_feedback.html",
-        "ZOË_LEE_feedback-2.html",
+        "ZOË_LEE_e_feedback.html",
     ];
     assert_eq!(names(&files), expected);
-    assert!(text.contains("not in it: Late: time unclear"), "{text}");
+    assert!(text.contains("left out: Late: time unclear"), "{text}");
     // Members of a group must not see each other's comments.
     let page = |index: usize| String::from_utf8(files[index].1.clone()).unwrap();
     assert!(page(4).contains("by Tess: late") && !page(3).contains("Tess"));

@@ -1,12 +1,11 @@
-//! Texts for people whose submissions cannot be graded, and the corrected hand-ins that replace them.
+//! Messages to people whose submissions cannot be graded, and the corrected hand-ins that replace
+//! them.
 
 use std::fs;
 
 use grader::handed_out::RAYS;
 
-use crate::harness::{
-    TestClass, assert_contains, cell, class_command, files_below, refusal, source, zip,
-};
+use crate::harness::{TestClass, assert_contains, cell, files_below, source, zip};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 const ROSTER: &str = "name,username,email,datetime\n\
@@ -15,15 +14,15 @@ const ROSTER: &str = "name,username,email,datetime\n\
     Carl Ode,carl,carl@x.edu,2026-11-20 13:00:00 +0000\n\
     Dora Day,dora,,\n\
     Eve Fox,eve,eve@x.edu,\n";
-const SENTENCE: &str = "The files are those that were handed in again";
+const SENTENCE: &str = "The files were handed in again";
 
 fn solution() -> Vec<u8> {
     let read = |file: &'static str| (file, source(&format!("reference/src/{file}")));
     zip(RAYS.file_names().map(read))
 }
 
-/// Bob's archive is damaged, Carl handed in another file, and Dora nothing. Eve handed in one file
-/// twice, in two submissions. Whose the files in `tut` are, only staff can find out.
+/// Bob's archive is damaged, Carl handed in some other file, and Dora handed in nothing. Eve handed
+/// in one file twice, in two submissions. Only staff can find out who the files in `tut` belong to.
 fn class() -> TestClass {
     TestClass::named("class")
         .with_reference("ann")
@@ -60,7 +59,15 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
     let exam = class.small_exam(&ITEMS);
     let lists = [("roster", ROSTER)];
     let printed = class.graded_with(&exam, &lists, &[]);
-    assert_contains(&printed, &["4 texts to people who have to hand in again"]);
+    let expected = [
+        "4 messages for students who need to resubmit",
+        "  nothing to grade; ask for the files, using the message in hand-in-again, or give manual \
+         points:\n    it is damaged (Missing end of central directory): download or pack it again: \
+         bob (Bob Kim)\n    none of the task files was handed in, only notes.txt: carl (Carl Ode)\n    \
+         nothing was handed in: dora (Dora Day)\n",
+        "  nothing to grade: the folder tut contains several versions",
+    ];
+    assert_contains(&printed, &expected);
     insta::assert_snapshot!(texts(&class).join("\n"));
 
     correct(&class, "bob@x.edu.zip", solution());
@@ -73,7 +80,7 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
     let folder = class.path_beside("corrected").display().to_string();
     let corrected = ["--corrected", &folder];
     let printed = class.graded_with(&exam, &lists, &corrected);
-    assert_contains(&printed, &["2 texts to people who have to hand in again"]);
+    assert_contains(&printed, &["2 messages for students who need to resubmit"]);
     let of = |id, name, columns: [&str; 3]| columns.map(|column| cell(&class, id, name, column));
     let columns = ["status", "submitted", "from"];
     let time = "2026-11-20 12:00:00 +0000";
@@ -111,12 +118,8 @@ fn a_corrected_hand_in_without_its_submission_is_an_error() {
     let class = class();
     let roster = class.write_beside("roster.csv", ROSTER);
     let run = |folder: &str| {
-        let mut command = class_command();
-        command
-            .arg(class.input())
-            .args(["--dry-run", "--roster", &roster]);
-        let folder = class.path_beside(folder);
-        let error = refusal(&command.arg("--corrected").arg(folder).output().unwrap());
+        let folder = class.path_beside(folder).display().to_string();
+        let error = class.refused_preview(&["--roster", &roster, "--corrected", &folder]);
         error.replace(&class.path_beside("").display().to_string(), "")
     };
     let mut errors = vec![run("missing"), run("class/dora")];

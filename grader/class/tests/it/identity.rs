@@ -1,12 +1,12 @@
 //! Submissions are assigned to people by names and lists, never by a number or by something a
 //! student wrote.
 
-use crate::harness::{TestClass, assert_contains, unzip};
+use crate::harness::{TestClass, assert_contains, cell, successful_stdout, unzip};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
-/// In Moodle, a team's folder ends in the group's number, which here equals the number of Ann, who
-/// is in the other team.
+/// In Moodle, the name of a team's folder contains the group's number. Here, this number equals the
+/// number of Ann, who is in the other team.
 #[test]
 fn a_moodle_team_gets_points_by_its_name_and_never_by_its_number() {
     let class = TestClass::named("moodle")
@@ -41,11 +41,17 @@ fn a_moodle_team_gets_points_by_its_name_and_never_by_its_number() {
     let unknown = worksheet("Other");
     let path = class.write_beside("worksheet.csv", &unknown);
     let error = class.refused(&exam, &["--moodle", &path]);
-    assert_contains(&error, &["2 of 2 submissions match nobody"]);
+    assert_contains(
+        &error,
+        &["2 of 2 submissions, such as \"Team A\", don't match anybody"],
+    );
     let (moodle, pages, text) = grade(&unknown, &["--accept-unlisted"]);
     assert!(moodle.contains("51,Ann Lee,Team B,,"), "{moodle}");
     assert_eq!(pages, [""; 0]);
-    assert_contains(&text, &["the number 51 is that of Ann Lee in a list"]);
+    assert_contains(
+        &text,
+        &["the number 51 was not used, because a list assigns it to Ann Lee"],
+    );
 }
 
 #[test]
@@ -56,8 +62,8 @@ fn a_canvas_name_that_can_be_read_in_two_ways_needs_a_gradebook() {
         .with("kimbob_7003_9003_bvh.rs", "text");
     let preview = class.preview();
     let expected = [
-        "the user number 2 of red or 7001 of red_2",
-        "7002 of leeann or 9002 of leeann_7002",
+        "its user number could be 2 (red) or 7001 (red_2)",
+        "7002 (leeann) or 9002 (leeann_7002)",
         "1 of 3 can be graded",
     ];
     assert_contains(&preview, &expected);
@@ -69,13 +75,13 @@ fn a_canvas_name_that_can_be_read_in_two_ways_needs_a_gradebook() {
     let preview = class.preview_of(&class.input(), &["--canvas", &gradebook]);
     let who = [
         "  Red_2: 1 of 5 files",
-        "  Lee, Ann: ",
-        "the number 7003 is that of Kim, Eve",
+        "  Ann Lee: ",
+        "the number 7003 was not used, because a list assigns it to Eve Kim",
     ];
     assert_contains(&preview, &who);
 }
 
-/// Mallory's own metadata and folders say that Bob handed something in.
+/// The metadata and folders in Mallory's submission say that Bob handed something in.
 #[test]
 fn what_is_in_the_only_submission_does_not_describe_the_class() {
     let metadata = "---\nbob:\n  :submitters:\n  - :name: Bob\n  :created_at: 2020-01-01\n";
@@ -90,8 +96,8 @@ fn what_is_in_the_only_submission_does_not_describe_the_class() {
             .with_reference(&format!(
                 "mallory/{inside}Bob_51_assignsubmission_file_/a/b"
             ));
-        let error = class.refused_preview();
-        assert_contains(&error, &["the folder mallory has several submissions"]);
+        let error = class.refused_preview(&[]);
+        assert_contains(&error, &["the folder mallory contains several submissions"]);
         let roster = class.write_beside("roster.csv", "name\nMallory\nBob\n");
         let preview = class.preview_of(&class.input(), &["--roster", &roster]);
         let expected = [
@@ -110,8 +116,8 @@ fn folders_of_tutorials_and_flat_folders_of_several_people_are_refused() {
         .with("mon/bob/student/src/bvh.rs", "text")
         .with_minimal_submission("tue/eve")
         .with_minimal_submission("tue/kim");
-    let error = class.refused_preview();
-    let expected = ["the folder mon has several submissions (ann, bob)"];
+    let error = class.refused_preview(&[]);
+    let expected = ["the folder mon contains several submissions (ann, bob)"];
     assert_contains(&error, &expected);
     for folder in ["", "Path Tracer/"] {
         for number in ["(1)", " (1)"] {
@@ -120,13 +126,13 @@ fn folders_of_tutorials_and_flat_folders_of_several_people_are_refused() {
                 .with(&format!("{folder}camera{number}.rs"), "b")
                 .with(&format!("{folder}bvh.rs"), "a")
                 .with(&format!("{folder}bvh{number}.rs"), "b");
-            let error = class.refused_preview();
-            assert_contains(&error, &["has several versions of 2 task files"]);
+            let error = class.refused_preview(&[]);
+            assert_contains(&error, &["contains several versions of 2 task files"]);
         }
     }
 }
 
-/// Each shard would have too few entries to tell.
+/// A shard has too few entries to tell, so the whole class is checked.
 #[test]
 fn a_class_of_which_most_are_on_no_list_needs_a_confirmation() {
     let class = TestClass::named("class")
@@ -140,9 +146,151 @@ fn a_class_of_which_most_are_on_no_list_needs_a_confirmation() {
     assert_contains(&preview, &["this class would not be graded"]);
     for shard in ["1/3", "2/3"] {
         let error = class.refused(&exam, &[&lists[..], &["--shard", shard]].concat());
-        assert!(error.contains("2 of 3 submissions match nobody"), "{error}");
+        assert!(
+            error.contains("2 of 3 submissions, such as \"bob\", don't match anybody"),
+            "{error}"
+        );
         assert!(!class.out().exists());
     }
     let confirmed = [&lists[..], &["--shard", "1/3", "--accept-unlisted"]].concat();
     class.graded(&exam, &confirmed);
+}
+
+const WORKSHEET: &str = "Identifier,Full name,Email address,Grade,Maximum Grade\n\
+    Participant 400303,Bob O'Hara,bob@x.edu,,100\n\
+    Participant 400304,Ann Lee,ann@x.edu,,100\n";
+
+/// Moodle removes characters such as the apostrophe from the names of folders.
+#[test]
+fn a_name_without_its_punctuation_belongs_to_the_person_on_the_list() {
+    let class = TestClass::named("moodle")
+        .with_offset_mistake("Bob OHara_400303_assignsubmission_file")
+        .with_reference("Ann Lee_400304_assignsubmission_file");
+    let exam = class.small_exam(&ITEMS);
+    let roster = "name,email\nBob O'Hara,bob@x.edu\nAnn Lee,ann@x.edu\n";
+    let points = "student,task,delta,comment,author\nBob O'Hara,camera,1,idea,Tess\n";
+    for (list, text, more) in [
+        ("roster", roster, &[][..]),
+        ("moodle", WORKSHEET, &["--drop-list", "roster"]),
+    ] {
+        class.graded_with(&exam, &[(list, text), ("manual-points", points)], more);
+        let bob = |column: &str| cell(&class, "Bob_OHara_400303", "Bob O'Hara", column);
+        assert_eq!([bob("email"), bob("status")], ["bob@x.edu", "graded"]);
+        for who in ["Bob O'Hara", "Bob OHara"] {
+            let arguments = [who, "camera.offset", "--exam", &exam];
+            let text = successful_stdout(&class.replay(&class.out(), &arguments));
+            assert_contains(&text, &["Bob_OHara_400303 (Bob O'Hara)"]);
+        }
+    }
+    let corrected = class.path_beside("corrected");
+    let folder = corrected.join("Bob O'Hara/student/src");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("camera.rs"), "text").unwrap();
+    let roster = class.write_beside("roster.csv", roster);
+    let options = [
+        "--corrected",
+        corrected.to_str().unwrap(),
+        "--roster",
+        &roster,
+    ];
+    let preview = class.preview_of(&class.input(), &options);
+    assert_contains(&preview, &["file (corrected: Bob O'Hara)"]);
+}
+
+#[test]
+fn people_whose_names_differ_only_in_punctuation_are_not_guessed() {
+    let class = TestClass::named("moodle").with_reference("Bob OHara_9_assignsubmission_file");
+    let roster = "name,email\nBob O'Hara,bob@x.edu\nBob Ohara,bo@x.edu\n";
+    let roster = class.write_beside("roster.csv", roster);
+    let preview = class.preview_of(&class.input(), &["--roster", &roster]);
+    let expected = [
+        "several people on the lists are called Bob OHara",
+        "replacing the name with one of bo@x.edu, bob@x.edu",
+    ];
+    assert_contains(&preview, &expected);
+}
+
+const GROUPS: &str = "name,email,group\nAnn Lee,a@x.edu,Bob's team\nBob Kim,b@x.edu,Lab 1: Team 8\n\
+    Cid Fox,c@x.edu,Müller & Co\nEve Ray,e@x.edu,Team_7\nDora Y,d@x.edu,Team_7\n";
+
+#[test]
+fn a_team_whose_name_lost_its_punctuation_is_that_of_the_roster() {
+    let class = TestClass::named("moodle")
+        .with_reference("Bobs team_1_assignsubmission_file")
+        .with_reference("Lab 1 Team 8_2_assignsubmission_file")
+        .with_reference("Müller  Co_3_assignsubmission_file")
+        .with_reference("Team 7_4_assignsubmission_file");
+    let preview = |groups: &str| {
+        let roster = class.write_beside("roster.csv", groups);
+        class.preview_of(&class.input(), &["--roster", &roster])
+    };
+    let text = preview(GROUPS);
+    let expected = [
+        "  Ann Lee: all 5 files",
+        "  Bob Kim: all 5 files",
+        "  Cid Fox: all 5 files",
+        "  Eve Ray + Dora Y: all 5 files",
+    ];
+    assert_contains(&text, &expected);
+    let text = preview(&format!("{GROUPS}Zoe Z,z@x.edu,Team 7\n"));
+    let expected = [
+        "  Team 7: all 5 files",
+        "it could belong to any of the groups Team 7, Team_7",
+    ];
+    assert_contains(&text, &expected);
+}
+
+/// Canvas names the files after the group, but with the number of a member.
+#[test]
+fn a_canvas_groups_files_belong_to_its_members() {
+    let class = TestClass::named("submissions")
+        .with("projectgroup1_7014_9001_camera.rs", "text")
+        .with("team_8_7016_9002_camera.rs", "text");
+    let canvas = class.write_beside(
+        "gradebook.csv",
+        "Student,ID,SIS Login ID,Section,Path (7)\n\"Lee, Ann\",7014,ann,A,\n\
+         \"Kim, Bob\",7015,bob,A,\n\"Fox, Cid\",7016,cid,A,\n",
+    );
+    let roster = "name,username,group\nAnn Lee,ann,Project Group 1\nBob Kim,bob,Project Group 1\n\
+                  Cid Fox,cid,Team_8\n";
+    let roster = class.write_beside("roster.csv", roster);
+    let options = ["--canvas", &canvas, "--roster", &roster];
+    let preview = class.preview_of(&class.input(), &options);
+    assert_contains(&preview, &["  Ann Lee + Bob Kim: 1 of", "  Cid Fox: 1 of"]);
+    assert!(!preview.contains("was not used"), "{preview}");
+    assert!(!preview.contains("without a submission"), "{preview}");
+}
+
+#[test]
+fn a_namesakes_folder_that_was_renamed_is_confirmed_by_its_number() {
+    let class = TestClass::named("moodle")
+        .with_reference("u02lee@uni.example_400306_assignsubmission_file")
+        .with_reference("Ann Lee_400307_assignsubmission_file");
+    let worksheet = "Identifier,Full name,Email address,Grade,Maximum Grade\n\
+                     Participant 400306,Ann Lee,u02lee@uni.example,,100\n\
+                     Participant 400307,Ann Lee,u03lee@uni.example,,100\n";
+    let roster = "name,email\nAnn Lee,u02lee@uni.example\nAnn Lee,u03lee@uni.example\n";
+    let worksheet = class.write_beside("worksheet.csv", worksheet);
+    let roster = class.write_beside("roster.csv", roster);
+    for options in [
+        &["--moodle", &worksheet][..],
+        &["--moodle", &worksheet, "--roster", &roster],
+    ] {
+        let preview = class.preview_of(&class.input(), options);
+        assert_eq!(preview.matches("  Ann Lee: all 5 files").count(), 2);
+        for problem in ["was not used", "without a submission"] {
+            assert!(!preview.contains(problem), "{preview}");
+        }
+    }
+    // The number is Ann's, but the address is Bob's.
+    let roster = class.write_beside("roster.csv", "name,email\nBob,u02lee@uni.example\n");
+    let other = "Identifier,Full name,Email address,Grade,Maximum Grade\n\
+                 Participant 400306,Ann Lee,u04@uni.example,,100\n";
+    let other = class.write_beside("worksheet.csv", other);
+    let options = ["--moodle", &other, "--roster", &roster];
+    let preview = class.preview_of(&class.input(), &options);
+    assert_contains(
+        &preview,
+        &["the number 400306 was not used, because a list assigns it to Ann Lee"],
+    );
 }

@@ -117,7 +117,7 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
 #[test]
 fn reports_invalid_gradescope_metadata() {
     let class = TestClass::named("export").with("submission_metadata.yml", "submission_1: [");
-    let error = class.refused_preview();
+    let error = class.refused_preview(&[]);
     let expected = ["submission_metadata.yml", "export the submissions again"];
     assert_contains(&error, &expected);
 }
@@ -234,7 +234,7 @@ fn reads_a_plain_folder_and_lists_everything_it_cannot_use() {
     assert_snapshot!(class.preview());
 }
 
-/// Each of these would hide or lose files if only the top level was searched.
+/// In each of these cases, files would be hidden or lost if only the top level was searched.
 #[test]
 fn nothing_that_was_handed_in_is_chosen_or_lost_silently() {
     let class = TestClass::named("class")
@@ -279,7 +279,7 @@ fn loose_files_and_an_archive_of_one_canvas_user_are_taken_together() {
 #[test]
 fn rejects_a_single_submission() {
     let class = TestClass::named("student").with("camera.rs", "text");
-    let error = class.refused_preview();
+    let error = class.refused_preview(&[]);
     assert_contains(&error, &["to grade a single submission, use `cargo grade`"]);
 }
 
@@ -290,6 +290,6 @@ fn the_preview_says_who_has_not_started() {
         .with_starter("bob");
     let preview = class.preview();
     assert!(preview.contains("ann: all 5 files\n"), "{preview}");
-    let unstarted = "bob: all 5 files, as they were handed out\n";
+    let unstarted = "bob: all 5 files, unmodified\n";
     assert!(preview.contains(unstarted), "{preview}");
 }

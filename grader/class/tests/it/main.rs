@@ -1,4 +1,4 @@
-//! Tests of the `class` binary, with classes like those exported by platforms.
+//! Tests the `class` binary with classes like those that platforms export.
 
 mod anonymous;
 mod characters;

@@ -1,11 +1,12 @@
-//! The table of manual points: who its rows belong to, their effect, and problems in them.
+//! The table of manual points: who its rows belong to, which effect they have, and which problems
+//! they can have.
 
 use crate::harness::{TestClass, cell};
 
 const HEADER: &str = "author,student,task,comment,delta";
 
-/// Creates a class where two people are called Ann Lee. One of them handed in the reference, with 2
-/// of 2 points for the camera.
+/// Creates a class where two people are called Ann Lee. One of them handed in the reference, which
+/// gets 2 of 2 points for the camera.
 fn class() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")
@@ -44,7 +45,11 @@ fn a_row_is_found_by_any_identifier_and_stays_in_the_range_of_its_task() {
         row("ann2", "Ann Lee"),
         row("bob", "Bob Kim"),
     ];
-    insta::assert_snapshot!(rows.join("\n"));
+    insta::assert_snapshot!(rows.join("\n"), @r"
+    ann: 2 | -1 | camera: -1 point by Kim: nice
+    ann2: 2 | 2 | camera: +2 points by Kim
+    bob: 2 | 2 | camera: +1 point by Kim: on paper; sphere: +1 point by Kim
+    ");
 }
 
 #[test]
@@ -72,6 +77,12 @@ fn a_row_that_cannot_be_used_is_an_error_with_its_number() {
     let errors = rows.map(|row| refused(&format!("{HEADER}\nKim,bob@x.edu,camera,,1\n{row}")));
     let no_author = refused("student,task,delta,comment");
     insta::assert_snapshot!(errors.concat() + &no_author);
+    // Whether points are in range is only known after grading. The earlier table still counts.
+    let accepted = format!("{HEADER}\nKim,bob@x.edu,camera,,1\n");
+    class.graded_with(&exam, &[("manual-points", &accepted)], &[]);
+    refused(&format!("{HEADER}\nKim,ann,camera,,-3"));
+    class.graded(&exam, &[]);
+    assert_eq!(cell(&class, "bob", "Bob Kim", "manual"), "1");
 }
 
 /// Ann's first attempt has 0 points, so none can be deducted.
@@ -97,8 +108,5 @@ fn a_row_must_fit_the_attempt_that_counts() {
     assert_eq!(grade("best"), ["", "1"]);
     std::fs::remove_dir_all(class.input().join("u1")).unwrap();
     let error = class.refused(&exam, &[]);
-    assert!(
-        error.contains("-1 points are out of range: 0 of"),
-        "{error}"
-    );
+    assert!(error.contains("-1 points is out of range: 0 of"), "{error}");
 }

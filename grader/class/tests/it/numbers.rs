@@ -45,7 +45,7 @@ impl Rules {
     }
 }
 
-/// Writes the files of a graded class, with gradebooks. Returns their folder.
+/// Writes the files of a graded class, including gradebooks. Returns their folder.
 fn write_class(root: &Path, class: &[StoredEntry], rules: Rules) -> PathBuf {
     let mut manual = "student,task,delta,comment,author\n".to_owned();
     let mut canvas = "Student,ID,SIS User ID,SIS Login ID,Section,Path Tracer (4242)\n".to_owned();

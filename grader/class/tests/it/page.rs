@@ -1,5 +1,5 @@
-//! The class's page: root causes, failure rates, what needs attention; and, in a browser, hints, sorting
-//! and a narrow window.
+//! Tests of the class's page: root causes, failure rates and what needs attention. In a browser,
+//! they also test hints, sorting and a narrow window.
 
 use test_support::{Chromium, DESKTOP, Viewer};
 
@@ -10,12 +10,7 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
     let class = TestClass::named("class")
         .with_reference("ann")
         .with_starter("bob")
-        .with_reference("carl")
-        .with_replaced(
-            "carl/camera.rs",
-            "pixel.as_vec2() + offset",
-            "pixel.as_vec2() + 0.5",
-        )
+        .with_offset_mistake("carl")
         .with_folder("dora");
     let long = "Maximiliane-Anastasia von und zu Hohenlohe-Waldenburg-Schillingsfürst";
     let roster =
@@ -25,9 +20,9 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
     class.graded_with(&exam, &[("roster", &roster), ("policy", late)], &[]);
     let page = class.read("class.html");
     let texts = [
-        "whatever <code>offset</code> is",
+        "no matter what <code>offset</code> is",
         "<th scope=\"row\">2 days late</th><td class=\"number\">1</td>",
-        "Counted as on time, since the time is unknown: carl.",
+        "Counted as on time, because the time is unknown: carl.",
     ];
     assert_contains(&page, &texts);
 
@@ -51,23 +46,23 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
         }
         tab.eval(&format!("{who}.join('|')"))
     };
-    // Without points, dora is last in either order.
+    // Dora has no points, so she is last in either order.
     assert_eq!(by(&[2]), format!("{long} ann|carl|Bob bob|dora"));
     assert_eq!(by(&[2, 2]), format!("Bob bob|carl|{long} ann|dora"));
     assert_eq!(by(&[0]), format!("Bob bob|carl|dora|{long} ann"));
     assert_eq!(tab.errors(), Vec::<String>::new());
 }
 
-/// Returns the text of one section, with a line for each row, item and heading.
+/// Returns the text of one section. Each row, item and heading is on a separate line.
 pub fn section(page: &str, id: &str) -> String {
     let start = page
         .find(&format!("<section aria-labelledby=\"{id}\""))
         .unwrap();
     let (section, _) = page[start..].split_once("</section>").unwrap();
-    let ends = ["</tr>", "</li>", "</h2>", "</caption>", "</summary>"];
-    let lines = ends
-        .iter()
-        .fold(section.to_owned(), |text, end| text.replace(end, "\n"));
+    let ends = ["tr", "li", "h2", "h3", "caption", "summary"];
+    let lines = ends.iter().fold(section.to_owned(), |text, tag| {
+        text.replace(&format!("</{tag}>"), "\n")
+    });
     let cells = lines.replace("</th>", " | ").replace("</td>", " | ");
     let mut parts = cells.split('<');
     let first = parts.next().unwrap_or_default().to_owned();
@@ -81,39 +76,48 @@ pub fn section(page: &str, id: &str) -> String {
         .join("\n")
 }
 
-/// There are two mistakes, and one hides the other in Finn's submission. One file doesn't compile, one
-/// submission can't be graded, and two people's names look alike.
+/// There are two mistakes, and one hides the other in Finn's submission. Pictures don't show either
+/// of them, and Eve hasn't built a tree. One file doesn't compile, one submission can't be graded,
+/// and two people's names look alike.
 #[test]
 fn the_page_shows_what_needs_attention_root_causes_and_failure_rates_by_section() {
-    let mistake = |class: TestClass, who: &str| {
-        let class = class.with_reference(who);
-        let file = format!("{who}/camera.rs");
-        class.with_replaced(&file, "pixel.as_vec2() + offset", "pixel.as_vec2() + 0.5")
-    };
     let class = TestClass::named("class")
         .with_reference("ann")
-        .with_starter("eve");
-    let class = mistake(mistake(mistake(class, "bob"), "carl"), "finn")
+        .with_starter("eve")
+        .with_replaced(
+            "eve/bvh.rs",
+            "let _ = max_leaf_size;",
+            "let _ = 2 * max_leaf_size;",
+        )
+        .with_offset_mistake("bob")
+        .with_offset_mistake("carl")
+        .with_offset_mistake("finn")
         .with_replaced(
             "finn/sphere.rs",
             "uv: Sphere::uv(normal)",
             "uv: Sphere::uv(-normal)",
         )
         .with_replaced("carl/sphere.rs", "fn hit", "fn hit(")
-        .with_folder("dora");
+        .with_folder("dora")
+        .with_folder("gina");
     let roster = "name,username,tutor\nAnn Lee,ann,Tess\nBob Kim,bob,Tess\n\
         B\u{43e}b Kim,carl,Uwe\nDora D,dora,Uwe\nEve E,eve,\nFinn F,finn,Uwe\n";
     let items = [
         "camera.offset",
         "camera.unit_length",
+        "camera.picture",
+        "build.leaf_size",
+        "build.stops",
         "sphere.radius",
         "sphere.uv",
     ];
     let exam = class.small_exam(&items);
-    // What depends on a failed item is not counted again.
+    // Items that depend on a failed item are not counted again.
     let text = std::fs::read_to_string(&exam).unwrap();
     let mut parsed: serde_json::Value = serde_json::from_str(&text).unwrap();
-    parsed["items"][3]["needs"] = vec!["camera.offset"].into();
+    let items = parsed["items"].as_array_mut().unwrap();
+    let last = items.iter_mut().find(|item| item["id"] == "sphere.uv");
+    last.unwrap()["needs"] = vec!["camera.offset"].into();
     std::fs::write(&exam, parsed.to_string()).unwrap();
     let text = class.graded_with(&exam, &[("roster", roster)], &[]);
     let page = class.read("class.html");

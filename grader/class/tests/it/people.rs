@@ -1,6 +1,6 @@
 //! Rules for individual people: extensions, several attempts and manual points.
 
-use crate::harness::{TestClass, assert_contains, cell, successful_stdout};
+use crate::harness::{TestClass, assert_contains, cell, source, successful_stdout};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const DUE: &str =
@@ -24,8 +24,8 @@ fn the_policy_says_which_of_several_attempts_counts() {
 
     let text = grade("ask");
     let several = [
-        "2 without final points, since the same person handed in several",
-        "Lee, Ann has several submissions (ann, u1): keep one",
+        "2 without final points, because the same person handed in several submissions",
+        "Lee, Ann has several submissions (ann, u1), so this row is left unchanged: keep only one",
     ];
     assert_contains(&text, &several);
     let ann = |submission, column| cell(&class, submission, "Ann Lee", column);
@@ -40,7 +40,8 @@ fn the_policy_says_which_of_several_attempts_counts() {
     assert_eq!(ann("ann", "status"), "another attempt counts");
     let row = "\"Lee, Ann\",7001,u1,ann,A,100";
     assert_contains(&class.read("canvas.csv"), &[row]);
-    let text = "No points count: the submission u1 of the same person counts.";
+    let text =
+        "No points count towards the grade: submission u1 by the same person counts instead.";
     assert_contains(&class.read("students/ann/feedback.html"), &[text]);
 
     // Without times, the latest attempt is unknown.
@@ -110,4 +111,71 @@ Ann Lee,camera,0,see me,Tess
     let score = class.read("students/carl/score.json");
     assert!(score.contains("\"points\": 0"), "{score}");
     assert!(!score.contains("Tess"));
+}
+
+/// Three people are called Ann Lee, one of them only in Canvas, which writes the family name first.
+#[test]
+fn namesakes_are_told_apart_or_belong_to_nobody() {
+    let roster = "name,email,username\nAnn Lee,a1@x.edu,a1\nAnn Lee,a2@x.edu,a2\n";
+    let class = TestClass::named("class")
+        .with_minimal_submission("Ann Lee")
+        .with_minimal_submission("a1@x.edu");
+    let roster = class.write_beside("roster.csv", roster);
+    let preview = class.preview_of(&class.input(), &["--roster", &roster]);
+    let expected = [
+        "Ann Lee: several people on the lists are called Ann Lee",
+        "replacing the name with one of a1@x.edu, a2@x.edu",
+    ];
+    assert_contains(&preview, &expected);
+    assert_eq!(preview.matches("several people").count(), 1);
+    // Until then, nobody gets these points.
+    let exam = class.small_exam(&["camera.offset"]);
+    class.graded(&exam, &["--roster", &roster]);
+    assert_eq!(
+        cell(&class, "Ann_Lee", "Ann Lee", "status"),
+        "person unclear"
+    );
+    assert_eq!(cell(&class, "Ann_Lee", "Ann Lee", "counts"), "");
+
+    let class = TestClass::named("submissions")
+        .with(
+            "leeann_7001_9001_camera.rs",
+            source("reference/src/camera.rs"),
+        )
+        .with(
+            "leeann_7002_9002_camera.rs",
+            source("grader/starter/camera.rs"),
+        );
+    let canvas = "Student,ID,SIS Login ID,Section,Path (7)\n\
+                  \"Lee, Ann\",7001,a1,A,\n\"Lee, Ann\",7002,a2,A,\n";
+    let exam = class.small_exam(&["camera.offset"]);
+    let text = class.graded_with(&exam, &[("canvas", canvas)], &[]);
+    assert_contains(&text, &["Lee, Ann (7001)  – → 2", "Lee, Ann (7002)  – → 0"]);
+    assert_eq!(cell(&class, "leeann_7001", "Ann Lee", "username"), "a1");
+}
+
+/// The roster has the tutors, and the list beside the clones has the times.
+#[test]
+fn the_list_in_a_download_counts_beside_a_roster_and_in_later_runs() {
+    let scores = "username,first_name,last_name,email,datetime,late\n\
+                  ann,Ann,Lee,ann@x.edu,2026-11-22T10:00:00Z,true\n\
+                  bob,Bob,Kim,bob@x.edu,2026-11-22T10:00:00Z,true\n\
+                  zoe,Zoë,Z,zoe@x.edu,,\n";
+    let class = TestClass::named("2026-11-29")
+        .with_reference("cg-ann/student/src")
+        .with("cg-ann/result.json", "{}")
+        .with_reference("cg-bob/student/src")
+        .with("cg-bob/result.json", "{}")
+        .with("scores.csv", scores);
+    let exam = class.small_exam(&ITEMS);
+    // The roster corrects one of the times.
+    let roster = "username,tutor,datetime\nann,Tess,\nbob,Uwe,2026-11-20T10:00:00Z\n";
+    class.graded_with(&exam, &[("roster", roster), ("policy", DUE)], &[]);
+    let first = class.read("grades.csv");
+    let late = |id: &str, name: &str| cell(&class, id, name, "late_days");
+    assert_eq!([late("ann", "Ann Lee"), late("bob", "Bob Kim")], ["2", "0"]);
+    assert_contains(&first, &["Zoë Z,zoe@x.edu,,zoe,nothing submitted"]);
+    std::fs::remove_file(class.input().join("scores.csv")).unwrap();
+    class.graded(&exam, &[]);
+    assert_eq!(class.read("grades.csv"), first);
 }

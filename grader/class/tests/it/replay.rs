@@ -1,11 +1,11 @@
-//! Questions about a grade: a question is run again on the graded files, and the decision stays
-//! visible.
+//! Students who ask about a grade: a question from the exam is run again on the graded files, and
+//! the staff's decision stays visible.
 
 use std::fs;
 
 use serde_json::Value;
 
-use crate::harness::{TestClass, assert_contains, class_command, refusal, successful_stdout};
+use crate::harness::{TestClass, assert_contains, refusal, successful_stdout};
 
 const MANUAL: &str = "student,task,delta,comment,author,date\n\
     bob@x.edu,camera,1,the idea is right,Tess,2026-11-30\n\
@@ -17,12 +17,7 @@ const ROSTER: &str = "name,username,email\nBob Lee,bob,bob@x.edu\nBob Lee,bo,bo@
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")
-        .with_reference("bob")
-        .with_replaced(
-            "bob/camera.rs",
-            "pixel.as_vec2() + offset",
-            "pixel.as_vec2() + 0.5",
-        )
+        .with_offset_mistake("bob")
         .with_folder("bo");
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
     class.graded_with(&exam, &[("roster", ROSTER), ("manual-points", MANUAL)], &[]);
@@ -34,15 +29,9 @@ fn a_question_is_run_again_as_the_report_quotes_it() {
     let (class, exam) = graded();
     // Only the graded files are used.
     fs::remove_dir_all(class.input()).unwrap();
-    let command = |words: &[&str]| {
-        let mut command = class_command();
-        command
-            .args(["--isolation", "none", "--replay"])
-            .args(words);
-        command.arg("--out").arg(class.out()).output().unwrap()
-    };
+    let run = |arguments: &[&str]| class.replay(&class.out(), arguments);
     let replay =
-        |who: &str, question: &str| successful_stdout(&command(&[who, question, "--exam", &exam]));
+        |who: &str, question: &str| successful_stdout(&run(&[who, question, "--exam", &exam]));
     let text = replay("bob", "camera.offset");
     assert_eq!(replay("bob@x.edu", "camera.offset"), text);
     let score: Value = serde_json::from_str(&class.read("students/bob/score.json")).unwrap();
@@ -53,7 +42,7 @@ fn a_question_is_run_again_as_the_report_quotes_it() {
     assert_eq!(replay("bob", &number), text);
     insta::assert_snapshot!([text, replay("ann", "camera.offset")].join("\n"));
 
-    let refused = |words: &[&str]| refusal(&command(words));
+    let refused = |arguments: &[&str]| refusal(&run(arguments));
     let errors = [
         refused(&["bobb", "camera.offset", "--exam", &exam]),
         refused(&["Bob Lee", "camera.offset", "--exam", &exam]),

@@ -83,7 +83,7 @@ fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
 
     let class = TestClass::named("new").with_reference("ann");
     let error = class.refused(&class.small_exam(&ITEMS), &["--regrade"]);
-    assert!(error.contains("holds no scores yet"), "{error}");
+    assert!(error.contains("contains no scores yet"), "{error}");
 }
 
 /// Changes the points of the camera's item. Returns its original points and the path of the new

@@ -58,8 +58,8 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     );
     let [_, error] = graded.run(&["--canvas", &canvas]);
     assert_eq!(graded.class.read("grades.csv").replace(",7001", ""), first);
-    for text in ["the policy", "the roster", "the table of points by hand"] {
-        let text = format!("using {text} of the last run");
+    for text in ["the policy", "the roster", "the table of manual points"] {
+        let text = format!("using {text} from the last run");
         assert!(error.contains(&text), "{text}: {error}");
     }
     let preview = graded.class.preview_of(
@@ -71,12 +71,12 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     let dropped = ["manual-points", "roster", "canvas"];
     let dropped = dropped.map(|list| ["--drop-list", list]).concat();
     let [text, _] = graded.run(&dropped);
-    let changed = "1 final grade changed (changed: the roster, the table of points by hand)";
+    let changed = "1 final grade changed (changed: the roster, the table of manual points)";
     assert!(text.contains(changed), "{text}");
-    // A repeated run prints the same and needs no flag.
+    // A repeated run prints the same text and needs no flag.
     let [again, error] = graded.run(&[]);
     assert!(again.contains(changed), "{again}");
-    assert!(!error.contains("points by hand"), "{error}");
+    assert!(!error.contains("manual points"), "{error}");
     assert!(!graded.class.read("grades.csv").contains("Tess"));
     assert!(!graded.class.out().join("canvas.csv").exists());
 }
@@ -124,7 +124,7 @@ fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
         changes(&["--regrade"]),
     ];
     insta::assert_snapshot!(all.join("\n").trim_end(), @r"
-    1 final grade changed (changed: the table of points by hand)
+    1 final grade changed (changed: the table of manual points)
     ann (Ann Lee): 60 → 30: by hand -1 → -2
     1 final grade changed (changed: the roster)
     ann (Ann Lee): 30 → 33: days late 1 → 0
@@ -147,13 +147,13 @@ fn points_by_hand_count_without_anything_that_can_be_graded() {
             .grade(&graded.exam, &["--manual-points", &path, "--hand-back"])
     };
     let text = successful_stdout(&grade("1"));
-    assert!(text.contains("not in it: bob: points by hand: "), "{text}");
+    assert!(text.contains("left out: bob: points by hand: "), "{text}");
     let bob = |column| cell(&graded.class, "bob", "bob", column);
     assert_eq!(bob("status"), "points by hand");
     assert!(bob("counts").parse::<u32>().unwrap() > 0);
     assert!(graded.class.read("class.html").contains("drawn on paper"));
     let error = refusal(&grade("99"));
-    assert_contains(&error, &["+99 points are out of range: 0 of"]);
+    assert_contains(&error, &["+99 points is out of range: 0 of"]);
 }
 
 /// Canvas's loose files aren't in a separate folder, and the export may be an archive.
@@ -179,4 +179,19 @@ fn the_commands_in_a_report_name_an_archive_of_the_files_that_were_graded() {
         let bytes = fs::read(file).unwrap();
         assert!(!String::from_utf8_lossy(&bytes).contains("submission.zip"));
     }
+}
+
+#[test]
+fn a_chosen_layout_and_title_count_as_before() {
+    let version = |title: &str| format!("Ann Lee/{title}/Version 1");
+    let class = TestClass::named("Eingereichte Dateien")
+        .with_starter(&version("Essay"))
+        .with_reference(&version("Path tracer"));
+    let exam = class.small_exam(&ITEMS);
+    class.graded(&exam, &["--layout", "teams", "--title", "Path tracer"]);
+    let first = class.read("grades.csv");
+    class.graded(&exam, &[]);
+    assert_eq!(class.read("grades.csv"), first);
+    class.graded(&exam, &["--title", "Essay"]);
+    assert_eq!(cell(&class, "Ann_Lee_1", "Ann Lee", "points"), "0");
 }

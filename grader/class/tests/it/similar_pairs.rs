@@ -2,11 +2,11 @@
 
 use std::fs;
 
-use crate::harness::{TestClass, assert_contains, class_command, files_below, successful_stdout};
+use crate::harness::{TestClass, assert_contains, files_below, zip};
 use crate::page::section;
 
-/// Returns a class of three people. Two are in the same group. Writes the input for a checker to the
-/// folder `own` next to the class.
+/// Returns a class of three people. Two of them are in the same group. Also writes the input for a
+/// checker to the folder `own` next to the class.
 fn compared_class() -> TestClass {
     let class = TestClass::named("class");
     let class = ["ann", "bob", "carl"]
@@ -18,12 +18,8 @@ fn compared_class() -> TestClass {
                 .with_replaced(&format!("{who}/sphere.rs"), "\nuse glam", &mine)
                 .with_replaced(&format!("{who}/camera.rs"), "\nuse glam", &mine)
         });
-    let mut command = class_command();
-    command.arg(class.input()).arg("--dry-run");
-    command
-        .arg("--similarity-input")
-        .arg(class.path_beside("own"));
-    successful_stdout(&command.output().unwrap());
+    let own = class.path_beside("own").display().to_string();
+    class.preview_of(&class.input(), &["--similarity-input", &own]);
     class
 }
 
@@ -51,7 +47,7 @@ const JPLAG: &str = "submissionName1,submissionName2,averageSimilarity,maxSimila
 fn the_page_shows_the_most_similar_pairs_side_by_side() {
     let class = compared_class();
     let dolos = class.write_beside("pairs.csv", &with_numbers(&class, DOLOS));
-    // JPlag was given the folder of one task, so the names do not have the task.
+    // JPlag was given the folder of one task, so the names do not contain the task.
     fs::create_dir(class.path_beside("camera")).unwrap();
     let jplag = class.write_beside("camera/results.csv", &with_numbers(&class, JPLAG));
     let [own, blind] = ["own", "blind"].map(|name| class.path_beside(name).display().to_string());
@@ -64,7 +60,7 @@ fn the_page_shows_the_most_similar_pairs_side_by_side() {
     let page = class.read("class.html");
     assert_contains(&page, &["<a href=\"students/carl/report.html\">carl (Carl"]);
     insta::assert_snapshot!(section(&page.replace("</p>", "</p>\n"), "similar"));
-    // Neither students nor those who grade the anonymous copy see it.
+    // Neither students nor those who grade the anonymous copy see the similar pairs.
     let files = files_below(&class.out())
         .into_iter()
         .chain(files_below(blind.as_ref()));
@@ -77,6 +73,56 @@ fn the_page_shows_the_most_similar_pairs_side_by_side() {
     // Without the option, the next run does not show outdated results.
     class.graded_with(&exam, &[("roster", roster)], &[]);
     assert!(!class.read("class.html").contains("id=\"similar\""));
+}
+
+/// Since version 6, JPlag writes the comparisons into a separate file. An id is a name without
+/// slashes.
+#[test]
+fn jplags_archive_shows_the_same_pairs_as_its_table() {
+    let class = compared_class();
+    fs::create_dir(class.path_beside("camera")).unwrap();
+    let own = class.path_beside("own").display().to_string();
+    let exam = class.small_exam(&["camera.offset"]);
+    let shown = |results: &str| {
+        class.graded(&exam, &["--similar", &own, results]);
+        section(&class.read("class.html"), "similar")
+    };
+    let table = class.write_beside("camera/results.csv", &with_numbers(&class, JPLAG));
+    let expected = shown(&table);
+    let comparisons = |first: &str, second: &str| {
+        let row = |who: &str, average: f64| {
+            format!(
+                "{{\"{first}\": \"camera_{{carl}}.rs\", \"{second}\": \"{{{who}}}.rs\", \
+                 \"similarities\": {{\"AVG\": {average}, \"MAX\": 0.75}}}}"
+            )
+        };
+        format!("[{}, {}]", row("bob", 0.5), row("ann", 9.5e-4))
+    };
+    let names = "{\"camera_{carl}.rs\": \"camera/{carl}.rs\", \"{bob}.rs\": \"{bob}.rs\"}";
+    let (since_6, before) = (
+        comparisons("firstSubmission", "secondSubmission"),
+        comparisons("first_submission", "second_submission"),
+    );
+    let overview =
+        format!("{{\"top_comparisons\": {before}, \"submission_id_to_display_name\": {names}}}");
+    let archive = |name: &str, files: &[(&str, String)]| {
+        let path = class.path_beside(name);
+        let files = files.iter();
+        let files = files.map(|(name, text)| (*name, with_numbers(&class, text)));
+        fs::write(&path, zip(files)).unwrap();
+        path.display().to_string()
+    };
+    let mappings = format!("{{\"submissionIds\": {names}}}");
+    let version_6 = [
+        ("topComparisons.json", since_6),
+        ("submissionMappings.json", mappings),
+    ];
+    assert_eq!(shown(&archive("camera/result.jplag", &version_6)), expected);
+    let version_5 = [("overview.json", overview)];
+    assert_eq!(shown(&archive("camera/result.zip", &version_5)), expected);
+    let other = archive("camera/other.zip", &[("README.txt", String::new())]);
+    let error = class.refused(&exam, &["--similar", &own, &other]);
+    assert_contains(&error, &["no comparisons in the format of JPlag 5 or 6"]);
 }
 
 #[test]
@@ -99,7 +145,8 @@ fn results_that_cannot_be_read_are_errors_before_anything_is_graded() {
     let errors = [
         refused("own", "files.csv", "id,path,content,ast,extra\n"),
         refused("submissions", "results.csv", &jplag(both)),
-        // JPlag's file without names; a submission that was not compared; a name without a task.
+        // These are JPlag's file without names, a submission that was not compared, and a name
+        // without a task.
         refused("own", "results-anonymous.csv", &jplag("0,1,1.0,1.0")),
         refused(
             "own",

@@ -24,13 +24,14 @@ pub struct StoredEntry {
     pub people: usize,
     /// The hours between the due time, 2026-11-20 12:00 UTC, and the submission.
     pub hours_late: i64,
-    /// The manual points that each of the people gets for the first task, if they are possible.
+    /// The manual points that each of the people gets for the first task, if these points are
+    /// within its range.
     pub manual: i32,
-    /// Whether an earlier version of the submission was graded, with no points.
+    /// Whether an earlier version of the submission was graded and got no points.
     pub is_resubmitted: bool,
 }
 
-/// Returns a class of at most eight submissions.
+/// Returns a class of at most seven submissions.
 pub fn stored_class() -> impl Strategy<Value = Vec<StoredEntry>> {
     vec(stored_entry(), 1..8)
 }
@@ -62,7 +63,7 @@ impl StoredEntry {
     }
 }
 
-/// Returns the id of the submission at this index of the class.
+/// Returns the id of the submission at this index in the class.
 pub fn id(index: usize) -> String {
     format!("s{index:02}")
 }

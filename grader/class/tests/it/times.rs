@@ -1,4 +1,4 @@
-//! Submission times, extensions and late flags, as rosters and platforms write them.
+//! Submission times, extensions and late flags, in the formats of rosters and platforms.
 
 use crate::harness::{TestClass, assert_contains, cell, source};
 

@@ -56,7 +56,8 @@ fn a_starter_file_beside_a_changed_copy_is_left_to_a_person() {
     let preview = class.preview();
     for (who, (_, copy, _)) in files {
         let expected = format!(
-            "{who}: nothing to grade: it has the starter's camera.rs, and changed copies in {copy}: keep"
+            "{who}: nothing to grade: it contains the unmodified starter version of camera.rs, and \
+             modified copies in {copy}: keep"
         );
         let line = line(&preview, &who);
         assert!(line.starts_with(&expected), "{line}");
@@ -83,19 +84,68 @@ fn a_copy_counts_only_if_no_other_file_could_be_meant() {
     let class = copies.into_iter().fold(TestClass::named("class"), input);
     let class = class.with("two/camera (2).rs", "// another");
     let preview = class.preview();
-    for who in ["firefox", "finder", "explorer"] {
-        assert_eq!(line(&preview, who), format!("{who}: all 5 files"));
+    for (who, copy) in &copies[..3] {
+        let expected = format!("{who}: all 5 files; {copy} is graded as camera.rs");
+        assert_eq!(line(&preview, who), expected);
     }
     for (who, copy) in &copies[3..5] {
         let expected = format!(
-            "{who}: 4 of 5 files; camera.rs is missing; {copy} is not graded, since its name is not \
-             camera.rs: this costs 15 points"
+            "{who}: 4 of 5 files; camera.rs is missing; {copy} is not graded because its name is \
+             not camera.rs, which costs 15 points"
         );
         assert_eq!(line(&preview, who), expected);
     }
-    let two =
-        "two: nothing to grade: it has task files that differ, in camera (1).rs and camera (2).rs";
+    let two = "two: nothing to grade: it contains different copies of camera.rs, in camera (1).rs \
+        and camera (2).rs: keep";
     assert!(line(&preview, "two").starts_with(two), "{preview}");
+}
+
+#[test]
+fn a_folder_for_each_task_is_one_submission_if_no_file_has_two_versions() {
+    let part = |who: &str, folder: &str, name: &str| {
+        (
+            format!("Ann_{who}_assignsubmission_file_/{folder}/{name}"),
+            WORK,
+        )
+    };
+    let class = [
+        part("301", "task1", "camera.rs"),
+        part("301", "task2", "triangle.rs"),
+        part("301", "task2", "sphere.rs"),
+        part("301", "task3", "bbox.rs"),
+        part("301", "task3", "bvh.rs"),
+        part("302", "task1", "camera.rs"),
+        part("302", "task2", "bvh.rs"),
+        (
+            "Ann_302_assignsubmission_file_/old/bvh.rs".to_owned(),
+            "// old",
+        ),
+    ];
+    let add = |class: TestClass, (path, text): (String, &str)| class.with(&path, text);
+    let preview = class
+        .into_iter()
+        .fold(TestClass::named("class"), add)
+        .preview();
+    let refused = "it contains different copies of bvh.rs, in old and task2: keep only the one \
+                   that should be graded";
+    assert_contains(&preview, &["all 5 files\n", refused]);
+}
+
+#[test]
+fn files_with_other_names_are_named_once() {
+    let class = TestClass::named("class")
+        .with("ann/camera.rs.txt", WORK)
+        .with("ann/bvh.rs.txt", WORK)
+        .with("bob/.git/HEAD", "");
+    let preview = class.preview();
+    let expected = "ann: nothing to grade: none of the task files was handed in, only \
+                    camera.rs.txt, bvh.rs.txt: give each file its task file's exact name, such as \
+                    camera.rs; names must end in .rs";
+    assert_eq!(line(&preview, "ann"), expected);
+    assert!(
+        preview.contains("bob: nothing to grade: nothing was handed in"),
+        "{preview}"
+    );
 }
 
 #[test]
@@ -108,13 +158,13 @@ fn files_that_are_not_graded_are_named_on_every_page() {
             "pixel.as_vec2() + offset",
             "pixel.as_vec2() + 0.5",
         )
-        .with("ann/camera (1).rs", reference)
+        .with("ann/camera_final.rs", reference)
         .with("ann/old/pictures.rar", "Rar!\x1a\x07\x01\0")
         .with_reference("bob");
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
     let printed = class.graded(&exam, &[]);
     let notes = [
-        "camera (1).rs differs from camera.rs, and is ignored",
+        "camera_final.rs differs from camera.rs and is ignored",
         "old/pictures.rar is not graded: it is a .rar archive",
     ];
     let page = class.read("class.html");
@@ -158,14 +208,14 @@ fn a_submission_that_is_too_large_affects_no_other() {
     let preview = class.preview_of(&archive, &[]);
     assert_eq!(line(&preview, "ann"), "ann: all 5 files");
     for (who, why) in [
-        ("bomb", "work.zip cannot be unpacked: it has 257 MiB"),
+        ("bomb", "work.zip cannot be unpacked: it is 257 MiB"),
         (
             "many",
-            "it has too many files and folders (more than 50000): keep the task files",
+            "it contains too many files and folders (more than 50000): hand in only the task files",
         ),
         (
             "archives",
-            "it has too many archives (more than 32): keep the task files",
+            "it contains too many archives (more than 32): hand in only the task files",
         ),
     ] {
         let line = line(&preview, who);

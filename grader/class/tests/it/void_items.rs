@@ -1,5 +1,6 @@
-//! Items and tasks that the policy removes or reweights after the class was graded. Each final grade
-//! that changes is listed with its cause, pages explain the final points, and nothing is graded again.
+//! Items and tasks that the policy removes or reweights after the class was graded. Each final
+//! grade that changes is listed with its cause, pages explain the final points, and nothing is
+//! graded again.
 
 use std::fs;
 
@@ -16,12 +17,7 @@ const MANUAL: &str = "student,task,delta,comment,author\ncarl,sphere,1,drawn on 
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")
-        .with_reference("bob")
-        .with_replaced(
-            "bob/camera.rs",
-            "pixel.as_vec2() + offset",
-            "pixel.as_vec2() + 0.5",
-        )
+        .with_offset_mistake("bob")
         .with_replaced("bob/sphere.rs", "self.radius * self.radius", "self.radius")
         .with_folder("carl");
     let exam = class.small_exam(&ITEMS);

@@ -1,5 +1,5 @@
-//! Assignments as data: each one's tasks, their files and their points. Anything that depends on
-//! the number, order or names of the tasks is derived from here.
+//! Assignments as data: the tasks of each assignment, with their files and points. Anything that
+//! depends on the number, order or names of the tasks is derived from this data.
 
 mod rays;
 
@@ -7,6 +7,8 @@ use std::fmt;
 
 use arrayvec::ArrayString;
 use serde::{Deserialize, Serialize};
+
+use crate::symptom::Symptom;
 
 pub use rays::{RAYS, RAYS_FILES};
 
@@ -18,10 +20,10 @@ const MAX_ID_BYTES: usize = 24;
 pub struct Assignment {
     /// The id that the command line and exam files use.
     pub id: &'static str,
-    /// The title for people.
+    /// The human-readable title.
     pub title: &'static str,
-    /// The folders where the files are expected to be handed in, in order of preference. The empty
-    /// path is the submission's top level.
+    /// The folders where a submission's files are expected, in order of preference. The empty path
+    /// is the submission's top level.
     pub folders: &'static [&'static str],
     /// Names of the project's other folders. Files in them, at any depth, are never handed in.
     pub other_folders: &'static [&'static str],
@@ -29,7 +31,7 @@ pub struct Assignment {
     pub tasks: &'static [TaskInfo],
     /// The command that draws a picture with the complete code.
     pub render: Option<&'static str>,
-    /// The section of the handout with a challenge for after the last task.
+    /// The section of the handout with a challenge to try after the last task.
     pub challenge: Option<&'static str>,
 }
 
@@ -38,9 +40,9 @@ pub struct Assignment {
 pub struct TaskInfo {
     /// The id that the command line and files use.
     pub id: &'static str,
-    /// The title for people.
+    /// The human-readable title.
     pub title: &'static str,
-    /// The submission's file that contains the method.
+    /// The submitted file that contains the method.
     pub file: &'static str,
     /// The name of the method to write.
     pub method: &'static str,
@@ -57,7 +59,7 @@ pub struct TaskInfo {
 pub struct TaskFile {
     /// The file name, such as `sphere.rs`.
     pub name: &'static str,
-    /// The text of the starter's file.
+    /// The text of the file in the starter.
     pub starter: &'static str,
     /// Declarations that other files use. If one is missing, the compiler reports errors in those
     /// files instead of this one.
@@ -68,10 +70,26 @@ pub struct TaskFile {
 #[derive(Debug, PartialEq, Eq)]
 pub struct TaskClues {
     /// The clue for code whose rays never hit anything. `None` if none of the task's rays should
-    /// hit something.
+    /// hit anything.
     pub if_nothing_is_hit: Option<&'static str>,
     /// The clue for code that overflows the stack. `None` if nothing is known about the recursion.
     pub if_stack_overflows: Option<&'static str>,
+    /// The clues for wrong answers to items whose own advice is about another symptom. The first
+    /// clue that includes the symptom is used.
+    pub by_symptom: &'static [SymptomClue],
+}
+
+/// The clue for answers with an error in one quantity, or in one of several quantities whose errors
+/// have the same cause.
+#[derive(Debug, PartialEq, Eq)]
+pub struct SymptomClue {
+    /// The quantities. If the clue is only about one side of a quantity, that side is specified
+    /// too.
+    pub symptoms: &'static [Symptom],
+    /// The clue.
+    pub clue: &'static str,
+    /// The section of the handout to read.
+    pub section: &'static str,
 }
 
 impl TaskClues {
@@ -79,7 +97,14 @@ impl TaskClues {
     pub const NONE: TaskClues = TaskClues {
         if_nothing_is_hit: None,
         if_stack_overflows: None,
+        by_symptom: &[],
     };
+
+    /// Returns the clue for a symptom, if any.
+    pub fn of_symptom(&self, symptom: &Symptom) -> Option<&'static SymptomClue> {
+        let mut clues = self.by_symptom.iter();
+        clues.find(|clue| clue.symptoms.iter().any(|own| own.includes(symptom)))
+    }
 }
 
 /// The id of a task, such as `sphere`. Its assignment resolves it to a [`TaskInfo`].
@@ -93,7 +118,7 @@ impl Assignment {
         self.tasks.iter().map(TaskInfo::task)
     }
 
-    /// Returns the points of all tasks.
+    /// Returns the total points of all tasks.
     pub fn points(&self) -> u32 {
         self.tasks.iter().map(|task| task.points).sum()
     }
@@ -113,8 +138,8 @@ impl Assignment {
     ///
     /// # Panics
     ///
-    /// If the task isn't part of the assignment. This can't happen for ids from exam files, which
-    /// are checked when the file is read.
+    /// If the task isn't part of the assignment. This can't happen for ids from exam files, because
+    /// every exam file is checked when it is read.
     pub fn info(&self, task: Task) -> &'static TaskInfo {
         let info = self.find(task.id());
         info.unwrap_or_else(|| panic!("the assignment {} has no task {task}", self.id))
@@ -135,8 +160,8 @@ impl TaskInfo {
 }
 
 impl Task {
-    /// Returns the task named in the id of an item or a mistake: the part before the first dot. The
-    /// assignment may not have such a task.
+    /// Returns the task in the id of an item or a mistake, which is the part before the first dot.
+    /// The assignment may not have such a task.
     pub fn in_id(id: &str) -> Option<Task> {
         let (task, _) = id.split_once('.')?;
         ArrayString::from(task).ok().map(Task)

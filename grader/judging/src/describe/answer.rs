@@ -1,6 +1,6 @@
 //! Formats one element of a submitted or an expected answer in full.
 
-use protocol::{Answer, AnyTable, ElementOutcome, Record, Tree, Words};
+use protocol::{Answer, AnyTable, ElementOutcome, Record, ResultText, Tree};
 
 use crate::describe::{fill, number, point, uv};
 use crate::exam::{ExamQuestion, Key, Surface};
@@ -9,7 +9,7 @@ use crate::sanitize::sanitize;
 /// Maximum length of a panic message, in characters.
 const MAX_PANIC_CHARS: usize = 2_000;
 
-/// Maximum number of a tree's nodes to show. More would bury the rest of a report.
+/// Maximum number of nodes to show for a tree. More would bury the rest of a report.
 const MAX_NODES: usize = 40;
 
 /// Formats a submission's answer to one element of a question.
@@ -23,26 +23,26 @@ pub fn got(answer: &Answer, element: usize) -> String {
         Answer::Rays(_) | Answer::Hits(_) | Answer::Spans(_) | Answer::Directions(_) => {
             let rows = answer.rows().unwrap_or_default();
             outcome(rows.get(element), |record| {
-                returned(answer.words(), *record)
+                returned(answer.result_text(), *record)
             })
         }
     }
 }
 
-/// Formats what a function returned in one row of a table.
-fn returned(words: Option<Words>, record: Option<&dyn Record>) -> String {
-    match (words, record) {
-        (Some(words), Some(record)) => fill(words.record, &[record]),
-        (Some(words), None) => words.absent.to_owned(),
+/// Formats what a function returned for one row of a table.
+fn returned(text: Option<ResultText>, record: Option<&dyn Record>) -> String {
+    match (text, record) {
+        (Some(text), Some(record)) => fill(text.record, &[record]),
+        (Some(text), None) => text.absent.to_owned(),
         (None, _) => String::new(),
     }
 }
 
-/// Formats whether a function returned something in one row of a table.
+/// Formats whether a function returned something for one row of a table.
 pub(crate) fn presence(table: &dyn AnyTable, record: Option<&dyn Record>) -> String {
     match record {
-        Some(record) => fill(table.words().present, &[record]),
-        None => table.words().absent.to_owned(),
+        Some(record) => fill(table.result_text().present, &[record]),
+        None => table.result_text().absent.to_owned(),
     }
 }
 
@@ -51,8 +51,8 @@ pub(crate) fn presence(table: &dyn AnyTable, record: Option<&dyn Record>) -> Str
 pub fn wanted(question: &ExamQuestion, element: usize) -> Vec<String> {
     match &question.key {
         Key::Table { rows, .. } => {
-            let words = question.question.table().map(AnyTable::words);
-            vec![returned(words, rows.record(element).as_deref())]
+            let text = question.question.table().map(AnyTable::result_text);
+            vec![returned(text, rows.record(element).as_deref())]
         }
         Key::FirstHits { hits, alternatives } => {
             let alternatives = alternatives
@@ -92,7 +92,7 @@ fn tree(tree: &Tree) -> String {
         .map(|(index, node)| {
             let (min, max) = (point(node.min), point(node.max));
             let below = if node.is_leaf() {
-                format!("leaf of {} from {}", node.size, node.start)
+                format!("leaf with size {} and start {}", node.size, node.start)
             } else {
                 format!("children {} and {}", node.l, node.r)
             };

@@ -8,7 +8,8 @@ use crate::types;
 
 pub use types::{interval, number, one_or_count, point, shapes as each_shape, span, uv};
 
-/// Describes one element of a question: the row of a table with the subject, the tree, or the picture.
+/// Describes one element of a question. It is a row of a table (described together with the table's
+/// subject), a tree, or a picture.
 pub fn element(question: &Question, element: usize) -> String {
     if let Question::Build {
         shapes,
@@ -21,7 +22,7 @@ pub fn element(question: &Question, element: usize) -> String {
     if let Question::Radiance { film, samples, .. } = question {
         let (x, y) = (element as u32 % film.x, element as u32 / film.x);
         return format!(
-            "a path-traced picture of {}×{} pixels, {samples} samples; pixel ({x}, {y})",
+            "a rendered picture of {}×{} pixels, {samples} samples; pixel ({x}, {y})",
             film.x, film.y
         );
     }

@@ -11,29 +11,29 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Key {
-    /// Key of a table.
+    /// Key for a table.
     Table {
-        /// The quantities to compare, in addition to whether the function returns anything: names
-        /// of fields of its result, or `unit_` and the name of a direction for that direction's
-        /// length.
+        /// The quantities to compare, in addition to whether the function returns anything. Each is
+        /// the name of a field of the result, or `unit_` followed by the name of a direction. The
+        /// latter stands for the length of that direction.
         judged: Vec<String>,
-        /// The expected row of each call.
+        /// The expected row for each call.
         rows: ExpectedRows,
         /// How the rows' results are combined into credit.
         #[serde(default, skip_serializing_if = "Aggregate::is_default")]
         aggregate: Aggregate,
     },
-    /// Key of a `Build` question: properties of the tree, and optionally its cost.
+    /// Key for a `Build` question: properties of the tree, and optionally its cost.
     Tree {
         /// Properties to check. Whether the nodes form a tree is always checked.
         checks: Vec<TreeCheck>,
-        /// SAH cost of the exact sweep's tree, which uses the best split at every node and the same
-        /// maximum leaf size. C_trav = C_isect = 1, and areas are divided by the root's area.
-        /// `None` if the cost isn't checked.
+        /// SAH cost of the tree from the exact sweep, which uses the best split at every node and
+        /// the question's maximum leaf size. C_trav = C_isect = 1, and areas are divided by the
+        /// root's area. `None` if the cost isn't checked.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         sweep_cost: Option<f64>,
     },
-    /// Key of a picture of first hits. Partial credit depends on the number of correct positions.
+    /// Key for a picture of first hits. Partial credit depends on the number of correct positions.
     FirstHits {
         /// The expected first hit at each position.
         #[serde(with = "packed")]
@@ -44,7 +44,7 @@ pub enum Key {
         #[serde(with = "packed")]
         alternatives: Vec<(u32, Option<Surface>)>,
     },
-    /// Key of a `Radiance` question.
+    /// Key for a `Radiance` question.
     Radiance {
         /// The expected colour of each pixel in linear RGB, row by row from the bottom.
         #[serde(with = "packed")]
@@ -55,7 +55,7 @@ pub enum Key {
 }
 
 impl Key {
-    /// Returns the key of a table that judges these quantities and requires every row to be right.
+    /// Returns the key for a table that judges these quantities and requires every row to be right.
     pub fn table(judged: &[&str], rows: ExpectedRows) -> Key {
         Key::Table {
             judged: judged.iter().map(|name| (*name).to_owned()).collect(),
@@ -64,7 +64,7 @@ impl Key {
         }
     }
 
-    /// Returns the key of a table whose credit depends on the share of right rows.
+    /// Returns the key for a table whose credit depends on the share of right rows.
     pub fn share_of_rows(judged: &[&str], rows: ExpectedRows) -> Key {
         let mut key = Key::table(judged, rows);
         if let Key::Table { aggregate, .. } = &mut key {
@@ -73,7 +73,7 @@ impl Key {
         key
     }
 
-    /// Returns the key of the intervals that rays spend inside a box.
+    /// Returns the key for a table of the intervals that rays spend inside a box.
     pub fn spans(spans: Vec<Option<Interval>>) -> Key {
         Key::table(<Interval as Fields>::NAMES, ExpectedRows::Spans(spans))
     }
@@ -151,7 +151,7 @@ impl ExpectedRows {
         }
     }
 
-    /// Returns whether the function should return something in a row.
+    /// Returns whether the function should return something for a row.
     pub fn is_present(&self, row: usize) -> bool {
         match self {
             ExpectedRows::Rays(rows) => row < rows.len(),
@@ -161,8 +161,8 @@ impl ExpectedRows {
         }
     }
 
-    /// Returns the expected record of a row, or `None` if the function should return nothing or the
-    /// row doesn't exist.
+    /// Returns the expected record for a row, or `None` if the function should return nothing or
+    /// the row doesn't exist.
     pub fn record(&self, row: usize) -> Option<Box<dyn Record>> {
         Some(match self {
             ExpectedRows::Rays(rows) => Box::new(camera_ray(*rows.get(row)?)),
@@ -194,7 +194,7 @@ impl ExpectedRows {
         }
     }
 
-    /// Returns the rows with every field replaced by `change`.
+    /// Returns the rows with the value of every field replaced by what `change` returns for it.
     pub fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> ExpectedRows {
         fn each<R: Record + Copy>(
             rows: &[Option<R>],
@@ -227,7 +227,7 @@ fn camera_ray(dir: Vec3) -> Ray {
 }
 
 /// A check on a tree. The checks are independent of each other: where a check needs correct boxes,
-/// the judge computes them itself, so that a mistake only costs points once.
+/// the judge computes them itself, so that points for a mistake are only deducted once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TreeCheck {
@@ -251,8 +251,8 @@ impl TreeCheck {
         match self {
             TreeCheck::Partition => "every primitive is in exactly one leaf",
             TreeCheck::Contains => "every box contains the primitives below it",
-            TreeCheck::Tight => "no box is larger than these primitives need",
-            TreeCheck::Split => "no leaf holds half of the primitives",
+            TreeCheck::Tight => "no box is larger than necessary",
+            TreeCheck::Split => "no leaf holds half or more of the primitives",
             TreeCheck::LeafSize => "no leaf holds more than `max_leaf_size` primitives",
             TreeCheck::Stops => "nodes with at most `max_leaf_size` primitives are leaves",
         }

@@ -13,6 +13,7 @@ use crate::assignment::{Assignment, Task};
 use crate::drawing_data::DrawingData;
 use crate::section::Section;
 use crate::signatures::{KnownMistake, MistakeSignatures};
+use crate::symptom::Symptom;
 
 pub use key::{Aggregate, ExpectedRows, Key, Surface, TreeCheck};
 pub use subset::question_subset;
@@ -36,7 +37,7 @@ pub struct Exam {
 
 impl Exam {
     /// The version of the file format.
-    pub const SCHEMA: u32 = 2;
+    pub const SCHEMA: u32 = 3;
 
     /// Creates an exam without known mistakes.
     pub fn new(assignment: &Assignment, id: &str, items: Vec<Item>) -> Self {
@@ -79,14 +80,18 @@ pub struct Item {
     pub title: String,
     /// The task the points belong to.
     pub task: Task,
-    /// Points of the item.
+    /// Points for the item.
     pub points: u32,
     /// One or two sentences that tell a student where to look if the item fails.
     pub look: String,
+    /// The symptoms that `look` and `section` are about. Empty if they are about all symptoms.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub look_fits: Vec<Symptom>,
     /// The handout section that teaches the item.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
-    /// Ids of items of other tasks that must work before this item can test its own task.
+    /// Ids of items from other tasks. The code that they test must work before this item can test
+    /// its own task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needs: Vec<String>,
     /// The questions. The item's credit is that of its worst question.
@@ -106,14 +111,21 @@ impl Item {
         Item {
             id: id.to_owned(),
             title: String::new(),
-            task: Task::in_id(id).expect("the id of an item begins with its task"),
+            task: Task::in_id(id).expect("an item's id must begin with the name of its task"),
             points,
             look: String::new(),
+            look_fits: Vec::new(),
             section: None,
             needs: Vec::new(),
             questions,
             signatures: MistakeSignatures::default(),
         }
+    }
+
+    /// Returns whether `look` and `section` are about this symptom.
+    pub fn has_look_for(&self, symptom: &Symptom) -> bool {
+        let mut fits = self.look_fits.iter();
+        self.look_fits.is_empty() || fits.any(|fitting| fitting.includes(symptom))
     }
 
     /// Returns the number of elements in all questions of the item.
@@ -126,7 +138,7 @@ impl Item {
     }
 
     /// Returns the number shown to people for an element, counting from 1 across all questions of
-    /// the item. A path-traced picture is one element, so all of its pixels share a number.
+    /// the item. A rendered picture is one element, so all of its pixels share a number.
     pub fn number(&self, question: usize, element: usize) -> usize {
         let before = self.questions[..question].iter();
         let before: usize = before.map(|question| question.question.count()).sum();
@@ -172,8 +184,8 @@ impl ExamQuestion {
         }
     }
 
-    /// Creates a question about a tree over these shapes. The answer's cost is judged if
-    /// `sweep_cost` is given.
+    /// Creates a question about a tree over these shapes. The cost of the submitted tree is judged
+    /// if `sweep_cost` is given.
     pub fn tree(
         shapes: Vec<Shape>,
         max_leaf_size: u32,

@@ -7,7 +7,7 @@ use protocol::Question;
 use super::{Aggregate, Key};
 
 /// Returns a question with only these elements. A question with a single element, such as a tree or
-/// a path-traced picture, is returned unchanged.
+/// a rendered picture, is returned unchanged.
 pub fn question_subset(question: &Question, elements: Range<usize>) -> Question {
     question
         .table()

@@ -1,8 +1,8 @@
 //! Credit: the fraction of an item's points that an answer earns, in ten-thousandths. Only the
 //! final points are rounded.
 
-/// Number of wrong positions that cost nothing even in a small picture. Correct formulas may differ
-/// in the last bits, which can leave cracks between triangles.
+/// Number of wrong positions that are tolerated even in a small picture. Correct formulas may
+/// differ in the last bits, which can leave cracks between triangles.
 pub(super) const TOLERATED_POSITIONS: usize = 5;
 
 /// A fraction of an item's points.
@@ -17,14 +17,15 @@ impl Credit {
     /// No points.
     pub const NONE: Credit = Credit(0);
 
-    /// Returns how many of `of` positions may be wrong at no cost.
+    /// Returns the number of positions, out of `of`, that may be wrong without reducing the credit.
     pub(super) fn tolerated(of: usize) -> usize {
         TOLERATED_POSITIONS.max(of / 10_000)
     }
 
-    /// Returns the credit if `wrong` of `of` positions are wrong. The steps distinguish rounding,
-    /// cracks, wrong edges and large wrong areas. Credit depends on the number of wrong positions
-    /// rather than on a similarity score, which could be raised by small changes that fix nothing.
+    /// Returns the credit if `wrong` out of `of` positions are wrong. The steps distinguish
+    /// rounding, cracks, wrong edges and large wrong areas. Credit depends on the number of wrong
+    /// positions rather than on a similarity score, which could be raised by small changes that fix
+    /// nothing.
     pub fn by_count(wrong: usize, of: usize) -> Self {
         if of == 0 {
             Credit::NONE

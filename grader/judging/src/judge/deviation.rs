@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use protocol::ElementOutcome;
 
 use super::Threshold;
-use crate::types::multiple::in_units_of;
+use crate::types::in_units_of;
 
 /// The error of one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,7 @@ impl Measurement {
         }
     }
 
-    /// Measures the positions of a picture. Up to `allowed` positions may be wrong.
+    /// Measures the positions in a picture. Up to `allowed` positions may be wrong.
     pub(super) fn of_positions(
         mut positions: Vec<Deviation>,
         allowed: usize,
@@ -154,8 +154,8 @@ mod tests {
         assert_eq!(fine.count.map(|count| count.value), Some(1.0));
         assert!(fine.deciding_deviation().is_right());
 
-        // Three positions are wrong, and two may be. The smallest of the three errors is 1.2, which
-        // is less than 1.5, the ratio of the counts.
+        // Three positions are wrong, but only two may be wrong. The smallest of the three errors is
+        // 1.2, which is less than 1.5, the ratio of the counts.
         let wrong = measured(&[0.1, 9.0, 1.2, f64::INFINITY]);
         assert_eq!(
             wrong.deciding_deviation(),

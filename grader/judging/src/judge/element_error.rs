@@ -1,12 +1,12 @@
-//! The error of a single element, in words. It doesn't affect points.
+//! The error in a single element, in words. This description doesn't affect points.
 
 use protocol::Answer;
 
 use super::{Deviation, FailureKind, Measurement, judge, measure, mismatches};
 use crate::exam::ExamQuestion;
 
-/// Describes the error in the answer to one element and its size, such as "distance; the error is
-/// 12 times the tolerance". Returns `None` if it is correct.
+/// Describes the error in the answer to one element and the size of the error, such as "distance;
+/// the error is 12 times the tolerance". Returns `None` if the answer is correct.
 ///
 /// # Panics
 ///
@@ -24,7 +24,9 @@ pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -
         return Some(with_size(what, mismatch.deviation));
     }
     Some(match judge(&question, &answer).failure?.kind {
-        FailureKind::Wrong { what, got, wanted } if matches!(answer, Answer::Tree(_)) => {
+        FailureKind::Wrong {
+            what, got, wanted, ..
+        } if matches!(answer, Answer::Tree(_)) => {
             format!("{what}: {got}; wanted: {wanted}")
         }
         FailureKind::Wrong { what, .. } => {

@@ -3,6 +3,7 @@
 use arrayvec::ArrayVec;
 
 use super::Deviation;
+use crate::symptom::PRESENCE;
 
 /// The first error at one position of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +60,7 @@ impl Aspect {
     pub fn name(self) -> &'static str {
         match self {
             Aspect::NoAnswer => "no answer",
-            Aspect::HitOrMiss => "hit or miss",
+            Aspect::HitOrMiss => PRESENCE,
             Aspect::Depth => "depth",
             Aspect::Normal => "normal",
             Aspect::Uv => "uv",

@@ -15,6 +15,7 @@ pub mod tree;
 use protocol::{Answer, Panic, Question};
 
 use crate::exam::{ExamQuestion, Key};
+use crate::symptom::Side;
 
 use first_hits::FirstHits;
 use mismatch::Position;
@@ -29,7 +30,7 @@ pub use element_error::element_error;
 pub use mismatch::{Aspect, Mismatch};
 pub use threshold::Threshold;
 
-/// The result of one question.
+/// The result for one question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// The fraction of the item's points that the answer earns.
@@ -49,13 +50,15 @@ pub struct Failure {
     pub count: Option<(usize, usize)>,
 }
 
-/// The kind of error of an element.
+/// The kind of error in an element.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FailureKind {
     /// The answer is wrong.
     Wrong {
         /// The wrong quantity, such as `distance` or `normal`.
         what: String,
+        /// Whether it is too small or too large, if that can be determined.
+        side: Option<Side>,
         /// The submission's value.
         got: String,
         /// The expected value.
@@ -122,7 +125,7 @@ pub fn one_row_answers_all(asked: &ExamQuestion) -> bool {
     others.all(|other| judge(&other, &answer).credit == Credit::FULL)
 }
 
-/// Returns the deviations of the answer to one question. [`judge`] decides from the same numbers.
+/// Returns the deviations of the answer to one question. [`judge`] uses the same numbers.
 pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
     match comparison(question, answer) {
         Some(comparison) => comparison.measure(),
@@ -131,8 +134,8 @@ pub fn measure(question: &ExamQuestion, answer: &Answer) -> Vec<Measurement> {
 }
 
 /// Returns the error at each position of a picture, in the order of the question's elements.
-/// [`judge`] decides from the same numbers. Returns `None` if the question doesn't ask for a
-/// picture, or if the answer is the wrong size.
+/// [`judge`] uses the same numbers. Returns `None` if the question doesn't ask for a picture, or if
+/// the answer is the wrong size.
 pub fn mismatches(question: &ExamQuestion, answer: &Answer) -> Option<Vec<Option<Mismatch>>> {
     let positions = comparison(question, answer)?.positions()?;
     Some(positions.iter().map(Mismatch::first_at).collect())
@@ -152,20 +155,8 @@ fn comparison<'a>(
                 answers,
             })
         }
-        (
-            Key::Tree { checks, sweep_cost },
-            Answer::Tree(answer),
-            Question::Build {
-                shapes,
-                max_leaf_size,
-            },
-        ) => Box::new(TreeAnswer {
-            criteria: TreeCriteria {
-                checks,
-                sweep_cost: *sweep_cost,
-                shapes,
-                max_leaf_size: *max_leaf_size,
-            },
+        (Key::Tree { .. }, Answer::Tree(answer), _) => Box::new(TreeAnswer {
+            criteria: TreeCriteria::of(question)?,
             answer,
         }),
         (

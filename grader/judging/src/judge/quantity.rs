@@ -9,18 +9,18 @@ use crate::types::{self, FieldType, UnitLength};
 /// The prefix of a quantity's name if the quantity is the length of a direction.
 const UNIT: &str = "unit_";
 
-/// A quantity of the rows of a table.
+/// A quantity in the rows of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Quantity {
     name: &'static str,
     /// The index of the field.
     field: usize,
-    /// Whether only the length of the field, which is a direction, is compared.
+    /// Whether the field is a direction and only its length is compared.
     is_unit_length: bool,
 }
 
 impl Quantity {
-    /// Returns the quantity of this name, or `None` if none of the fields `names` provides it.
+    /// Returns the quantity with this name, or `None` if none of the fields `names` provides it.
     pub(crate) fn named(quantity: &str, names: &'static [&'static str]) -> Option<Self> {
         let direction = quantity.strip_prefix(UNIT);
         let field = names
@@ -44,7 +44,7 @@ impl Quantity {
         })
     }
 
-    /// Calls `with` with a record's value of the quantity.
+    /// Calls `with` with the value of the quantity in a record.
     fn with<T>(self, record: &dyn Record, with: impl FnOnce(&dyn FieldType) -> T) -> T {
         let value = record.value(self.field);
         if let Value::Direction(direction) = value
@@ -79,12 +79,13 @@ impl Quantity {
         };
         FailureKind::Wrong {
             what,
+            side: self.with(got, |value| value.side(&wanted.value(self.field))),
             got: self.with(got, |value| value.text()),
             wanted: self.with(wanted, |value| value.text()),
         }
     }
 
-    /// Returns the quantity in units of its tolerance.
+    /// Returns the quantity as multiples of its tolerance.
     pub(crate) fn in_tolerances(self, record: &dyn Record, scale: f32) -> Vec<f32> {
         self.with(record, |value| value.in_tolerances(scale))
     }

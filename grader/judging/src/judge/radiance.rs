@@ -1,4 +1,4 @@
-//! Compares path-traced pictures with the key. Both use common random numbers: the framework draws
+//! Compares rendered pictures with the key. Both use common random numbers: the framework draws
 //! every random number from the stream used to record the key, so no tolerance for noise is needed.
 
 use std::iter;
@@ -11,7 +11,7 @@ use crate::judge::{
     Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Position,
     Threshold, deviation,
 };
-use crate::types::multiple::in_units_of;
+use crate::types::in_units_of;
 
 /// A pixel is wrong if a channel differs by more than this fraction of the brightest channel of the
 /// expected pixel.
@@ -19,7 +19,7 @@ pub(super) const RELATIVE_TOLERANCE: f32 = 0.01;
 /// Minimum brightness for computing a tolerance. Darker pixels use this brightness.
 const MIN_BRIGHTNESS: f32 = 0.01;
 
-/// A path-traced picture and its key.
+/// A rendered picture and its key.
 pub(super) struct Radiance<'a> {
     pub(super) pixels: &'a [Vec3],
     pub(super) max_wrong_pixels: u32,
@@ -50,7 +50,8 @@ impl Comparison for Radiance<'_> {
 }
 
 impl Radiance<'_> {
-    /// Returns the deviation of each pixel, or `None` if their number differs from the key's.
+    /// Returns the deviation of each pixel, or `None` if the number of pixels differs from the
+    /// key's.
     fn deviations(&self) -> Option<impl Iterator<Item = Deviation>> {
         let got = self.answer.value()?;
         let pixels = got.iter().zip(self.pixels);
@@ -75,7 +76,7 @@ fn judge(pixels: &[Vec3], allowed: u32, answer: &ElementOutcome<Vec<Vec3>>) -> J
         ElementOutcome::Skipped => return Judgement::protocol("skipped"),
     };
     if got.len() != pixels.len() {
-        return Judgement::protocol("the number of pixels differs from the question's");
+        return Judgement::protocol("the number of pixels differs from the number asked for");
     }
     let off: Vec<usize> = (0..pixels.len())
         .filter(|&i| !pixel_deviation(got[i], pixels[i]).is_right())
@@ -85,6 +86,7 @@ fn judge(pixels: &[Vec3], allowed: u32, answer: &ElementOutcome<Vec<Vec3>>) -> J
     }
     let kind = FailureKind::Wrong {
         what: "radiance".to_owned(),
+        side: None,
         got: describe::point(got[off[0]]),
         wanted: describe::point(pixels[off[0]]),
     };

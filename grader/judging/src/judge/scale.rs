@@ -5,7 +5,7 @@ use protocol::{AnyTable, Record, Value};
 
 use crate::types;
 
-/// The scale of questions without positions in space: the length of a direction.
+/// The scale for questions without positions in space, which is the length of a direction.
 const UNIT: f32 = 1.0;
 
 /// The scales of a table's rows.
@@ -23,8 +23,8 @@ impl<'a> Scales<'a> {
         }
     }
 
-    /// Returns the scale of a row: the largest of the distance expected there and the coordinates
-    /// of the arguments and the subject.
+    /// Returns the scale of a row: the largest of its expected distance and the coordinates of the
+    /// arguments and the subject.
     pub(crate) fn of_row(&self, row: usize, expected: Option<&dyn Record>) -> f32 {
         let input = self.table.input(row);
         let input = input.as_deref().and_then(largest_coordinate);

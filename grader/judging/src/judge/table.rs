@@ -2,7 +2,7 @@
 
 use std::iter;
 
-use protocol::{Answer, AnyTable, ElementOutcome, Record, Returned};
+use protocol::{Answer, AnyTable, ElementOutcome, Record, RowOutcome};
 
 use super::deviation::{outcome_deviations, worst_by_threshold};
 use super::quantity::Quantity;
@@ -13,6 +13,7 @@ use super::{
 };
 use crate::describe;
 use crate::exam::{Aggregate, ExamQuestion, ExpectedRows, Key};
+use crate::symptom::{PRESENCE, Side};
 
 /// The rows of an answer and their key. Every row must be right, except in a picture, where a few
 /// may be wrong.
@@ -22,7 +23,7 @@ pub(crate) struct TableAnswer<'a> {
     judged: Vec<Quantity>,
     expected: &'a ExpectedRows,
     aggregate: Aggregate,
-    rows: Vec<Returned<'a>>,
+    rows: Vec<RowOutcome<'a>>,
 }
 
 /// One row: the function's result and the expected one.
@@ -32,7 +33,7 @@ pub(crate) struct Row<'a> {
     pub(crate) scale: f32,
 }
 
-/// Returns the quantities that a key compares, or `None` if it is for another function.
+/// Returns the quantities that a key compares, or `None` if the key is for another function.
 pub(crate) fn judged_quantities(
     table: &dyn AnyTable,
     judged: &[String],
@@ -49,7 +50,7 @@ pub(crate) fn judged_quantities(
 }
 
 impl<'a> TableAnswer<'a> {
-    /// Returns an answer and its key. Returns `None` if one of them doesn't belong to this
+    /// Combines an answer with its key. Returns `None` if one of them doesn't belong to this
     /// question, or if the question isn't a table.
     pub(crate) fn new(question: &'a ExamQuestion, answer: &'a Answer) -> Option<Self> {
         let table = question.question.table()?;
@@ -80,7 +81,7 @@ impl<'a> TableAnswer<'a> {
     }
 
     /// Returns the rows that the submission answered.
-    pub(crate) fn rows(&self) -> &[Returned<'a>] {
+    pub(crate) fn rows(&self) -> &[RowOutcome<'a>] {
         &self.rows
     }
 
@@ -115,7 +116,8 @@ impl<'a> TableAnswer<'a> {
         Some(match (row.got, row.wanted.as_deref()) {
             (Some(got), Some(wanted)) => self.judged[wrong].failure(got, wanted),
             (got, wanted) => FailureKind::Wrong {
-                what: "hit or miss".to_owned(),
+                what: PRESENCE.to_owned(),
+                side: Some(Side::of_presence(got.is_some())),
                 got: describe::answer::presence(self.table, got),
                 wanted: describe::answer::presence(self.table, wanted),
             },
@@ -202,7 +204,7 @@ impl Comparison for TableAnswer<'_> {
     }
 
     fn positions(&self) -> Option<Vec<Position>> {
-        let position = |(outcome, worst): (&Returned, Deviation)| {
+        let position = |(outcome, worst): (&RowOutcome, Deviation)| {
             outcome.value()?;
             Some(iter::once((Aspect::Direction, worst)).collect())
         };
@@ -288,8 +290,8 @@ mod tests {
         ExamQuestion::new(question, Key::share_of_rows(&judged, directions))
     }
 
-    /// Returns an answer whose rays all have errors in origin, direction and range, as multiples of
-    /// the tolerances.
+    /// Returns an answer whose rays all have these errors in origin, direction and range, given as
+    /// multiples of the tolerances.
     fn rays(origin: f32, direction: f32, range: f32) -> Answer {
         let ray = Ray {
             origin: Vec3::X * (origin * length::TOLERANCE),

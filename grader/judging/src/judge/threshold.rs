@@ -25,9 +25,9 @@ pub enum Threshold {
     PictureUv,
     /// Number of wrong positions of a picture.
     PicturePositions,
-    /// Brightness of one pixel of a path-traced picture.
+    /// Brightness of one pixel of a rendered picture.
     Radiance,
-    /// Number of wrong pixels of a path-traced picture.
+    /// Number of wrong pixels of a rendered picture.
     RadiancePixels,
     /// SAH cost of a tree.
     SahCost,
@@ -52,7 +52,8 @@ const OTHER: [Threshold; 10] = [
 ];
 
 impl Threshold {
-    /// Returns all thresholds: those of fields in tables, then those of pictures, then of trees.
+    /// Returns all thresholds: those of fields in tables, then those of pictures, then those of
+    /// trees.
     pub fn all() -> Vec<Threshold> {
         let trace = Trace {
             distance: 0.0,
@@ -89,7 +90,7 @@ impl Threshold {
             Threshold::PictureUv => "uv in a picture",
             Threshold::PicturePositions => "wrong positions of a picture",
             Threshold::Radiance => "radiance of a pixel",
-            Threshold::RadiancePixels => "wrong pixels of a path-traced picture",
+            Threshold::RadiancePixels => "wrong pixels of a rendered picture",
             Threshold::SahCost => "SAH cost of a tree",
             Threshold::BoxTooLarge => "excess of a box over its contents",
             Threshold::BoxTooSmall => "part of a primitive outside its box",
@@ -119,8 +120,8 @@ impl Threshold {
         }
     }
 
-    /// Returns the file and constant that define the threshold, relative to
-    /// `grader/judging/src`, or the field of an exam's key.
+    /// Returns the place where the threshold is defined: a constant and its file (relative to
+    /// `grader/judging/src`), or a field in an exam's key.
     pub fn location(self) -> &'static str {
         match self {
             Threshold::Field(_, Tolerance::Length) => "types/length.rs: TOLERANCE",

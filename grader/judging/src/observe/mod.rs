@@ -5,7 +5,7 @@
 
 mod tree;
 
-use protocol::{Answer, ElementOutcome, Question, Record, Tree};
+use protocol::{Answer, ElementOutcome, Record, Tree};
 
 use crate::exam::{ExamQuestion, Item, Key};
 use crate::judge::quantity::Quantity;
@@ -98,25 +98,11 @@ fn observe_record(judged: &[Quantity], record: Option<&dyn Record>, scale: f32) 
 
 /// Returns the defect the judge finds in a tree.
 fn observe_tree(question: &ExamQuestion, tree: &Tree) -> ObservedAnswer {
-    match (&question.key, &question.question) {
-        (
-            Key::Tree { checks, sweep_cost },
-            Question::Build {
-                shapes,
-                max_leaf_size,
-            },
-        ) => {
-            let criteria = TreeCriteria {
-                checks,
-                sweep_cost: *sweep_cost,
-                shapes,
-                max_leaf_size: *max_leaf_size,
-            };
-            let defect = criteria.defect(tree);
-            ObservedAnswer::Tree(defect.map(|defect| tree::defect(shapes, tree, &defect)))
-        }
-        _ => ObservedAnswer::NoAnswer(NoAnswerReason::Other),
-    }
+    let Some(criteria) = TreeCriteria::of(question) else {
+        return ObservedAnswer::NoAnswer(NoAnswerReason::Other);
+    };
+    let defect = criteria.defect(tree);
+    ObservedAnswer::Tree(defect.map(|defect| tree::defect(criteria.shapes, tree, &defect)))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Tests of observed numbers, which are multiples of their own question's tolerances.
 
 use glam::{Vec2, Vec3};
-use protocol::{Fields, Geometry, Interval, Ray, Trace};
+use protocol::{Fields, Geometry, Interval, Question, Ray, Trace};
 
 use super::*;
 use crate::exam::ExpectedRows;
@@ -22,8 +22,8 @@ fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
     numbers.collect()
 }
 
-/// Asserts that each number of the wrong answer is six tolerances away from the correct answer's,
-/// and that the correct answer is observed as the key says.
+/// Asserts that each number in the wrong answer is six tolerances away from the one in the correct
+/// answer, and that the observation of the correct answer is the one expected from the key.
 fn assert_six_apart(question: &ExamQuestion, wrong: &Answer, correct: &Answer) {
     assert_eq!(
         expected_elements(question),
@@ -37,8 +37,8 @@ fn assert_six_apart(question: &ExamQuestion, wrong: &Answer, correct: &Answer) {
     }
 }
 
-/// The tolerance of each element is that of its own ray: the second ray starts a hundred times
-/// farther away.
+/// Each element has the tolerance of its own ray. The second ray starts a hundred times farther
+/// away than the first.
 #[test]
 fn distances_are_multiples_of_the_tolerance_of_their_ray() {
     let ray = |x: f32| Ray::new(Vec3::new(x, 0.0, 0.0), -Vec3::X);
@@ -79,7 +79,7 @@ fn times_in_a_box_are_multiples_of_the_tolerance_of_their_ray() {
     assert_six_apart(&question, &answer(6.0), &answer(0.0));
 }
 
-/// Observes one quantity of a record, in a question of scale 1.
+/// Observes one quantity in a record, for a question whose scale is 1.
 fn observe_one(quantity: &str, record: &(impl Fields + Copy)) -> ObservedAnswer {
     let names = record.names();
     let quantity = Quantity::named(quantity, names).expect("the record has this field");
@@ -106,7 +106,8 @@ fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
 }
 
 /// A normal that is computed from a wrong position only has length one if it is normalised, and
-/// both ways of writing it are common. The wrong distance is the same in both.
+/// code with and without this normalisation is common. The wrong distance is the same in both
+/// cases.
 #[test]
 fn what_follows_from_a_wrong_distance_is_not_observed() {
     let expected = HIT;
@@ -139,8 +140,8 @@ fn what_follows_from_a_wrong_distance_is_not_observed() {
     ];
     assert!(!wrong[0].matches(&wrong[1]));
 
-    // Right normals are observed as right at any distance, and wrong normals at the right distance
-    // differ.
+    // Right normals are observed as right at any distance. At the right distance, different wrong
+    // normals are observed as different.
     let right = of(&expected, Some(&expected));
     assert!(of(&farther(expected.normal), Some(&expected)).matches(&right));
     let at_right_distance = |normal| Trace { normal, ..expected };

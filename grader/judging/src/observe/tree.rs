@@ -1,6 +1,6 @@
 //! Observes wrong trees. Correct builders produce different trees, so nodes and indices aren't
-//! compared. Instead, an observation is the kind of defect, the nodes affected, and amounts that
-//! don't depend on the order of nodes.
+//! compared. Instead, an observation consists of the kind of defect, the nodes affected, and
+//! amounts that don't depend on the order of nodes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -39,7 +39,7 @@ pub(super) fn defect(shapes: &[Shape], tree: &Tree, defect: &TreeDefect) -> (Str
         TreeDefect::Cost(_) => "times that of the best split at every node",
     };
     let amount = if let TreeDefect::Cost(ratio) = defect {
-        // Two decimals, as in the report.
+        // Rounded to two decimals, as in the report.
         ((100.0 * ratio).round() / 100.0) as f32
     } else {
         0.0
@@ -47,8 +47,8 @@ pub(super) fn defect(shapes: &[Shape], tree: &Tree, defect: &TreeDefect) -> (Str
     (format!("{what}: {words}"), amount)
 }
 
-/// Returns which nodes have wrong boxes, how they are wrong, and by how much the root's box differs
-/// from that of all shapes, as a multiple of the tolerance.
+/// Describes which nodes have wrong boxes and how these boxes are wrong. Also returns the
+/// difference between the root's box and the box around all shapes, as a multiple of the tolerance.
 fn of_boxes(
     shapes: &[Shape],
     tree: &Tree,
@@ -89,14 +89,14 @@ fn of_boxes(
     (format!("{what}: {kinds}{manner}"), amount)
 }
 
-/// Returns what all wrong boxes have in common.
+/// Describes what all wrong boxes have in common.
 fn manner(
     shapes: &[Shape],
     tree: &Tree,
     nodes: &[ReachedNode],
     wrong: &[&ReachedNode],
 ) -> &'static str {
-    /// The difference of equal boxes, relative to the diagonal.
+    /// The maximum difference between boxes that count as equal, relative to the diagonal.
     const EQUAL: f64 = 1e-4;
     let siblings = siblings(nodes);
     let is_empty = |node: &&ReachedNode| {
@@ -123,7 +123,7 @@ fn manner(
     }
 }
 
-/// Returns the other child of each node's parent, by the node's index.
+/// Returns the other child of each node's parent, keyed by the node's index.
 fn siblings<'a>(nodes: &'a [ReachedNode<'a>]) -> BTreeMap<u32, &'a ReachedNode<'a>> {
     let by_index: BTreeMap<u32, &ReachedNode> =
         nodes.iter().map(|node| (node.index, node)).collect();
@@ -184,8 +184,8 @@ mod tests {
 
     use super::*;
 
-    /// Returns the observation of a tree over four spheres in a row, listed in a different order,
-    /// after a change.
+    /// Changes a tree over four spheres in a row and returns the observation. The spheres are
+    /// listed in a different order.
     fn defect_after(change: impl FnOnce(&mut Tree)) -> Option<(String, f32)> {
         defect_by(&ALL_CHECKS, change)
     }
@@ -235,7 +235,7 @@ mod tests {
             let r = tree.nodes[2];
             (tree.nodes[0].min, tree.nodes[0].max) = (r.min + off, r.max + off);
         });
-        // One end is the sibling's. The other isn't.
+        // One end of the box is the same as the sibling's, but the other isn't.
         assert_name("box too large: leaves", |tree| {
             tree.nodes[0].max = tree.nodes[2].max;
         });

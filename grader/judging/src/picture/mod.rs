@@ -20,7 +20,7 @@ pub use worst_pixels::WorstPixel;
 /// A submitted picture compared with the expected one.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Number of pixels, horizontally and vertically.
+    /// Width and height of the picture, in pixels.
     pub film: UVec2,
     /// The quantities that can be displayed, starting with the one that shows the most serious
     /// error.
@@ -38,7 +38,7 @@ pub struct Picture {
 /// A submitted picture without a comparison.
 #[derive(Clone, Debug)]
 pub struct SubmittedPicture {
-    /// Number of pixels, horizontally and vertically.
+    /// Width and height of the picture, in pixels.
     pub film: UVec2,
     /// The quantities that can be displayed.
     pub layers: Vec<Layer>,

@@ -9,15 +9,15 @@ use crate::judge::{Aspect, Mismatch};
 /// An sRGB colour.
 pub type Colour = [u8; 3];
 
-/// Colour of a ray that hits nothing.
+/// Colour for rays that hit nothing.
 const MISS_COLOUR: Vec3 = Vec3::new(0.13, 0.13, 0.16);
-/// Colour of missing answers, NaN and infinity. No valid value has this colour.
+/// Colour for missing answers, NaN and infinity. No valid value has this colour.
 const INVALID_COLOUR: Vec3 = Vec3::new(1.0, 0.0, 1.0);
 /// Amplification of differences.
 pub(super) const DIFFERENCE_GAIN: f32 = 4.0;
 
-/// A comparison of the expected and the submitted picture in one quantity, such as depth. A pixel's
-/// colour is the mean over its sample positions.
+/// A comparison of the expected and the submitted picture for one quantity, such as depth. A
+/// pixel's colour is the mean over its sample positions.
 #[derive(Clone, Debug)]
 pub struct LayerComparison {
     /// Human-readable name.
@@ -152,8 +152,8 @@ fn layer_showing(aspect: Aspect) -> &'static str {
     }
 }
 
-/// Paints first hits; `None` stands for a missing answer. Depths are scaled by those of the
-/// expected hits `of_key`.
+/// Paints first hits. `None` stands for a missing answer. The scale for depths is computed from the
+/// expected hits, `of_key`.
 fn hit_layers(
     of_key: &[Option<Surface>],
     hits: impl Iterator<Item = Option<Option<Surface>>>,
@@ -177,7 +177,7 @@ fn hit_layers(
     ]
 }
 
-/// Returns a function from depth to grey. The nearest depth is white.
+/// Returns a function that maps depths to shades of grey. The nearest depth is white.
 fn depth_greys(hits: &[Option<Surface>]) -> impl Fn(f32) -> Vec3 {
     let depths = hits.iter().flatten().map(|surface| surface.depth);
     let (near, far) = depths.fold((f32::INFINITY, 0.0), |(near, far), depth| {

@@ -5,13 +5,12 @@ use super::{MaskPixel, Picture, compare};
 use crate::exam::{ExamQuestion, Key};
 use crate::judge::{Aspect, judge};
 
-/// Returns a question for a path-traced picture of 10 × 10 grey pixels.
+/// Returns a question for a rendered picture of 10 × 10 grey pixels.
 fn question() -> ExamQuestion {
     let question = Question::Radiance {
         scene: String::new(),
         film: UVec2::splat(10),
         samples: 1,
-        bounces: 1,
         seed: 1,
     };
     let key = Key::Radiance {

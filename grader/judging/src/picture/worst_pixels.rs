@@ -17,7 +17,7 @@ const MIN_SEPARATION: f32 = 1.0 / 9.0;
 pub struct WorstPixel {
     /// Coordinates of the pixel. (0, 0) is at the bottom left.
     pub pixel: UVec2,
-    /// The pixel's worst position, as an element index of the question.
+    /// The pixel's worst position, as the index of an element in the question.
     pub element: usize,
     /// The kind of error at that position.
     pub aspect: Aspect,

@@ -1,39 +1,40 @@
-//! A submission's answers in one task and the known mistakes that explain them.
+//! A submission's answers to the items of one task, and the known mistakes that explain them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::exam::{Exam, Item};
 use crate::signatures::ObservedAnswer;
 
-/// The minimum number of items a mistake must fail to be named if it produces no answers at all.
+/// The minimum number of items that must fail before a mistake that produces no answers at all is
+/// named.
 const MIN_FAILED_ITEMS: usize = 3;
 /// The same minimum for a mistake that doesn't explain all answers on its own.
 const MIN_FAILED_ITEMS_OF_SEVERAL: usize = 5;
 
-/// The answers to a task's items, together with the answers known mistakes would give.
+/// The answers to a task's items, together with the answers that known mistakes would give.
 pub(super) struct Evidence<'a> {
     exam: &'a Exam,
-    items: Vec<Observed<'a>>,
+    items: Vec<ObservedItem<'a>>,
     /// The mistakes that affect any of the items, in catalogue order.
     mistakes: BTreeSet<usize>,
 }
 
-/// One item's answers.
-struct Observed<'a> {
+/// The answers to one item.
+struct ObservedItem<'a> {
     item: &'a Item,
     answers: &'a [ObservedAnswer],
-    /// The wrong answers of each mistake that affects the item, by element.
+    /// For each mistake that affects the item, its wrong answers, keyed by element.
     wrong: BTreeMap<usize, BTreeMap<usize, &'a ObservedAnswer>>,
 }
 
 impl<'a> Evidence<'a> {
     pub(super) fn new(exam: &'a Exam, items: Vec<(&'a Item, &'a [ObservedAnswer])>) -> Self {
-        let items = items.into_iter().map(|(item, answers)| Observed {
+        let items = items.into_iter().map(|(item, answers)| ObservedItem {
             item,
             answers,
             wrong: wrong_answers(item),
         });
-        let items: Vec<Observed> = items.collect();
+        let items: Vec<ObservedItem> = items.collect();
         let mistakes = items.iter().flat_map(|item| item.wrong.keys().copied());
         Evidence {
             mistakes: mistakes.collect(),
@@ -57,7 +58,7 @@ impl<'a> Evidence<'a> {
     }
 
     /// Returns whether a mistake changes any answer to an item and all of the submission's answers
-    /// are the mistake's.
+    /// to the item match the mistake's.
     pub(super) fn explains(&self, mistake: usize, item: &Item) -> bool {
         let mut affected = self.affected(mistake);
         affected.any(|other| other.item.id == item.id && other.is_explained_by(&[mistake]))
@@ -65,7 +66,7 @@ impl<'a> Evidence<'a> {
 
     /// Returns the mistakes that give wrong answers. Many mistakes end in a panic or an overflow,
     /// so a mistake that does nothing else must do so in at least `min_items` items and be the only
-    /// candidate. If it panics in a way that few others do, one item less is enough.
+    /// candidate. If it panics in a way that few others do, one item fewer is enough.
     fn with_enough_failures(&self, mut causes: Vec<usize>, min_items: usize) -> Vec<usize> {
         let hints: BTreeSet<&str> = causes.iter().map(|&mistake| self.hint(mistake)).collect();
         causes.retain(|&mistake| {
@@ -89,10 +90,10 @@ impl<'a> Evidence<'a> {
     }
 
     /// Returns the mistakes whose hint is in every pair that explains all answers, provided that in
-    /// one of these pairs each mistake explains an item on its own. Otherwise, the second mistake
-    /// may only fill in what the first doesn't explain, which it could also do for the answers of
-    /// an unknown mistake. For the same reason, at least three in five answers to the items a
-    /// mistake affects must be its own.
+    /// one of these pairs each mistake explains an item on its own. Without this condition, the
+    /// second mistake might only fill in what the first doesn't explain, and it could do the same
+    /// for the answers of an unknown mistake. For the same reason, at least three in five answers
+    /// to the items that a mistake affects must match the mistake's.
     fn causes_in_pairs(&self) -> Vec<usize> {
         let mut hints: Option<BTreeSet<&str>> = None;
         let mut members = BTreeSet::new();
@@ -102,7 +103,7 @@ impl<'a> Evidence<'a> {
                     let pair = BTreeSet::from([self.hint(one), self.hint(other)]);
                     let both_needed =
                         self.affects_more_than(one, other) && self.affects_more_than(other, one);
-                    if both_needed && self.is_telling(one) && self.is_telling(other) {
+                    if both_needed && self.is_distinctive(one) && self.is_distinctive(other) {
                         members.extend([one, other]);
                     }
                     hints = Some(match hints {
@@ -120,15 +121,16 @@ impl<'a> Evidence<'a> {
         members.into_iter().collect()
     }
 
-    /// Returns whether two mistakes explain all answers, with most of them certain. An answer that
-    /// both mistakes change is open, because the result can be anything.
+    /// Returns whether two mistakes explain all answers and most of these answers are certain. An
+    /// answer that both mistakes change is open, because the result can be anything.
     fn is_explained_by_pair(&self, one: usize, other: usize) -> bool {
         let (mut certain, mut open) = (0, 0);
         for item in &self.items {
             if !item.is_explained_by(&[one, other]) {
                 return false;
             }
-            // If both mistakes change a number, the result differs from either one's.
+            // If both mistakes change a number, the result differs from what either mistake gives
+            // on its own.
             let alone = [one, other].map(|mistake| item.is_explained_by(&[mistake]));
             if alone[0] != alone[1] && item.is_changed_differently_by(one, other) {
                 return false;
@@ -146,9 +148,9 @@ impl<'a> Evidence<'a> {
         affected.any(|item| !item.wrong.contains_key(&other))
     }
 
-    /// Returns the mistakes that explain every item they affect. These must be several items and
-    /// most of the wrong ones, and no mistake with a different hint may explain them along with
-    /// every item that it affects itself.
+    /// Returns the mistakes that explain every item they affect. There must be several such items,
+    /// they must be most of the wrong items, and no mistake with a different hint may explain these
+    /// items and every other item that it affects.
     fn partial_causes(&self) -> Vec<usize> {
         let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
         let is_cause = |mistake: usize| {
@@ -163,7 +165,7 @@ impl<'a> Evidence<'a> {
             };
             let mut others = self.mistakes.iter().copied();
             affected.len() >= 2
-                && self.is_telling(mistake)
+                && self.is_distinctive(mistake)
                 && 2 * affected.len() > wrong
                 && explains(mistake)
                 && !self.has_same_defect_elsewhere(mistake)
@@ -173,8 +175,9 @@ impl<'a> Evidence<'a> {
         mistakes.filter(|&mistake| is_cause(mistake)).collect()
     }
 
-    /// Returns how many wrong answers match a mistake's, and how many answers differ from it in the
-    /// items it affects. Misses are no evidence, because too many mistakes lead to them.
+    /// Returns, for the items that a mistake affects, how many wrong answers match the mistake's
+    /// and how many answers differ from the mistake's. Misses are no evidence, because too many
+    /// mistakes lead to them.
     fn agreement(&self, mistake: usize) -> (usize, usize) {
         let (mut agreeing, mut differing) = (0, 0);
         for item in self.affected(mistake) {
@@ -191,10 +194,10 @@ impl<'a> Evidence<'a> {
         (agreeing, differing)
     }
 
-    /// Returns whether items a mistake leaves correct fail in the same way as those it affects: a
-    /// tree shows the same defect, or several items lack an answer for the same reason. If so, the
-    /// failures have a different cause. A single such item proves nothing, since the same mistake
-    /// in different code may give no answer.
+    /// Returns whether items that the mistake would leave correct fail in the same way as those it
+    /// affects: a tree shows the same defect, or several items lack an answer for the same reason.
+    /// If so, the failures have a different cause. A single such item proves nothing, since
+    /// different code with the same mistake may give no answer.
     fn has_same_defect_elsewhere(&self, mistake: usize) -> bool {
         let wrong: Vec<_> = self.wrong_answers(mistake).collect();
         let has_same_defect = |answer: &ObservedAnswer| {
@@ -225,7 +228,7 @@ impl<'a> Evidence<'a> {
 
     /// Returns whether a mistake does more than miss everything: it gives a wrong answer other than
     /// a miss, or leaves a hit correct in an item that it affects.
-    fn is_telling(&self, mistake: usize) -> bool {
+    fn is_distinctive(&self, mistake: usize) -> bool {
         let mut affected = self.affected(mistake);
         affected.any(|item| {
             let wrong = &item.wrong[&mistake];
@@ -254,7 +257,7 @@ impl<'a> Evidence<'a> {
         affected.flat_map(move |item| item.wrong[&mistake].values().copied())
     }
 
-    fn affected(&self, mistake: usize) -> impl Iterator<Item = &Observed<'a>> {
+    fn affected(&self, mistake: usize) -> impl Iterator<Item = &ObservedItem<'a>> {
         let items = self.items.iter();
         items.filter(move |item| item.wrong.contains_key(&mistake))
     }
@@ -264,14 +267,15 @@ impl<'a> Evidence<'a> {
     }
 }
 
-impl Observed<'_> {
+impl ObservedItem<'_> {
     /// Returns whether any answer is wrong.
     fn is_wrong(&self) -> bool {
         !self.is_explained_by(&[])
     }
 
-    /// Returns whether each answer can be explained by the mistakes: where none of them changes it,
-    /// it must be correct, and elsewhere it must be made of their answers.
+    /// Returns whether these mistakes together explain all answers: an answer that none of them
+    /// changes must be correct, and any other must be a combination of the mistakes' answers and
+    /// the correct one.
     fn is_explained_by(&self, mistakes: &[usize]) -> bool {
         let correct = self.item.signatures.correct_answers.iter();
         let mut answers = self.answers.iter().zip(correct).enumerate();
@@ -319,7 +323,7 @@ impl Observed<'_> {
     }
 }
 
-/// Returns the wrong answers of each mistake, by element.
+/// Returns each mistake's wrong answers, keyed by element.
 fn wrong_answers(item: &Item) -> BTreeMap<usize, BTreeMap<usize, &ObservedAnswer>> {
     let mut wrong = BTreeMap::new();
     for answers in &item.signatures.mistake_answers {

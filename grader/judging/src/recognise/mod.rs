@@ -1,15 +1,15 @@
 //! Recognises the known mistakes behind wrong answers.
 //!
 //! A false hint is worse than none, so a mistake is only named in three cases, and only for items
-//! where every answer is the mistake's. If the mistake gives no answers at all, several items must
-//! fail the way they do with it. If it makes every ray miss, it is never named, because any code
-//! that finds nothing gives the same answers.
+//! where every answer matches the mistake's. If the mistake gives no answers at all, several items
+//! must fail in the way that the mistake makes them fail. If it makes every ray miss, it is never
+//! named, because any code that finds nothing gives the same answers.
 //!
 //! 1. It explains all answers in the task on its own.
-//! 2. It explains them together with one other mistake, and every pair that does includes it. Most
-//!    answers must match one of the two, because where both change an answer, the result can be
-//!    anything.
-//! 3. It explains every item it affects, these are most of the wrong items, and no other known
+//! 2. It explains all answers together with one other mistake, and every pair of mistakes that does
+//!    so includes it. Most answers must match one of the two, because where both change an answer,
+//!    the result can be anything.
+//! 3. It explains every item it affects, these items are most of the wrong ones, and no other known
 //!    mistake explains them. Other items of the task may be wrong for another reason.
 
 mod evidence;
@@ -27,14 +27,14 @@ use crate::signatures::{KnownMistake, NoAnswerReason, ObservedAnswer};
 /// list wouldn't help.
 pub const MAX_MISTAKES: usize = 3;
 
-/// The minimum number of answered items with rays that should hit something before "nothing is ever
-/// hit" is reported.
+/// The minimum number of answered items with rays that should hit something. With fewer, "nothing
+/// is ever hit" isn't reported.
 const MIN_ITEMS_WITHOUT_HITS: usize = 3;
 
-/// The observations of a submission's answers in one task.
+/// The observations of a submission's answers to the items of one task.
 #[derive(Clone, Debug, Default)]
 pub struct Observations {
-    /// The answers to the signature elements of each item, by item id.
+    /// The answers to the signature elements of each item, keyed by item id.
     answers: BTreeMap<String, Vec<ObservedAnswer>>,
     /// The number of answered items where a ray should hit something.
     items_to_hit: usize,
@@ -43,7 +43,7 @@ pub struct Observations {
 }
 
 impl Observations {
-    /// Records the answers to an item, or why they are missing.
+    /// Records the answers to an item, or the reason that they are missing.
     pub fn record(&mut self, item: &Item, answers: Result<&[Answer], NoAnswerReason>) {
         if let Ok(answers) = answers {
             self.items_to_hit += usize::from(can_be_hit(item));
@@ -98,8 +98,8 @@ impl Observations {
     }
 }
 
-/// Returns whether one of an item's rays should hit something. Pictures are ignored: they also need
-/// other tasks, which can be the reason they have no answer.
+/// Returns whether one of an item's rays should hit something. Pictures are ignored, because they
+/// also need other tasks, and those can be the reason a picture has no answer.
 fn can_be_hit(item: &Item) -> bool {
     item.questions.iter().any(|question| match &question.key {
         Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),

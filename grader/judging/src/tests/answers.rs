@@ -1,4 +1,4 @@
-//! Answers derived from the keys of the practice exam, and errors to insert in their elements.
+//! Answers derived from the keys of the practice exam, and errors to insert into their elements.
 
 use std::sync::LazyLock;
 

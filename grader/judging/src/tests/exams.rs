@@ -1,4 +1,5 @@
-//! Exams as data: the numbering of elements, rejected exams, and the mistake behind an answer.
+//! Tests of exams as data: the numbering of elements, rejected exams, and the mistake behind an
+//! answer.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -32,7 +33,8 @@ fn index_of(exam: &Exam, id: &str) -> usize {
     exam.items.iter().position(|item| item.id == id).unwrap()
 }
 
-/// Returns the answer of a camera to a question about rays with these directions.
+/// Returns a camera's answer to a question about rays. `change` returns the direction of each ray
+/// from its index and the correct direction.
 fn camera_answer(question: &ExamQuestion, change: impl Fn(usize, Vec3) -> Vec3) -> Answer {
     let Key::Table {
         rows: ExpectedRows::Rays(directions),
@@ -117,16 +119,17 @@ fn an_exam_is_read_as_it_was_written() {
 #[test]
 fn an_exam_in_another_format_is_refused_for_its_format_and_not_for_its_fields() {
     let problem = |schema| parse(&format!(r#"{{"schema": {schema}, "ideas": []}}"#)).unwrap_err();
-    let other = problem("3");
-    assert!(other.contains("its format is version 3, but"), "{other}");
+    let other = problem("2");
+    assert!(other.contains("its format is version 2, but"), "{other}");
     assert!(other.ends_with("`cargo author exam --seed S` writes a valid one"));
-    assert!(problem("2").contains("unknown field `ideas`"));
+    assert!(problem("3").contains("unknown field `ideas`"));
 }
 
 #[test]
 fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
     let ids = ["camera.corners", "camera.picture", "sphere.near_side"];
-    // The picture has all of its rays: as many as a film of the maximum width and a height of 1.
+    // Unlike in `PART`, the picture has all of its rays here: as many as a film with the maximum
+    // width and a height of 1 would have.
     let items = EXAM.items.iter();
     let items = items.filter(|item| ids.contains(&item.id.as_str()));
     let exam = Exam {
@@ -174,7 +177,7 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
         (
             format!("/items/{sphere}/questions/0/key"),
             exam["items"][camera]["questions"][0]["key"].clone(),
-            "are of different kinds",
+            "a key for a different kind of question",
         ),
         (
             item("questions/0/key"),
@@ -249,11 +252,14 @@ fn a_key_of_first_hits_fits_only_the_rays_of_a_view() {
         },
     ] {
         let problem = problem_after(change).unwrap_or_default();
-        assert!(problem.contains("are of different kinds"), "{problem}");
+        assert!(
+            problem.contains("a key for a different kind of question"),
+            "{problem}"
+        );
     }
 }
 
-/// Returns the answers of a camera that maps each right direction to another.
+/// Returns the observed answers of a camera that changes each correct direction with `change`.
 fn camera_answers(exam: &Exam, change: impl Fn(Vec3) -> Vec3) -> Observations {
     let mut observations = Observations::default();
     for item in exam.items.iter().filter(|item| item.task.id() == "camera") {

@@ -37,8 +37,8 @@ fn is_picture(item: &Item) -> bool {
     item.questions.iter().all(of_first_hits)
 }
 
-/// Returns whether a task is reported to miss everything if one item has these answers, or none for
-/// this reason, and all other rays miss.
+/// Returns whether a task is reported to miss everything if one item has these answers (or has
+/// none, for this reason) and all other rays miss.
 fn misses_everything(
     items: &[&Item],
     one: &Item,

@@ -1,5 +1,5 @@
-//! Properties of judging, for all questions of the practice exam: the key's own answer passes, and a
-//! worse answer never earns more.
+//! Properties of judging, for all questions of the practice exam: the key's own answer passes, and
+//! a worse answer never earns more.
 
 use std::collections::BTreeSet;
 
@@ -20,7 +20,7 @@ fn any_error() -> impl Strategy<Value = Error> {
     ]
 }
 
-/// Returns distinct elements of an answer, one for each of these numbers or fewer.
+/// Returns distinct elements of an answer, at most one for each of these numbers.
 fn elements(answer: &Answer, numbers: &[usize]) -> Vec<usize> {
     let mut elements: Vec<usize> = numbers.iter().map(|n| n % count(answer)).collect();
     elements.sort_unstable();
@@ -28,7 +28,7 @@ fn elements(answer: &Answer, numbers: &[usize]) -> Vec<usize> {
     elements
 }
 
-/// Returns the credit of an answer where these elements are wrong.
+/// Returns the credit for an answer in which these elements are wrong.
 fn credit(question: &ExamQuestion, answer: &Answer, wrong: &[usize], how: Error) -> Credit {
     let mut answer = answer.clone();
     for &element in wrong {
@@ -86,10 +86,11 @@ fn without_a_right_element_an_answer_earns_nothing() {
     }
 }
 
-/// Questions of the same item may ask for the same thing in two sizes, so their answers may be
-/// equal in everything the item compares. Some questions cannot tell such answers apart either: if
-/// one row answers a whole question, as with the length of a direction, any other question's row
-/// does too, and a pattern of hits and misses can occur twice.
+/// Questions of the same item are skipped. They may ask for the same thing in two sizes, so their
+/// answers may be equal in everything the item compares. Two kinds of questions are skipped because
+/// answers to questions of other items may pass. If one row answers the whole question, as with the
+/// length of a direction, any other question's row does too. A pattern of hits and misses can occur
+/// twice.
 #[test]
 fn answers_to_questions_of_other_items_do_not_pass() {
     let item = |question: &ExamQuestion| {
@@ -188,7 +189,7 @@ fn with_ray(answer: &mut Answer, index: usize, change: impl Fn(&mut Ray)) {
     }
 }
 
-/// Tests each kind of table explicitly, because random tables would rarely be of a rare kind.
+/// Tests each kind of table explicitly, because a random choice would rarely pick a rare kind.
 #[test]
 fn tables_are_measured_as_they_are_judged() {
     let mut asked = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! Numbers of shapes and nodes, which are either equal or wrong.
+//! Shape and node numbers, which are either equal or wrong.
 
 use protocol::Value;
 

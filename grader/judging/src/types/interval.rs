@@ -1,10 +1,12 @@
-//! Intervals: parts of a ray. Both ends are compared as lengths.
+//! Intervals: parts of a ray, and the ranges of rays, whose ends may be infinite. Ends are compared
+//! as lengths.
 
 use protocol::{Interval, Value};
 
 use super::length;
 use super::{FieldType, Tolerance, number};
 
+/// A part of a ray.
 pub(super) struct Times(pub(super) Interval);
 
 impl FieldType for Times {
@@ -26,6 +28,37 @@ impl FieldType for Times {
 
     fn in_tolerances(&self, scale: f32) -> Vec<f32> {
         length::in_tolerances(&[self.0.min, self.0.max], scale)
+    }
+}
+
+/// The range of a ray.
+pub(super) struct Range(pub(super) Interval);
+
+impl FieldType for Range {
+    fn text(&self) -> String {
+        text(self.0)
+    }
+
+    fn tolerance(&self) -> Option<Tolerance> {
+        Some(Tolerance::Length)
+    }
+
+    fn error(&self, wanted: &Value, scale: f32) -> f64 {
+        let Value::Range(wanted) = wanted else {
+            return f64::INFINITY;
+        };
+        if self.0.max == wanted.max {
+            length::error(self.0.min, wanted.min, scale, length::TOLERANCE)
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn in_tolerances(&self, scale: f32) -> Vec<f32> {
+        // All mistakes that make the range finite should look alike.
+        let Interval { min, max } = self.0;
+        let end = if max.is_finite() { 0.0 } else { max };
+        length::in_tolerances(&[min, end], scale)
     }
 }
 

@@ -2,10 +2,10 @@
 
 use protocol::Value;
 
-use super::multiple::in_units_of;
-use super::{FieldType, Tolerance, number};
+use super::{FieldType, Tolerance, in_units_of, number};
+use crate::symptom::Side;
 
-/// Tolerance of lengths: distances, positions and times. Relative to the scale of the question.
+/// Tolerance for lengths (distances, positions and times), relative to the question's scale.
 pub(crate) const TOLERANCE: f32 = 1e-4;
 
 pub(super) struct Length(pub(super) f32);
@@ -26,6 +26,13 @@ impl FieldType for Length {
         error(self.0, *wanted, scale, TOLERANCE)
     }
 
+    fn side(&self, wanted: &Value) -> Option<Side> {
+        let Value::Length(wanted) = wanted else {
+            return None;
+        };
+        Side::of(self.0, *wanted)
+    }
+
     fn in_tolerances(&self, scale: f32) -> Vec<f32> {
         in_tolerances(&[self.0], scale)
     }
@@ -34,12 +41,12 @@ impl FieldType for Length {
 /// Returns the error of a length, as a multiple of `tolerance`, which is relative to `scale` or to
 /// the length itself, whichever is larger.
 pub(crate) fn error(got: f32, wanted: f32, scale: f32, tolerance: f32) -> f64 {
-    // ∞ − ∞ is NaN, which is treated as infinitely far off.
+    // ∞ − ∞ is NaN, which is treated as an infinite error.
     let limit = tolerance * wanted.abs().max(scale);
     in_units_of(limit.into(), (got - wanted).abs().into())
 }
 
-/// Returns lengths in units of their tolerance.
+/// Returns lengths as multiples of their tolerance.
 pub(super) fn in_tolerances(lengths: &[f32], scale: f32) -> Vec<f32> {
     // Avoid a tolerance of 0 if everything in a question is at the origin.
     let tolerance = (TOLERANCE * scale).max(f32::MIN_POSITIVE);

@@ -1,20 +1,19 @@
-//! The types of fields: how values of each type are compared, printed and observed. Each type has
-//! its own file, and all functions use the same types.
+//! The types of fields: how values of each type are compared, printed and observed. Similar types
+//! share a file, and all functions use the same types.
 
-mod asked;
 pub(crate) mod direction;
 mod index;
 mod interval;
 pub(crate) mod length;
-pub(crate) mod multiple;
 mod number;
 pub(crate) mod point;
-mod range;
+mod question_value;
 mod shapes;
-mod unit_length;
 pub(crate) mod uv;
 
 use protocol::Value;
+
+use crate::symptom::Side;
 
 pub use interval::{optional_text as span, text as interval};
 pub use number::number;
@@ -22,28 +21,33 @@ pub use point::text as point;
 pub use shapes::{one_or_count, text as shapes};
 pub use uv::text as uv;
 
-pub(crate) use unit_length::UnitLength;
+pub(crate) use direction::UnitLength;
 
 /// The type of a field.
 pub(crate) trait FieldType {
     /// Returns the value as text.
     fn text(&self) -> String;
 
-    /// Returns the largest coordinate, if the value is a position in space. Lengths are
-    /// compared relative to the largest one in a question.
+    /// Returns the largest coordinate, if the value is a position in space. Lengths are compared
+    /// relative to the largest coordinate in a question.
     fn largest_coordinate(&self) -> Option<f32> {
         None
     }
 
-    /// Returns the tolerance of values of this type, or `None` if they are either equal or wrong.
+    /// Returns the tolerance for values of this type, or `None` if they are either equal or wrong.
     fn tolerance(&self) -> Option<Tolerance> {
         None
     }
 
     /// Returns the error of the value, as a multiple of the tolerance. Never NaN, and infinite if
-    /// the values cannot be compared. `scale` is the question's.
+    /// the values cannot be compared. `scale` is the scale of the question.
     fn error(&self, _wanted: &Value, _scale: f32) -> f64 {
         f64::INFINITY
+    }
+
+    /// Returns whether the value is smaller or larger than expected, if its type has an order.
+    fn side(&self, _wanted: &Value) -> Option<Side> {
+        None
     }
 
     /// Returns the value as multiples of its tolerance.
@@ -52,14 +56,14 @@ pub(crate) trait FieldType {
     }
 }
 
-/// The tolerance of a type.
+/// The tolerance for a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tolerance {
-    /// The tolerance of lengths, relative to the question's scale.
+    /// The tolerance for lengths, relative to the question's scale.
     Length,
-    /// The tolerance of unit vectors, as the length of their difference.
+    /// The tolerance for unit vectors, as the length of their difference.
     Direction,
-    /// The tolerance of texture coordinates.
+    /// The tolerance for texture coordinates.
     Uv,
 }
 
@@ -71,7 +75,7 @@ pub(crate) fn of<'a>(value: &'a Value<'_>) -> Box<dyn FieldType + 'a> {
         Value::Direction(direction) => Box::new(direction::Direction(*direction)),
         Value::Uv(uv) => Box::new(uv::Uv(*uv)),
         Value::Interval(times) => Box::new(interval::Times(*times)),
-        Value::Range(range) => Box::new(range::Range(*range)),
+        Value::Range(range) => Box::new(interval::Range(*range)),
         Value::Index(index) => Box::new(index::Index(*index)),
         Value::Shapes(list) => Box::new(shapes::Shapes(list)),
         Value::Count(_)
@@ -80,7 +84,22 @@ pub(crate) fn of<'a>(value: &'a Value<'_>) -> Box<dyn FieldType + 'a> {
         | Value::Film(_)
         | Value::Pixel(_)
         | Value::Offset(_)
-        | Value::Nodes(_) => Box::new(asked::Asked(value)),
+        | Value::Nodes(_) => Box::new(question_value::QuestionValue(value)),
+    }
+}
+
+/// Returns `error` as a multiple of `limit`. Never NaN: the error of values that cannot be compared
+/// is infinite.
+pub(crate) fn in_units_of(limit: f64, error: f64) -> f64 {
+    // An error of 0 is accepted even if the limit is 0.
+    if error <= 0.0 {
+        return 0.0;
+    }
+    let multiple = error / limit;
+    if multiple.is_nan() {
+        f64::INFINITY
+    } else {
+        multiple
     }
 }
 

@@ -3,8 +3,7 @@
 use glam::Vec3;
 use protocol::Value;
 
-use super::multiple::in_units_of;
-use super::{FieldType, Tolerance, length, number};
+use super::{FieldType, Tolerance, in_units_of, length, number};
 
 pub(super) struct Point(pub(super) Vec3);
 

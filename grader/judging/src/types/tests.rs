@@ -4,9 +4,9 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use protocol::{Interval, Value};
 
-use super::{Tolerance, direction, length, of, uv};
+use super::{Tolerance, direction, in_units_of, length, of, uv};
 
-/// The types, each with a correct value and an answer that may be anything.
+/// Generates pairs of a correct value, of any type, and an answer that may be anything.
 fn pair() -> impl Strategy<Value = (Value<'static>, Value<'static>)> {
     let unit = |at: Vec3| at.try_normalize().unwrap_or(Vec3::X);
     let correct = (point(-1e3..1e3), 0.0..1e3_f32);
@@ -118,4 +118,10 @@ proptest! {
             prop_assert!(differences.any(|difference| difference > 1.0), "{observed:?}");
         }
     }
+}
+
+#[test]
+fn a_zero_limit_allows_only_a_zero_error() {
+    assert_eq!(in_units_of(0.0, 0.0), 0.0);
+    assert_eq!(in_units_of(0.0, 1e-30), f64::INFINITY);
 }

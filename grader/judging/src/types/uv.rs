@@ -3,10 +3,9 @@
 use glam::Vec2;
 use protocol::Value;
 
-use super::multiple::in_units_of;
-use super::{FieldType, Tolerance, number};
+use super::{FieldType, Tolerance, in_units_of, number};
 
-/// Tolerance of texture coordinates.
+/// Tolerance for texture coordinates.
 pub(crate) const TOLERANCE: f32 = 2e-3;
 
 pub(super) struct Uv(pub(super) Vec2);

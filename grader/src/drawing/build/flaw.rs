@@ -1,4 +1,5 @@
-//! The flaw of a tree: the defect that the judge finds, with its node, or the tree's cost.
+//! Describes the flaw in a tree: either the defect that the judge finds and the node that has it,
+//! or the tree's cost.
 
 use judging::judge::tree::defect::TreeDefect;
 use judging::judge::tree::reached_nodes::ReachedNode;
@@ -6,11 +7,11 @@ use judging::judge::tree::{self, FULL_MARKS_RATIO, TreeCriteria};
 
 use crate::machine::printing::counted;
 
-/// The flaw of a tree.
+/// The flaw in a tree.
 pub(super) struct Flaw<'a> {
     /// The defect found by the judge.
     pub(super) defect: Option<TreeDefect>,
-    /// The node with the defect, or `None` if it concerns the whole tree.
+    /// The node with the defect, or `None` if the defect concerns the whole tree.
     pub(super) node: Option<&'a ReachedNode<'a>>,
     /// The primitives that are in no leaf.
     pub(super) missing: Vec<usize>,
@@ -19,21 +20,13 @@ pub(super) struct Flaw<'a> {
 }
 
 impl<'a> Flaw<'a> {
-    /// Returns the flaw of a tree with this defect.
+    /// Returns the flaw in a tree that has this defect.
     pub(super) fn new(
         criteria: &TreeCriteria,
         defect: Option<TreeDefect>,
         nodes: &'a [ReachedNode<'a>],
     ) -> Self {
-        let index = match &defect {
-            Some(TreeDefect::BoxTooSmall(node) | TreeDefect::BoxTooLarge(node)) => Some(node.index),
-            Some(
-                TreeDefect::LeafTooLarge { leaf: index, .. }
-                | TreeDefect::NotSplit { leaf: index, .. }
-                | TreeDefect::NeedlessSplit { node: index, .. },
-            ) => Some(*index),
-            _ => None,
-        };
+        let index = defect.as_ref().and_then(TreeDefect::node);
         let leaves_of = tree::leaves_of_primitives(nodes, criteria.shapes.len());
         let of = |is: fn(usize) -> bool| -> Vec<usize> {
             let primitives = (0..).zip(&leaves_of);
@@ -84,10 +77,10 @@ impl<'a> Flaw<'a> {
                 )
             }
             Some(TreeDefect::NotSplit { leaf, count, .. }) => {
-                format!("Leaf {leaf} has {count} of {all} primitives: the tree is hardly split.")
+                format!("Leaf {leaf} has {count} of {all} primitives: the tree is barely split.")
             }
             Some(TreeDefect::NeedlessSplit { node, count, most }) => format!(
-                "Node {node} is split although it has only {}; up to {most} belong in one leaf.",
+                "Node {node} is split even though it only has {}; up to {most} belong in one leaf.",
                 primitives(*count)
             ),
             Some(TreeDefect::Partition { .. }) => format!(

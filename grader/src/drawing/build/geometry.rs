@@ -2,7 +2,7 @@
 //! axes.
 
 use glam::{DVec2, DVec3, dvec2};
-use judging::drawing_data::Sweep;
+use judging::drawing_data::UpperLevels;
 use judging::judge::tree::TreeCriteria;
 use judging::judge::tree::bounds::Bounds;
 use judging::judge::tree::defect::TreeDefect;
@@ -30,7 +30,7 @@ const MAX_ROW_PRIMITIVES: usize = 32;
 pub(super) fn draw(
     sheet: &mut Sheet,
     criteria: &TreeCriteria,
-    sweep: Option<&Sweep>,
+    sweep: Option<&UpperLevels>,
     nodes: &[ReachedNode],
     flaw: &Flaw,
 ) {
@@ -50,7 +50,7 @@ pub(super) fn draw(
     }
 }
 
-/// Returns the plane of `axis` and the other axis with the larger `size`.
+/// Returns the plane spanned by `axis` and whichever of the other two axes has the larger `size`.
 fn plane_containing(axis: usize, size: DVec3) -> Plane {
     let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
     Plane::of(axis, if size[p] >= size[q] { p } else { q })

@@ -1,7 +1,8 @@
-//! A tree as rows of bars, one row per level. The width of a node is its share of the primitives.
+//! Draws a tree as rows of bars, one row per level. The width of a node's bar shows its share of
+//! the primitives.
 
 use glam::{DVec2, dvec2};
-use judging::drawing_data::{LevelNode, Sweep};
+use judging::drawing_data::{LevelNode, UpperLevels};
 
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
@@ -32,7 +33,7 @@ pub(super) fn draw(
     canvas.text(at_right(top - 6.0), Anchor::End, Ink::Faint, "SAH cost");
     let deepest = nodes.iter().map(|node| node.level).max().unwrap_or(0);
     let mut sum = 0.0;
-    for level in 0..=deepest.min(Sweep::LEVELS - 1) {
+    for level in 0..=deepest.min(UpperLevels::LEVELS - 1) {
         let y = top + ROW_HEIGHT * f64::from(level);
         let on_level = nodes.iter().filter(|node| node.level == level);
         let cost: f64 = on_level.clone().map(|node| f64::from(node.cost)).sum();

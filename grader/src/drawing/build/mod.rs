@@ -1,5 +1,5 @@
-//! Draws a tree built by the submission: its flaw, its upper levels and, below these, the upper
-//! levels of the tree with the best split at every node, which is stored in the exam.
+//! Draws a tree built by the submission: its flaw and its upper levels. Below these, draws the
+//! upper levels of the tree stored in the exam, which has the best split at every node.
 
 mod flaw;
 mod geometry;
@@ -13,17 +13,18 @@ use super::sheet::{Sheet, Symbol};
 use super::{Drawing, value};
 
 use flaw::Flaw;
-use judging::drawing_data::{LevelNode, Sweep};
+use judging::drawing_data::{LevelNode, UpperLevels};
 use judging::judge::tree::reached_nodes::{ReachedNode, reached_nodes};
 use judging::judge::tree::{self, TreeCriteria};
 
-const TITLE: &str = "The tree by levels, each node as wide as its share of the primitives";
+const TITLE: &str =
+    "The levels of the tree; the width of each node is proportional to its share of the primitives";
 
-/// Draws the submitted tree. It is judged by `criteria`. `sweep` is the exact sweep's tree, if the
-/// exam contains it.
+/// Draws the submitted tree, which is judged by `criteria`. `sweep` is the exact sweep's tree, if
+/// the exam contains it.
 pub(super) fn draw(
     criteria: &TreeCriteria,
-    sweep: Option<&Sweep>,
+    sweep: Option<&UpperLevels>,
     answer: Option<&Answer>,
 ) -> Option<Drawing> {
     let tree = tree_answer(answer)?;
@@ -43,7 +44,7 @@ pub(super) fn draw(
     let mut sheet = Sheet::default();
     geometry::draw(&mut sheet, criteria, sweep, &nodes, &flaw);
     sheet.title("your tree");
-    let upper = from_left(&nodes).filter(|node| node.level < Sweep::LEVELS);
+    let upper = from_left(&nodes).filter(|node| node.level < UpperLevels::LEVELS);
     let own: Vec<LevelNode> = upper.map(|node| level_node(node, root)).collect();
     let mark = flaw.node.map(|node| level_node(node, root));
     let symbol = levels::draw(&mut sheet, &own, root.count as u32, total, mark);
@@ -61,20 +62,23 @@ fn tree_answer(answer: Option<&Answer>) -> Option<&Tree> {
     value(std::slice::from_ref(tree), 0)
 }
 
-fn draw_sweep(sheet: &mut Sheet, sweep: &Sweep) {
+fn draw_sweep(sheet: &mut Sheet, sweep: &UpperLevels) {
     let count = |node: &LevelNode| (node.level == 0).then_some(node.count);
     let Some(all) = sweep.nodes.iter().find_map(count) else {
         return;
     };
     sheet.title("with the best split at every node");
-    // The exam only stores the upper levels, so the total is unknown.
+    // The exam only stores the upper levels, so the total cost is unknown.
     let total = f64::NAN;
     levels::draw(sheet, &sweep.nodes, all, total, None);
 }
 
 fn draw_legend(sheet: &mut Sheet, criteria: &TreeCriteria, flaw: &Flaw, symbol: Symbol, cost: f64) {
     let [interior, leaf] = [Fill::Tint(Ink::Text, 0.5), Fill::None].map(Symbol::Area);
-    sheet.add_legend(interior, "a split node; stronger colour: larger box");
+    sheet.add_legend(
+        interior,
+        "a split node; a stronger colour means a larger box",
+    );
     sheet.add_legend(leaf, "half height: a leaf; numbers: primitives");
     if flaw.node.is_some() {
         sheet.add_legend(symbol, flaw.label());
@@ -97,14 +101,13 @@ fn from_left<'a>(nodes: &'a [ReachedNode]) -> impl Iterator<Item = &'a ReachedNo
 
 /// Returns a node in the format used by the exam for the exact sweep's tree.
 fn level_node(node: &ReachedNode, root: &ReachedNode) -> LevelNode {
-    let cost = node.cost() / root.tight_bounds.area();
+    let cost = node.cost() / root.tight_bounds.area().max(f64::MIN_POSITIVE);
     LevelNode {
         level: node.level,
         start: node.start as u32,
         count: node.count as u32,
         is_leaf: node.leaf_primitives.is_some(),
-        // The area of an empty node isn't finite.
-        cost: if cost.is_finite() { cost } else { 0.0 } as f32,
+        cost: cost as f32,
     }
 }
 

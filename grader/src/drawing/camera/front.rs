@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3, UVec2, dvec2};
 use judging::describe;
 use protocol::{Ray, Sample};
 
-use super::sensor::{Sensor, draw_grid};
 use super::sensor_crossing;
+use super::{Sensor, draw_grid};
 use crate::drawing::Drawing;
 use crate::drawing::canvas::{Anchor, Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
@@ -86,7 +86,7 @@ pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<R
         short(sample.offset.y.into())
     );
     sheet.add_legend(Symbol::Area(Fill::Tint(Ink::Text, 0.35)), &text);
-    let title = "The sensor from the front, and where the ray goes through it";
+    let title = "The sensor from the front, and the point where the ray passes through it";
     sheet.finish(title, caption(sensor, wanted, got))
 }
 
@@ -110,30 +110,32 @@ fn draw_sampled_pixel(canvas: &mut Canvas, window: &Window, sensor: &Sensor, pix
 
 fn caption(sensor: &Sensor, wanted: DVec2, got: Option<Ray>) -> String {
     let Some(ray) = got else {
-        return "The ray should go through the marked point; your code gave no answer.".to_owned();
+        return "The ray should pass through the marked point; your code gave no answer."
+            .to_owned();
     };
     let dir = ray.dir.as_dvec3();
     match sensor_crossing(dir) {
         None if dir.is_finite() && dir != DVec3::ZERO => {
-            "The camera looks down -z; your ray points another way.".to_owned()
+            "The camera looks down -z, but your ray points in a different direction.".to_owned()
         }
         None => format!("{} is not a direction.", describe::point(ray.dir)),
         Some(at) => {
             let off = (at - wanted) / sensor.pixel_size();
-            let part = |off: f64, [before, after]: [&str; 2]| match off {
-                _ if off.abs() < 0.005 => None,
-                _ if off < 0.0 => Some(format!("{} {before}", short(-off))),
-                _ => Some(format!("{} {after}", short(off))),
+            let part = |off: f64, [before, after]: [&str; 2]| {
+                let direction = if off < 0.0 { before } else { after };
+                let length = short(off.abs());
+                let unit = if length == "1" { "pixel" } else { "pixels" };
+                (off.abs() >= 0.005).then(|| format!("{length} {unit} {direction}"))
             };
             let parts = [
                 part(off.x, ["to the left", "to the right"]),
-                part(off.y, ["too low", "too high"]),
+                part(off.y, ["downwards", "upwards"]),
             ];
             let parts: Vec<String> = parts.into_iter().flatten().collect();
             if parts.is_empty() {
                 "Your ray is off by less than 1/100 of a pixel.".to_owned()
             } else {
-                format!("Your ray is off (in pixels): {}.", parts.join(", "))
+                format!("Your ray is off by {}.", parts.join(" and "))
             }
         }
     }

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, dvec2};
 use judging::describe;
 use protocol::{Interval, Ray};
 
-use super::sensor::Sensor;
+use super::Sensor;
 use crate::drawing::Drawing;
 use crate::drawing::bars::{self, BarRow, BarStyle};
 use crate::drawing::canvas::{Anchor, Canvas, Mark};
@@ -63,7 +63,7 @@ pub(super) fn draw(sensor: &Sensor, wanted: DVec3, ray: &Ray) -> Drawing {
     let behind = Symbol::Line(LineStyle::Behind);
     sheet.add_legend(behind, "all directions of length 1 end here");
     sheet.add_legend(Symbol::Mark(Mark::Origin), "the camera, at (0, 0, 0)");
-    let title = "The camera's ray from the side";
+    let title = "The camera ray, seen from the side";
     sheet.finish(title, caption(ray, length))
 }
 

@@ -15,7 +15,7 @@ impl HitComparison {
                 "The ray hits nothing; your code gave no answer.".to_owned()
             }
             (Some(wanted), HitAnswer::NoAnswer) => format!(
-                "The ray hits at {}; your code gave no answer.",
+                "The first hit is at {}; your code gave no answer.",
                 short(wanted.distance.into())
             ),
             (None, HitAnswer::Miss) => "The ray hits nothing.".to_owned(),
@@ -25,7 +25,7 @@ impl HitComparison {
                 self.range_note(got.distance)
             ),
             (Some(wanted), HitAnswer::Miss) => format!(
-                "Your code reports no hit; the ray hits at {}.",
+                "Your code reports no hit; the first hit is at {}.",
                 short(wanted.distance.into())
             ),
             (Some(wanted), HitAnswer::Hit(got)) => self.difference(&wanted, &got),
@@ -53,7 +53,7 @@ impl HitComparison {
                 describe::number(wanted.distance)
             ),
             Focus::Position => format!(
-                "Your position is {}; the ray hits at {}.",
+                "Your position is {}; the hit is at {}.",
                 describe::point(got.position),
                 describe::point(wanted.position)
             ),
@@ -64,12 +64,12 @@ impl HitComparison {
                 describe::uv(wanted.uv)
             ),
             Focus::Origin => format!(
-                "Your hit says that the ray starts at {}; it starts at {}.",
+                "According to your hit, the ray starts at {}, but it actually starts at {}.",
                 describe::point(got.origin),
                 describe::point(wanted.origin)
             ),
             Focus::Shape => format!(
-                "Your hit is of shape {}; the ray hits shape {}.",
+                "Your hit is on shape {}; the ray hits shape {}.",
                 got.shape, wanted.shape
             ),
         }

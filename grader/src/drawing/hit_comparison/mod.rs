@@ -10,8 +10,8 @@ use judging::exam::{ExamQuestion, ExpectedRows, Key, Surface};
 
 use super::value;
 
-/// The number for an expected hit's shape if it is unknown because the key is a picture's. No shape
-/// has this number.
+/// Stands for the number of the expected hit's shape if that number is unknown because the key
+/// belongs to a picture. No shape has this number.
 const UNKNOWN_SHAPE: u32 = u32::MAX;
 
 /// The submission's answer for one ray.
@@ -114,7 +114,7 @@ impl HitComparison {
         })
     }
 
-    /// Returns the point of the ray at this distance.
+    /// Returns the point on the ray at this distance.
     pub(in crate::drawing) fn at(&self, distance: f64) -> DVec3 {
         self.ray.origin.as_dvec3() + distance * self.dir()
     }
@@ -186,7 +186,7 @@ fn trace_of(surface: &Surface, ray: &Ray) -> Trace {
     }
 }
 
-/// Returns a text with the distance of a hit.
+/// Returns a label with the distance to a hit.
 pub(in crate::drawing) fn hit_text(hit: &Trace) -> String {
     format!("a hit at {}", describe::number(hit.distance))
 }

@@ -1,4 +1,4 @@
-//! Tests that any answer of a submission gives a small, well-formed drawing or none.
+//! Tests that any answer from a submission results in a small, well-formed drawing or in none.
 
 mod captions;
 
@@ -14,13 +14,13 @@ use super::{Drawing, draw};
 use crate::handed_out::RAYS;
 use crate::inputs::exam_source::ExamSource;
 
-/// An answer that fits no question with a drawing.
+/// An answer that doesn't fit any question that has a drawing.
 const NO_PICTURE: Answer = Answer::Picture(ElementOutcome::Skipped);
 
 /// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;
 
-/// The first question of each item of the practice exam.
+/// The first question of each item in the practice exam.
 static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
     let exam = ExamSource::Practice
         .load(&RAYS)

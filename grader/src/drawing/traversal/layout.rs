@@ -1,4 +1,4 @@
-//! Chooses the nodes of a traversal to draw, and determines the status of each.
+//! Chooses which nodes of a traversal to draw, and determines the status of each.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ pub(super) enum NodeStatus {
     OutOfRange,
     /// The ray enters the box only beyond the closest hit so far.
     Beyond,
-    /// The row stands for several omitted rows. Its `node` is their number.
+    /// The row stands for several omitted rows. Its `node` is the number of omitted rows.
     Elided,
 }
 

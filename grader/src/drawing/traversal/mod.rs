@@ -92,7 +92,7 @@ fn draw_legend(sheet: &mut Sheet, comparison: &HitComparison, layout: &Layout) {
     }
     add_range_legend(sheet, comparison);
     let entered = Symbol::Area(Fill::Tint(Ink::Text, 0.4));
-    sheet.add_legend(entered, "entered, in the order of the numbers");
+    sheet.add_legend(entered, "entered, numbered in order");
     sheet.add_legend(Symbol::Area(Fill::None), "not entered");
 }
 
@@ -100,8 +100,8 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
     let why = layout.got_row().map(|row| (row, row.status));
     match (comparison.got, layout.got_leaf, why) {
         (HitAnswer::Hit(hit), None, _) => format!(
-            "Your hit at {} is with a primitive in no leaf below the root: a traversal of the tree \
-             never reaches it.",
+            "Your hit at {} is on a primitive that isn't in any leaf below the root, so a traversal of the \
+             tree never reaches it.",
             short(hit.distance.into())
         ),
         (HitAnswer::Hit(_), Some(leaf), Some((row, NodeStatus::Missed))) => format!(

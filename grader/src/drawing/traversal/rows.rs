@@ -15,7 +15,7 @@ const ROW_HEIGHT: f64 = 17.0;
 pub(super) const LEFT: f64 = 156.0;
 /// The indentation per level, in page units.
 const INDENT: f64 = 5.0;
-/// The maximum number of indentations. Deeper nodes aren't indented further.
+/// The maximum number of levels to indent. Deeper nodes aren't indented further.
 const MAX_INDENTS: usize = 9;
 
 /// Draws the rows from `y` downward and the axis below them. Returns the y coordinate below the

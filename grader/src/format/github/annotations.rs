@@ -1,4 +1,4 @@
-//! Annotations, which GitHub shows at the lines of the student's own files.
+//! Annotations, which GitHub shows next to lines of the student's own files.
 
 use crate::format::github::commands::command;
 use crate::format::item_text::item_message;
@@ -53,7 +53,8 @@ fn checkout_path(file: &str, context: &FormatContext) -> String {
     }
 }
 
-/// Returns whether a verdict means that the task's own file compiles and has something to fix.
+/// Returns whether a verdict means that the task's own file compiles and that there is something to
+/// fix in it.
 fn is_annotated(verdict: &Verdict) -> bool {
     matches!(
         verdict.kind(),

@@ -5,8 +5,8 @@ use judging::sanitize::sanitize;
 
 use crate::machine::printing::without_commands;
 
-/// Returns a command with properties. Everything is sanitized and escaped, so that no text can start
-/// another command.
+/// Returns a command with properties. Everything is sanitized and escaped, so that no text can
+/// start another command.
 pub fn command(name: &str, properties: &[(&str, String)], message: &str) -> String {
     let properties = properties.iter();
     let properties: Vec<String> = properties

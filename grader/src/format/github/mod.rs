@@ -1,4 +1,4 @@
-//! GitHub Actions: a summary on the run's page and annotations on the student's lines.
+//! GitHub Actions: a summary on the run's page and annotations in the student's code.
 
 mod annotations;
 mod commands;

@@ -7,7 +7,7 @@ use crate::format::size::{fit, truncate};
 use crate::format::{FormatContext, StudentView};
 use crate::score::{ItemScore, TaskScore};
 
-/// The maximum size of a step's summary in bytes.
+/// The maximum size of a step's summary, in bytes.
 const MAX_BYTES: usize = 1 << 20;
 
 /// Renders the summary.
@@ -92,7 +92,7 @@ fn write_item(
     )
 }
 
-/// Puts a text into a code block. The fence is longer than any in the text, so that no line of the
+/// Puts text into a code block. The fence is longer than any in the text, so that no line of the
 /// text can close it.
 fn fence(text: &str) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
@@ -100,7 +100,7 @@ fn fence(text: &str) -> String {
     format!("{fence}text\n{text}\n{fence}")
 }
 
-/// Escapes a text for Markdown and puts it on one line.
+/// Escapes text for Markdown and puts it on one line.
 fn escape_markdown(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {

@@ -1,4 +1,5 @@
-//! Tests of all formats with the same score: its numbers and a snapshot of each text.
+//! Tests every format with the same score: checks the numbers and compares each text with a
+//! snapshot.
 
 use serde_json::Value;
 
@@ -13,7 +14,7 @@ fn format(id: &str) -> &'static FormatSpec {
     formats.find(|format| format.id == id).unwrap()
 }
 
-/// Returns the file of a format.
+/// Returns the rendered file of the format with this id.
 fn rendered(id: &str, view: &StudentView) -> String {
     format(id).render.unwrap()(view, &sample::context())
 }
@@ -22,14 +23,15 @@ fn json(id: &str, view: &StudentView) -> Value {
     serde_json::from_str(&rendered(id, view)).unwrap()
 }
 
-/// Returns check50's result of the item with this id.
+/// Returns check50's result for the item with this id.
 fn check50_result(view: &StudentView, id: &str) -> Value {
     let results = json("check50", view)["results"].take();
     let mut results = results.as_array().unwrap().iter();
     results.find(|result| result["name"] == id).unwrap().clone()
 }
 
-/// Returns the sum of a number over the tests of a file. A test without the number adds nothing.
+/// Returns the sum of the numbers under `key` in a file's tests. A test without this key adds
+/// nothing.
 fn sum(file: &Value, key: &str) -> u64 {
     let tests = file["tests"].as_array().unwrap().iter();
     tests.filter_map(|test| test[key].as_u64()).sum()
@@ -44,8 +46,8 @@ fn column(list: &Value, key: &str) -> Vec<String> {
     list.as_array().unwrap().iter().map(text).collect()
 }
 
-/// Each format with its file, the number of runner variables it needs, the variable with the path
-/// of a file to append to, and whether it is rendered for students.
+/// Lists each format with its file, the number of runner variables it needs, the variable with the
+/// path of a file to append to, and whether it is rendered for students.
 #[test]
 fn each_format_has_its_own_name_and_file() {
     let formats = FORMATS.map(|format| {
@@ -72,7 +74,8 @@ fn each_format_has_its_own_name_and_file() {
     assert_eq!(formats, expected);
 }
 
-/// The texts of all formats except the page, whose style is too long.
+/// Compares the rendered text of each format with a snapshot, except for the page, whose style is
+/// too long.
 #[test]
 fn everything_is_shown_of_the_practice_exam() {
     let mut settings = insta::Settings::clone_current();
@@ -177,7 +180,7 @@ fn gradescope_shows_each_item_when_the_policy_says() {
 fn gradescope_tells_no_total_that_includes_hidden_points() {
     let file = json("gradescope", &sample::restricted());
     let output = file["output"].as_str().unwrap();
-    let rules = "Some items are not shown yet.\n\nTowards the grade: 28 points count as 56; handed \
+    let rules = "Some items are not shown yet.\n\nTowards the grade: 28 points are scaled to 56; handed \
                  in 1 day late, so 10 % of the points earned are deducted.\n\nerror: expected";
     assert!(output.starts_with(rules), "{output}");
     // A program can choose how long it runs.
@@ -229,7 +232,7 @@ fn long_compiler_errors_are_shown_in_full() {
 #[test]
 fn an_unfinished_grade_is_announced() {
     let unfinished = sample::view(&sample::unfinished_score(), "", 0);
-    let notice = "UNFINISHED: 13 of 14 items are graded; the others have no points yet";
+    let notice = "UNFINISHED: 13 of 14 items have been graded; the others have no points yet";
     for id in ["text", "gradescope", "prairielearn", "github"] {
         assert!(rendered(id, &unfinished).contains(notice), "{id}");
         let finished = rendered(id, &sample::open());

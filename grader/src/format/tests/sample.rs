@@ -1,5 +1,5 @@
-//! A score with every kind of verdict, and views of it under some policies, for the tests of the
-//! formats.
+//! A score that contains every kind of verdict, and views of it under some policies. The tests for
+//! the formats use them.
 
 use std::collections::BTreeMap;
 
@@ -17,14 +17,15 @@ use crate::score::{
     BuildReport, CodeLocation, Evidence, FileReport, Hint, ItemScore, Score, Verdict,
 };
 
-/// Points are doubled, and each late day costs a tenth.
+/// A policy under which points are doubled and each late day costs a tenth.
 pub const LATE: &str = "[points]\nout_of = 56\n[late]\npercent_per_day = 10";
-/// Each visibility for some items, and full visibility for the rest.
+/// A policy that uses each visibility for some items and full visibility for the rest.
 pub const RESTRICTED: &str = "[visibility]\nfinal = 'all'\n[visibility.items]\n\
     'triangle.edge' = 'feedback'\nsphere = 'points'\nbbox = 'after_due'\nbuild = 'feedback'\n\
     'build.depth' = 'after_published'\n'build.leaves' = 'hidden'\n";
 
-/// The items: their ids, points earned and possible, the label of the verdict, and the message.
+/// The items, one per line: the id, the points earned, the maximum points, the label of the
+/// verdict, and the message.
 const ITEMS: &str = "\
 camera.corners|3|3|passed|
 camera.unit_length|1|2|partial|3 of 8 answers are wrong; in #2: length
@@ -52,7 +53,7 @@ fn read_item(line: &str) -> ItemScore {
     item(id, points, max_points, verdict.unwrap(), message)
 }
 
-/// Returns a score of 9 of 28 points in the practice exam.
+/// Returns a score of 9 out of 28 points in the practice exam.
 pub fn score() -> Score {
     let items: Vec<ItemScore> = ITEMS.lines().map(read_item).collect();
     let ids: Vec<&str> = items.iter().map(|item| item.id.as_str()).collect();
@@ -80,7 +81,7 @@ pub fn score() -> Score {
             line: Some(7),
             message: "error: expected `;`\n --> bbox.rs:7:1\u{1b}[0m".to_owned(),
         }],
-        ignored_copies: vec!["old/bvh.rs differs from bvh.rs, and is ignored".to_owned()],
+        ignored_copies: vec!["old/bvh.rs differs from bvh.rs and is ignored".to_owned()],
         notes: Vec::new(),
     };
     (score.timings.build_ms, score.timings.exam_ms) = (300, 1_200);
@@ -88,7 +89,7 @@ pub fn score() -> Score {
     score
 }
 
-/// Adds texts to some items, so that each field of an item has a value in one of them.
+/// Adds texts to some items, so that every field has a value in at least one item.
 fn add_details(item: &mut ItemScore) {
     let text = |text: &str| Some(text.to_owned());
     let location = |file: &str, line| {
@@ -118,7 +119,7 @@ fn add_details(item: &mut ItemScore) {
                 hint("Which camera?", "The camera is another one."),
             ];
             item.evidence = evidence(2, ["pixel\u{1b}[2J (1, 2)", "2", "1"]);
-            item.staff = text("answers like camera.not_normalised");
+            item.staff = text("answers like those of camera.not_normalised");
         }
         "triangle.inside" => {
             item.look = text("Draw the triangle.");
@@ -156,36 +157,37 @@ pub fn perfect_score() -> Score {
     score
 }
 
-/// Returns this score as a final exam's, which students don't have.
+/// Returns this score as if it were for a final exam, which students don't have.
 pub fn of_final_exam(mut score: Score) -> Score {
     "final".clone_into(&mut score.exam.id);
     score
 }
 
-/// Returns the students' view of a score under this policy, for a submission this late.
+/// Returns the students' view of a score under this policy, for a submission that is this many days
+/// late.
 pub fn view(score: &Score, policy: &str, late_days: u64) -> StudentView {
     let policy = Policy::from_text("policy.toml".as_ref(), policy).unwrap();
     let lateness = Lateness::of_seconds(late_days * 24 * 60 * 60);
     StudentView::new(score, &policy, lateness)
 }
 
-/// Returns the sample under the default policy, on time. Students see everything, and the points
-/// are used unchanged.
+/// Returns the sample under the default policy, submitted on time. Students see everything, and the
+/// points are used unchanged.
 pub fn open() -> StudentView {
     view(&score(), "", 0)
 }
 
-/// Returns the sample with full visibility, a day late. The final points are 16 of 56.
+/// Returns the sample with full visibility, submitted a day late. The final points are 16 of 56.
 pub fn late() -> StudentView {
     view(&score(), LATE, 1)
 }
 
-/// Returns the sample as a final exam with partial visibility, a day late.
+/// Returns the sample as a final exam with partial visibility, submitted a day late.
 pub fn restricted() -> StudentView {
     view(&of_final_exam(score()), &format!("{LATE}\n{RESTRICTED}"), 1)
 }
 
-/// Returns facts about the submission. All methods have a line, except `build`.
+/// Returns facts about the submission. All methods except `build` have a line.
 pub fn context() -> FormatContext {
     let tasks = RAYS.assignment.tasks.iter();
     let location = |(task, line): (&TaskInfo, u32)| {

@@ -2,7 +2,7 @@
 //! changed.
 //!
 //! A report is only cached if it is about a student's own work, is written to the default folder
-//! and has a reproducible result: time-outs, exhausted memory, crashes and compiler failures may
+//! and has a reproducible result: time-outs, exhausted memory, crashes and compiler failures might
 //! not happen again the next time. A cached report is never used for a different submission, exam,
 //! toolchain or grader, or after one of the report's files has changed.
 
@@ -47,7 +47,7 @@ pub struct CachedReport {
 }
 
 impl CachedReport {
-    /// Reads the valid cached report stored next to these files, if any.
+    /// Reads the cached report stored next to these files, if there is a valid one.
     pub fn read(files: &ReportFiles) -> Option<Self> {
         serde_json::from_slice(&read(files.folder.join(RECORD)).ok()?).ok()
     }
@@ -78,8 +78,9 @@ pub fn store(key: &CacheKey, score: &Score, report: &str, files: &ReportFiles) {
 }
 
 impl CacheKey {
-    /// Returns whether these options allow caching: a student's own work, the whole exam, the
-    /// default folder and no additional outputs.
+    /// Returns whether these options allow caching: a student's own work must be graded with the
+    /// whole exam, the report must be written to the default folder, and no additional outputs may
+    /// be requested.
     pub fn is_cacheable(options: &GradeOptions) -> bool {
         cacheable_options(options).is_some()
     }
@@ -106,7 +107,7 @@ impl CacheKey {
     }
 }
 
-/// Returns, as text, the options that the report depends on, or `None` if a report with these
+/// Returns a text that contains the options the report depends on, or `None` if a report with these
 /// options isn't cached.
 fn cacheable_options(options: &GradeOptions) -> Option<String> {
     // Don't use `..` here, so that a new option doesn't compile until this function handles it.

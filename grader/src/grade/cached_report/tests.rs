@@ -1,4 +1,4 @@
-//! Tests for what makes a cached report stale, with reports in temporary folders.
+//! Tests which changes make a cached report stale, using reports in temporary folders.
 
 use std::fs;
 
@@ -35,7 +35,7 @@ fn own_key() -> CacheKey {
     key(&GradeOptions::default(), &submission())
 }
 
-/// Returns a complete score of two items. The second item has this verdict.
+/// Returns a complete score for two items. The second item has this verdict.
 fn score_with(verdict: Verdict) -> Score {
     let mut score = pending(&exam(&["sphere.uv", "bbox.flat"]));
     score.complete = true;
@@ -55,7 +55,7 @@ fn report() -> (TempDir, ReportFiles) {
     (folder, files)
 }
 
-/// Returns the cached report after one with this score was stored.
+/// Stores a report with this score and returns the cached report, if there is one.
 fn stored(score: &Score) -> Option<CachedReport> {
     let (_folder, files) = report();
     store(&own_key(), score, "the report", &files);
@@ -123,7 +123,7 @@ fn every_part_of_a_submission_changes_the_key() {
     assert!(changes.into_iter().all(is_stale_after));
 }
 
-/// Returns the default options after a change.
+/// Returns the default options after applying a change.
 fn options_with(change: fn(&mut GradeOptions)) -> GradeOptions {
     let mut options = GradeOptions::default();
     change(&mut options);

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 /// The folder where systems mount control group file systems.
 const MOUNTS: &str = "/sys/fs/cgroup";
 
-/// Returns how many more bytes this process and its children can use before the system has to kill
-/// a process, if known.
+/// Returns the number of bytes that this process and its children can still use before the system
+/// has to kill a process, if known.
 pub fn available_memory() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
     let machine = fs::read_to_string("/proc/meminfo").ok();
@@ -22,7 +22,7 @@ pub fn available_memory() -> Option<u64> {
 struct Files {
     limit: &'static str,
     usage: &'static str,
-    /// The entries of `memory.stat` for file pages, which the system can drop.
+    /// The entries in `memory.stat` for file pages, which the system can drop.
     cache: [&'static str; 2],
 }
 
@@ -55,7 +55,7 @@ fn left_in_groups(mounts: &Path, groups: &str) -> Option<u64> {
             _ => continue,
         };
         // In a container, the path may be the host's while the mount only shows the container's own
-        // group. Then only the mount itself exists.
+        // group. In that case, only the mount itself exists.
         let group: PathBuf = mount.join(path.trim_start_matches('/'));
         for folder in group.ancestors().take_while(|it| it.starts_with(&mount)) {
             least = smallest(least, left_in_group(folder, files));
@@ -77,7 +77,7 @@ fn left_in_group(folder: &Path, files: &Files) -> Option<u64> {
     Some(limit.saturating_sub(in_use))
 }
 
-/// Returns the number after a name at the start of a line.
+/// Returns the number that follows a name at the start of a line.
 fn value(text: &str, name: &str) -> Option<u64> {
     let mut lines = text.lines().map(str::split_whitespace);
     let mut line = lines.find(|line| line.clone().next() == Some(name))?;

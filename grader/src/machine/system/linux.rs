@@ -40,9 +40,9 @@ pub fn resources(limits: Limits) -> impl Iterator<Item = (Resource, u64)> {
     all.into_iter().chain(data)
 }
 
-/// Returns the soft and the hard limit. They are equal except for CPU time. Its hard limit sends
-/// SIGKILL, as the system also does when memory runs out, so a lower soft limit sends SIGXCPU
-/// first.
+/// Returns the soft and the hard limit. They differ only for CPU time. A process above the hard
+/// limit gets SIGKILL, which it also gets when memory runs out. The soft limit is lower and sends
+/// SIGXCPU first, so that the two causes can be distinguished.
 pub fn rlimit(resource: Resource, most: u64) -> Rlimit {
     let is_cpu = resource == Resource::Cpu;
     let grace = if is_cpu { CPU_GRACE_SECONDS } else { 0 };
@@ -73,7 +73,8 @@ pub fn cpu_time_with_children(child: &Child) -> Option<Duration> {
     cpu_time_fields(child, 4)
 }
 
-/// Returns the sum of a process's first `count` times, which begin at field 14.
+/// Returns the sum of the first `count` times in a process's `stat` file, where the times begin at
+/// field 14.
 fn cpu_time_fields(child: &Child, count: usize) -> Option<Duration> {
     let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
     // The second field is a name in parentheses that may contain spaces, so count from its end.

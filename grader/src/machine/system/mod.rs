@@ -67,7 +67,7 @@ impl Limits {
     const RESERVE: u64 = 64 << 20;
 
     /// Lowers the memory limit to the machine's available memory, so that a process that uses too
-    /// much exceeds its own limit before the system kills something. `needed` is the memory that a
+    /// much exceeds its own limit before the system kills a process. `needed` is the memory that a
     /// correct process may need. The limit never gets lower than that.
     pub fn within_available_memory(self, needed: u64) -> Self {
         let left = available_memory().map(|bytes| bytes.saturating_sub(Self::RESERVE));
@@ -152,7 +152,7 @@ pub fn clear_environment(command: &mut Command) {
 }
 
 /// Keeps the PATH in the environment of a compiler on Windows, where the compiler may need it to
-/// find the linker. On other systems, it gets the linker's path as an argument.
+/// find the linker. On other systems, the compiler gets the linker's path as an argument.
 pub fn keep_search_path(command: &mut Command) {
     if let Some(path) = std::env::var_os("PATH").filter(|_| cfg!(windows)) {
         command.env("PATH", path);

@@ -47,7 +47,7 @@ pub fn kill_group(child: &Child) {
     }
 }
 
-/// Returns how a process ended.
+/// Returns the reason a process ended.
 pub fn exit_reason(status: ExitStatus) -> ExitReason {
     match status.code() {
         Some(code) => ExitReason::Code(code),

@@ -14,7 +14,8 @@ pub fn use_own_process_group(_: &mut Command) {}
 /// Does nothing: the caller only kills the child itself.
 pub fn kill_group(_: &Child) {}
 
-/// Returns how a process ended. A crash also results in an exit code, a large negative number.
+/// Returns the reason a process ended. A crash also results in an exit code, which is a large
+/// negative number.
 pub fn exit_reason(status: ExitStatus) -> ExitReason {
     ExitReason::Code(status.code().unwrap_or(-1))
 }
@@ -51,7 +52,7 @@ pub fn open_regular_file(path: &Path) -> io::Result<Option<File>> {
     Ok(file.metadata()?.is_file().then_some(file))
 }
 
-/// An open folder. Links in it are never followed, junctions included.
+/// An open folder. Links in it, including junctions, are never followed.
 #[derive(Debug)]
 pub struct Folder(PathBuf);
 

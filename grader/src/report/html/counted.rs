@@ -44,7 +44,7 @@ pub fn with_name(page: &str, from: &str, to: &str) -> String {
     })
 }
 
-/// Puts the sentences into a finished page at this path, if there is one.
+/// Inserts the sentences into the finished page at this path, if the page exists.
 pub fn write_counted(path: &Path, texts: &[String]) -> Result<(), PathError> {
     let Some(page) = files::read_if_exists(path)? else {
         return Ok(());

@@ -1,5 +1,5 @@
 //! `report.html`: everything about one score, in one file that loads nothing from the network. The
-//! page depends only on the score, the exam and the answers, not on e.g. the date.
+//! page depends only on the score, the exam and the answers, and not on the date, for example.
 //!
 //! Nothing a submission writes can take over the page: `maud` escapes it, `plain_text` removes
 //! control characters, and the content security policy allows only the page's own script and style,
@@ -9,7 +9,6 @@ mod counted;
 mod elements;
 mod mask;
 mod pictures;
-mod prose;
 mod summary;
 mod task;
 
@@ -25,7 +24,7 @@ use elements::plain_text;
 use judging::exam::Exam;
 
 pub use counted::{with_counted, with_name, write_counted};
-pub use prose::prose;
+pub use elements::prose;
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
@@ -68,7 +67,7 @@ pub fn page(score: &Score, exam: &Exam, answers: &ReportAnswers, reload: Reload)
     page.render(reload)
 }
 
-/// Renders the page for students who don't have the exam. The page only shows `score`. Everything
+/// Renders the page for students without the exam. The page only shows `score`. Everything
 /// students may not see must already have been removed from it.
 pub fn feedback(score: &Score) -> String {
     let unseen = Exam {
@@ -138,14 +137,14 @@ impl Page<'_> {
                             ", version " code { (plain_text(version)) } " of the assignment"
                         }
                         ". "
-                        "For programs, " code { "score.json" } " beside this page has the same data."
+                        "Programs can read the same data from " code { "score.json" } ", next to this page."
                     }
                     @if score.exam.id != PRACTICE_ID {
                     p {
                         strong { "Not for students:" }
                         " this page shows the exam’s questions and answers. Give students "
-                        code { "feedback.html" } " instead, which " code { "cargo class" } " and "
-                        code { "cargo grade --format html" } " write."
+                        code { "feedback.html" } " instead, which is written by " code { "cargo class" } " and "
+                        code { "cargo grade --format html" } "."
                     }
                     }
                 }

@@ -59,8 +59,8 @@ pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
     }
 }
 
-/// Renders the submission's last path-traced picture next to the reference's, or nothing if the
-/// exam has none.
+/// Renders the submission's last rendered picture next to the reference's, or nothing if the exam
+/// has no rendered pictures.
 pub(super) fn beside_the_references(exam: &Exam, answers: &ReportAnswers) -> Markup {
     let mut pictures = exam.items.iter().rev().flat_map(|item| {
         let questions = item.questions.iter().enumerate();
@@ -252,7 +252,10 @@ fn mark(picture: &Picture, spot: &WorstPixel, number: usize, id: &str) -> Markup
 fn legend(picture: &Picture) -> Markup {
     html! {
         table .legend {
-            caption { "Wrong, of " (picture.positions) " positions in " (picture.film.x) " × " (picture.film.y) " pixels" }
+            caption {
+                "Wrong positions, out of " (picture.positions)
+                " in " (picture.film.x) " × " (picture.film.y) " pixels"
+            }
             thead {
                 tr { th scope="col" { "What" } th scope="col" .number { "Positions" } }
             }

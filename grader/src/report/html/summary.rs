@@ -4,11 +4,10 @@ use maud::{Markup, html};
 
 use super::Page;
 use super::counted;
-use super::elements::{command, plain_text};
+use super::elements::{command, plain_text, prose};
 use super::pictures;
-use super::prose::prose;
 use crate::inputs::exam_source::PRACTICE_ID;
-use crate::report::failing_items::most_telling_first;
+use crate::report::failing_items::most_informative_first;
 use crate::sandbox::Isolation;
 use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
@@ -31,9 +30,9 @@ pub(super) fn header(score: &Score) -> Markup {
             @if !score.complete {
                 p .unfinished {
                     strong { "Not finished." }
-                    " This page was written while grading was still running. If it is no longer \
-                     running, it was stopped: items marked “" (Verdict::Pending.label()) "” were \
-                     not graded."
+                    " This page was written while grading was still running. If grading has \
+                     stopped since, the items marked “" (Verdict::Pending.label()) "” were never \
+                     graded."
                 }
             }
             table .points {
@@ -81,9 +80,9 @@ fn bar(task: &TaskScore) -> Markup {
     }
 }
 
-/// Renders what to do next: fix the first failing item, in lecture order.
+/// Renders the next step, which is to fix the first failing item in lecture order.
 pub(super) fn next_step(page: &Page) -> Markup {
-    let first_of = |task| most_telling_first(task).first().copied();
+    let first_of = |task| most_informative_first(task).first().copied();
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
@@ -103,7 +102,7 @@ fn all_passed(score: &Score) -> Markup {
         p {
             "Nothing: your code passes everything that this exam tests."
             @if score.exam.id == PRACTICE_ID {
-                " The final exam asks the same kinds of questions with other numbers."
+                " The final exam asks the same kinds of questions with different numbers."
             }
         }
     }
@@ -117,7 +116,7 @@ fn first_failure(item: &ItemScore, rerun: Option<&RerunCommand>) -> Markup {
             " (" code { (plain_text(&item.id)) } ")"
         }
         @match item.verdict.kind() {
-            VerdictKind::Pending => p { "This item was not graded yet." },
+            VerdictKind::Pending => p { "This item has not been graded yet." },
             VerdictKind::Unwritten => p { "Write this method first: " (plain_text(&item.message)) "." },
             VerdictKind::NotCompiled => {
                 p { "Fix the file first: " (plain_text(&item.message)) ". " a href="#files" { "See the compiler’s message" } }
@@ -128,6 +127,7 @@ fn first_failure(item: &ItemScore, rerun: Option<&RerunCommand>) -> Markup {
         @if let Some(look) = item.where_to_look() {
             p { (prose(look)) }
         }
+        @for hint in &item.hints { p { (prose(&hint.nudge)) } }
         @if let Some(rerun) = rerun {
             p .rerun { "Run it again: " (command(&item.rerun_command(rerun))) }
         }

@@ -5,12 +5,11 @@ use judging::exam::Item;
 use maud::{Markup, PreEscaped, html};
 
 use super::Page;
-use super::elements::{command, evidence_table, plain_text};
+use super::elements::{command, evidence_table, plain_text, prose};
 use super::pictures;
-use super::prose::prose;
 use crate::drawing;
 use crate::report::answers::ReportAnswers;
-use crate::report::failing_items::most_telling_first;
+use crate::report::failing_items::most_informative_first;
 use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
 use crate::workspace::book::Book;
 
@@ -38,7 +37,7 @@ pub(super) fn files(score: &Score) -> Markup {
 
 /// Renders one task: failing items first, then the printed output, then the passed items.
 pub(super) fn section(page: &Page, task: &TaskScore) -> Markup {
-    let failing = most_telling_first(task);
+    let failing = most_informative_first(task);
     let is_passed = |item: &&ItemScore| item.points == item.max_points;
     let passed: Vec<&ItemScore> = task.items.iter().filter(is_passed).collect();
     html! {
@@ -46,6 +45,12 @@ pub(super) fn section(page: &Page, task: &TaskScore) -> Markup {
             h2 #(task.id) {
                 (task.title)
                 span .points { " " (task.points) " / " (task.max_points) }
+            }
+            @if !task.relevant_warnings().is_empty() {
+                p { "The compiler warns:" }
+                ul .notes {
+                    @for warning in task.relevant_warnings() { li { (plain_text(warning)) } }
+                }
             }
             @for (index, score) in failing.iter().enumerate() {
                 // Only open the first item, which is enough to start with.
@@ -148,7 +153,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
     let all = format!("{} questions, one after the other", item.count());
     match &score.verdict {
         Verdict::Unimplemented => {
-            let got = "no answer: it is not written yet";
+            let got = "no answer: the method is not written yet";
             // The first question shows what the code should do.
             match first {
                 Some(first) => evidence_table(
@@ -166,10 +171,14 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
         ),
         Verdict::Blocked { by } => evidence_table(
             &all,
-            &format!("answers that depend on {by}, so they cannot be judged yet"),
+            &format!("answers that depend on {by}, so they can't be judged yet"),
             &format!("fix {by} first"),
         ),
-        Verdict::Pending => evidence_table("nothing yet", "no answer", "a run that is not stopped"),
+        Verdict::Pending => evidence_table(
+            "nothing yet",
+            "no answer",
+            "a run that ends within its limits",
+        ),
         Verdict::Pass
         | Verdict::Partial
         | Verdict::Wrong
@@ -184,13 +193,14 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
     }
 }
 
-/// Renders where to look in the code and what to read, with a link if there is a book.
+/// Renders the advice on where to look in the code and which section to read, with a link if there
+/// is a book.
 fn look(score: &ItemScore, book: Option<&Book>) -> Markup {
     html! {
         @if let Some(look) = score.where_to_look() {
             p .look { strong { "Look: " } (prose(look)) }
         }
-        @if let Some(section) = &score.section {
+        @if let Some(section) = score.where_to_read() {
             p .look {
                 strong { "Read: " }
                 @match book.and_then(|book| book.url(section)) {

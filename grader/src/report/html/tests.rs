@@ -110,7 +110,7 @@ fn escapes_everything_that_a_submission_can_write() {
 fn hides_staff_notes() {
     let page = page_of("sphere.normal", |item| {
         item.verdict = Verdict::Wrong;
-        item.staff = Some("answers like sphere.inward".to_owned());
+        item.staff = Some("answers like those of sphere.inward".to_owned());
     });
     assert!(page.contains("sphere.normal") && !page.contains("sphere.inward"));
 }
@@ -119,7 +119,7 @@ fn hides_staff_notes() {
 fn explains_missing_evidence_in_the_same_three_rows() {
     let by = "triangle.inside".to_owned();
     for (verdict, why) in [
-        (Verdict::Unimplemented, "it is not written yet"),
+        (Verdict::Unimplemented, "the method is not written yet"),
         (Verdict::NotCompiled, "a file that compiles"),
         (Verdict::TimedOut, "no answer: stopped"),
         (Verdict::Blocked { by }, "fix triangle.inside first"),
@@ -149,7 +149,7 @@ fn suggests_the_first_failing_item() {
 fn full_practice_points_promise_nothing_about_the_final_exam() {
     let page = page_of("no item", |_| {});
     assert!(page.contains("passes everything that this exam tests"));
-    assert!(page.contains("with other numbers"));
+    assert!(page.contains("with different numbers"));
 }
 
 #[test]

@@ -31,7 +31,7 @@ pub(super) fn write_item(
     rows.try_for_each(|(label, text)| write_row(out, label, &text))
 }
 
-/// Joins the hints of an item in the requested detail.
+/// Joins the hints of an item at the requested level of detail.
 pub fn joined_hints(hints: &[Hint], detail: HintDetail) -> String {
     let texts = hints.iter().map(|hint| match detail {
         HintDetail::Nudge => hint.nudge.as_str(),
@@ -40,8 +40,8 @@ pub fn joined_hints(hints: &[Hint], detail: HintDetail) -> String {
     texts.collect::<Vec<_>>().join(" Or: ")
 }
 
-/// Joins the hints of an item and adds the ids of other items they explain. Returns `None` if there
-/// are none.
+/// Joins the hints of an item and adds the ids of the other items that they explain. Returns `None`
+/// if there are no hints.
 fn hint_text(hints: &[Hint], detail: HintDetail, same_hint: &[&str]) -> Option<String> {
     let more = match detail {
         HintDetail::Nudge => " (run with --hints for more)",
@@ -81,7 +81,15 @@ pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> f
     }
     let items = counted(count, "more item");
     let how = sanitize_line(how, usize::MAX);
-    writeln!(out, "    {FAINT}and {items} of this task{how}{FAINT:#}")
+    writeln!(out, "    {FAINT}and {items} in this task{how}{FAINT:#}")
+}
+
+/// If a task has a wrong or missing answer, writes the first of the task's warnings, which may
+/// explain that answer.
+pub(super) fn write_warnings(out: &mut String, task: &TaskScore) -> fmt::Result {
+    const MAX_WARNINGS: usize = 3;
+    let mut shown = task.relevant_warnings().iter().take(MAX_WARNINGS);
+    shown.try_for_each(|warning| write_row(out, "warning", warning))
 }
 
 pub(super) fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -> fmt::Result {

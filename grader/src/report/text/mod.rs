@@ -12,8 +12,10 @@ use judging::assignment::Task;
 use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::inputs::task_selection::TaskSelection;
-use crate::report::failing_items::{explained_items, most_telling_first, with_something_new};
-use crate::report::text::item::{write_command, write_hidden_count, write_item, write_printed};
+use crate::report::failing_items::{explained_items, most_informative_first, most_new};
+use crate::report::text::item::{
+    write_command, write_hidden_count, write_item, write_printed, write_warnings,
+};
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
@@ -41,7 +43,7 @@ pub enum HintDetail {
     Full,
 }
 
-/// Results of an earlier version of the submission that a report still shows.
+/// Results for an earlier version of the submission that a report still shows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OldResults<'a> {
     /// The ids of the items that haven't been graded again.
@@ -56,6 +58,15 @@ impl OldResults<'_> {
     }
 }
 
+/// The order of the failing items in a report on selected tasks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ItemOrder {
+    /// The item to begin with comes first, at the top of a screen that may be cut off below.
+    FirstOnTop,
+    /// The item to begin with comes last, next to the prompt.
+    FirstAtPrompt,
+}
+
 /// A report in parts, so that they can be rearranged on a small terminal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReportParts {
@@ -63,14 +74,15 @@ pub struct ReportParts {
     pub headline: String,
     /// One line for each task.
     pub table: String,
-    /// The compiler's errors and notes, and each task's failing items, all after empty lines.
+    /// The compiler's errors and notes, and each task's failing items. Each part is preceded by an
+    /// empty line.
     pub details: Vec<Detail>,
 }
 
 /// A part of a report below its table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Detail {
-    /// The task, if the part is about one.
+    /// The task that the part is about, if any.
     pub task: Option<Task>,
     /// The text, with an empty line before each item.
     pub text: String,
@@ -89,7 +101,8 @@ impl ReportParts {
 /// Renders the report on the selected tasks, with ANSI colours. The output stream strips the
 /// colours if necessary.
 pub fn report(score: &Score, tasks: &TaskSelection, hints: HintDetail) -> String {
-    let parts = report_parts(score, tasks, hints, OldResults::default());
+    let order = ItemOrder::FirstAtPrompt;
+    let parts = report_parts(score, tasks, hints, OldResults::default(), order);
     let details = parts.details_text();
     format!("\n{}{}{details}\n", parts.headline, parts.table)
 }
@@ -100,9 +113,11 @@ pub fn report_parts(
     tasks: &TaskSelection,
     hints: HintDetail,
     old: OldResults,
+    order: ItemOrder,
 ) -> ReportParts {
     let mut parts = ReportParts::default();
-    write_parts(&mut parts, score, tasks, hints, old).expect("writing to a string cannot fail");
+    write_parts(&mut parts, score, tasks, hints, old, order)
+        .expect("writing to a string cannot fail");
     parts
 }
 
@@ -112,9 +127,10 @@ fn write_parts(
     selection: &TaskSelection,
     hints: HintDetail,
     old: OldResults,
+    order: ItemOrder,
 ) -> fmt::Result {
     let shown = |task: &&TaskScore| selection.includes(task.id);
-    let tasks: Vec<&TaskScore> = score.tasks.iter().filter(shown).collect();
+    let mut tasks: Vec<&TaskScore> = score.tasks.iter().filter(shown).collect();
 
     let is_old = |task: &TaskScore| task.items.iter().any(|item| old.includes(item));
     if selection.is_all() {
@@ -147,9 +163,31 @@ fn write_parts(
         task: None,
         text: std::mem::take(out),
     });
+    let is_failing = |task: &&&TaskScore| task.points < task.max_points;
+    let most = match tasks.iter().filter(is_failing).count() {
+        1 if !selection.is_all() => 2,
+        _ => 1,
+    };
+    let is_reversed = !selection.is_all() && order == ItemOrder::FirstAtPrompt;
+    if is_reversed {
+        tasks.reverse();
+    }
     for task in &tasks {
+        let mut shown = most_new(task, most);
+        if is_reversed {
+            shown.reverse();
+        }
         let mut text = String::new();
-        write_failing_items(&mut text, task, score, selection, hints)?;
+        let how = if selection.is_all() {
+            format!(": {}", score.rerun_command.task(task.id.id()))
+        } else {
+            String::new()
+        };
+        let others = Others {
+            how: &how,
+            come_first: is_reversed,
+        };
+        write_failing_items(&mut text, task, &shown, score, others, hints)?;
         grey_if(is_old(task), &mut text);
         parts.details.push(Detail {
             task: Some(task.id),
@@ -159,51 +197,57 @@ fn write_parts(
     Ok(())
 }
 
-/// Writes the failing items of a task that should be shown, and the number of others.
+/// The line about a task's failing items that aren't shown.
+#[derive(Clone, Copy)]
+struct Others<'a> {
+    /// The end of a sentence that says how to see them.
+    how: &'a str,
+    /// Whether the line comes before the items that are shown.
+    come_first: bool,
+}
+
+/// Writes these failing items of a task, and the number of its other failing items.
 fn write_failing_items(
     out: &mut String,
     task: &TaskScore,
+    shown: &[&ItemScore],
     score: &Score,
-    selection: &TaskSelection,
+    others: Others,
     hints: HintDetail,
 ) -> fmt::Result {
-    let failing = most_telling_first(task);
-    // The first failing item of each task is enough to start with. A report on selected tasks also
-    // shows the other items that have evidence and are more informative than the first.
-    let shown = if selection.is_all() {
-        failing.iter().take(1).copied().collect()
-    } else {
-        with_something_new(&failing)
-    };
-    let mut explained = 0;
-    for item in &shown {
-        let same_hint = explained_items(item, &failing);
-        explained += same_hint.len();
-        write_item(out, item, hints, &same_hint)?;
+    let failing = most_informative_first(task);
+    let explained: usize = shown
+        .iter()
+        .map(|item| explained_items(item, &failing).len())
+        .sum();
+    let count = failing.len() - shown.len() - explained;
+    let hidden = failing
+        .iter()
+        .filter(|item| shown.iter().all(|other| other.id != item.id));
+    let how = format!("{}{}", waiting(hidden.copied()), others.how);
+    if others.come_first && count > 0 {
+        writeln!(out)?;
+        write_hidden_count(out, count, &how)?;
+    }
+    for item in shown {
+        write_item(out, item, hints, &explained_items(item, &failing))?;
         write_command(out, "again", &item.rerun_command(&score.rerun_command))?;
         if let Some(view) = item.view_command(&score.rerun_command) {
             write_command(out, "view", &view)?;
         }
     }
-    let others = failing.len() - shown.len() - explained;
-    let how = if selection.is_all() {
-        format!(": {}", score.rerun_command.task(task.id.id()))
-    } else {
-        String::new()
-    };
-    let hidden = failing
-        .iter()
-        .filter(|item| shown.iter().all(|other| other.id != item.id));
-    let how = format!("{}{how}", waiting(hidden.copied()));
-    write_hidden_count(out, others, &how)?;
+    if !others.come_first {
+        write_hidden_count(out, count, &how)?;
+    }
+    write_warnings(out, task)?;
     match &task.printed {
         Some(printed) => write_printed(out, task, printed),
         None => Ok(()),
     }
 }
 
-/// Returns the number of these items that are waiting for an item of another task, as the end of a
-/// sentence.
+/// Returns the end of a sentence that says how many of these items are waiting for an item of
+/// another task.
 fn waiting<'a>(items: impl Iterator<Item = &'a ItemScore>) -> String {
     let blockers: Vec<&str> = items
         .filter_map(|item| {
@@ -218,12 +262,12 @@ fn waiting<'a>(items: impl Iterator<Item = &'a ItemScore>) -> String {
         0 => String::new(),
         count => {
             let names = names.into_iter().collect::<Vec<_>>().join(" and ");
-            format!(", of which {count} wait for {names}")
+            format!(", {count} of them waiting for {names}")
         }
     }
 }
 
-/// Makes all lines of a text grey if they are old.
+/// Makes all lines grey if they are old.
 fn grey_if(is_old: bool, text: &mut String) {
     if is_old {
         let lines = strip_str(text).to_string();

@@ -24,8 +24,8 @@ const WRITE_ACCESS: BitFlags<AccessFs> = make_bitflags!(AccessFs::{
     WriteFile | RemoveFile | RemoveDir | MakeReg | MakeDir | Refer | Truncate
 });
 
-/// Blocks access to all files except those of the profile, the use of TCP ports, and signals to
-/// processes outside the sandbox.
+/// Blocks the use of TCP ports, signals to processes outside the sandbox, and access to all files
+/// except those in the profile.
 pub(super) fn restrict(request: &LaunchRequest, program: &Program) -> io::Result<()> {
     let rules = ruleset(request, program).map_err(while_doing("set up Landlock"))?;
     let status = rules
@@ -34,7 +34,7 @@ pub(super) fn restrict(request: &LaunchRequest, program: &Program) -> io::Result
     // With namespaces, other files are already out of reach, so Landlock isn't essential.
     if status.ruleset == RulesetStatus::NotEnforced && request.level < Isolation::Full {
         return Err(io::Error::other(
-            "cannot use Landlock: the kernel lacks it (it needs Linux 5.13, and `landlock` in \
+            "cannot use Landlock: the kernel does not support it (Linux 5.13 or newer, with `landlock` in \
              /sys/kernel/security/lsm), or a container's rules forbid it",
         ));
     }

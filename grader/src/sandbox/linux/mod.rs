@@ -3,9 +3,9 @@
 //! its state comes from its arguments.
 //!
 //! The order matters. Namespaces come first, while the launcher may still create them. Then come
-//! the switch to another user, which gives up that right, and the limits. After Landlock, no other
-//! file can be opened. The system call filter comes last, because it forbids calls that the earlier
-//! steps make.
+//! the switch to another user, which gives up that right, and the limits. Once Landlock is in
+//! place, no other files can be opened. The system call filter comes last, because it forbids calls
+//! that the earlier steps make.
 
 mod descriptors;
 mod files;

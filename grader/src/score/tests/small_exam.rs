@@ -10,7 +10,7 @@ use crate::handed_out::RAYS;
 use crate::score::Score;
 use crate::verdict::pending_score;
 
-/// Returns a question about a box with this many rays.
+/// Returns a question that asks about a box and this many rays.
 pub fn boxes(rays: u8) -> ExamQuestion {
     let query = |x| Query {
         ray: Ray::new(Vec3::new(f32::from(x), 0.0, 0.0), Vec3::X),
@@ -24,7 +24,7 @@ pub fn boxes(rays: u8) -> ExamQuestion {
     )
 }
 
-/// Returns an item of 4 points with these questions.
+/// Returns an item with these questions, worth 4 points.
 pub fn item(id: &str, questions: Vec<ExamQuestion>) -> Item {
     Item {
         title: format!("title of {id}"),
@@ -34,7 +34,7 @@ pub fn item(id: &str, questions: Vec<ExamQuestion>) -> Item {
     }
 }
 
-/// Returns an exam with items of 4 points, with these ids.
+/// Returns an exam with items with these ids, worth 4 points each.
 pub fn exam(ids: &[&str]) -> Exam {
     let items = ids.iter().map(|id| item(id, vec![boxes(1)]));
     Exam::new(RAYS.assignment, "small", items.collect())

@@ -37,12 +37,13 @@ pub struct ArchiveLimits {
     members: usize,
     /// The maximum size of an uncompressed tar in bytes, including members that are skipped.
     tar_bytes: u64,
-    /// The remaining budget of bytes, compressed and inflated, for this archive and others.
+    /// The number of bytes, compressed and inflated, that may still be read from this archive and
+    /// others.
     total: ByteBudget,
 }
 
 impl ArchiveLimits {
-    /// Returns the limits for an archive of one submission.
+    /// Returns the limits for an archive that contains one submission.
     pub(super) fn submission(total: &ByteBudget) -> Self {
         ArchiveLimits {
             members: 50_000,
@@ -51,8 +52,8 @@ impl ArchiveLimits {
         }
     }
 
-    /// Returns the limits for a whole class's archive. They are so large that a single submission
-    /// in it is unlikely to reach them.
+    /// Returns the limits for the archive of a whole class. They are so large that a single
+    /// submission in it is unlikely to reach them.
     pub fn class() -> Self {
         ArchiveLimits {
             members: 2_000_000,
@@ -74,47 +75,50 @@ pub enum ArchiveError {
     )]
     UnsupportedKind(&'static str),
     /// The file isn't an archive.
-    #[error("it is neither a folder nor a .zip, .tar or .tar.gz, whatever its name says")]
+    #[error("it is neither a folder nor a .zip, .tar or .tar.gz, despite its name")]
     NotAnArchive,
     /// The archive is truncated or malformed.
     #[error("it is damaged ({0}): download or pack it again")]
     Damaged(String),
     /// A member is encrypted.
-    #[error("the file {0} in it is password-protected: create the archive without a password")]
+    #[error("it contains the password-protected file {0}: create the archive without a password")]
     Encrypted(String),
     /// A member is compressed with an unsupported method.
-    #[error("the file {0} in it is compressed with an unsupported method: create a plain .zip")]
+    #[error(
+        "it contains the file {0}, which is compressed with an unsupported method: create a plain .zip"
+    )]
     UnsupportedCompression(String),
     /// The paths of two Rust files are the same on at least some file systems.
-    #[error("{0} is in it twice, or is the same file as {1} on some systems: pack it again")]
+    #[error("it contains {0} and {1}, which some systems treat as the same file: pack it again")]
     DuplicatePath(String, String),
     /// The archive contains too many members.
-    #[error("it has more than {0} files: pack the task files, without target/")]
+    #[error("it has more than {0} files: pack only the task files, without target/")]
     TooManyFiles(usize),
     /// The contents are too large.
-    #[error("its contents are larger than {} MiB: pack the task files, without target/", .0 >> 20)]
+    #[error("its contents are larger than {} MiB: pack only the task files, without target/", .0 >> 20)]
     TooLarge(u64),
     /// The archive is nested too deeply.
-    #[error("it is inside {MAX_LEVELS} other archives, and not opened: unpack them")]
+    #[error("it is nested inside {MAX_LEVELS} other archives, so it was not opened: unpack them")]
     TooDeep,
     /// A member's path leads out of the archive.
-    #[error("the path {0} in it leads outside the archive: pack it again")]
+    #[error("it contains the path {0}, which leads outside the archive: pack it again")]
     PathOutside(String),
     /// A member is a link or a device.
-    #[error("{0} in it is a link or device, not a regular file: pack the file itself")]
+    #[error("it contains {0}, which is a link or device, not a regular file: pack the file itself")]
     NotRegular(String),
     /// The system doesn't allow reading the file.
     #[error("the file cannot be read: {0}")]
     Io(String),
     /// The machine failed to read the file.
-    #[error("the file cannot be read: {0}; this is a fault of the machine, so try again")]
+    #[error("the file cannot be read: {0}; this is a problem with the machine, so try again")]
     Machine(String),
 }
 
 /// A regular file in an archive.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// The path, with `/` and without `.` components. It is relative and stays inside the archive.
+    /// The path, with `/` as the separator and without `.` components. It is relative and stays
+    /// inside the archive.
     pub path: String,
     /// The size that the archive claims, in bytes.
     pub size: u64,
@@ -127,7 +131,7 @@ pub struct Member {
 pub struct Listing {
     /// The regular files in the archive.
     pub members: Vec<Member>,
-    /// The paths of the folders in the archive, with `/`.
+    /// The paths of the folders in the archive, with `/` as the separator.
     pub folders: Vec<String>,
     /// Reasons for rejecting other members.
     pub errors: Vec<ArchiveError>,
@@ -257,8 +261,8 @@ impl Archive {
     }
 
     /// Calls `each` with the index and the contents of each of these members. Only one member is in
-    /// memory at a time. For a member with more bytes than its given number, one more byte than
-    /// that is read. A tar is scanned once. In a zip, a damaged member doesn't affect the others.
+    /// memory at a time. If a member has more bytes than requested, one byte more than requested is
+    /// read. A tar is scanned once. In a zip, a damaged member doesn't affect the others.
     pub fn read_each<E: From<ArchiveError>>(
         &mut self,
         members: &[(&Member, u64)],

@@ -7,7 +7,8 @@ use unicode_normalization::UnicodeNormalization;
 use super::{ArchiveError, Member};
 use crate::submission::display_name;
 
-/// Returns a member's path with `/` and without `.` components. Fails if it leads outside.
+/// Returns a member's path with `/` as the separator and without `.` components. Fails if the path
+/// leads outside the archive.
 pub(super) fn normalize_path(path: &str) -> Result<String, ArchiveError> {
     // Some programs on Windows write `\`, contrary to the standard.
     let path = path.replace('\\', "/");
@@ -21,8 +22,8 @@ pub(super) fn normalize_path(path: &str) -> Result<String, ArchiveError> {
     Ok(parts.collect::<Vec<_>>().join("/"))
 }
 
-/// Returns an error for each Rust file with the same path as an earlier one. The program that
-/// unpacks the archive would decide which of the two files is used.
+/// Returns an error for each Rust file with the same path as an earlier one. Which of the two files
+/// is used would depend on the program that unpacks the archive.
 pub(super) fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
     let mut known: BTreeMap<String, &str> = BTreeMap::new();
     let mut errors = Vec::new();

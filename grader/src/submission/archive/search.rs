@@ -1,4 +1,4 @@
-//! Searches an archive and the archives in it for task files.
+//! Searches an archive and the archives nested in it for task files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -13,15 +13,15 @@ use crate::submission::{MAX_FILE_BYTES, SubmissionError};
 /// The maximum size of a nested archive, in bytes.
 const MAX_INNER_BYTES: u64 = 64 << 20;
 
-/// Why some archives in an archive were not read.
+/// The reason some archives nested in an archive were not read.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
-enum Stopped {
+enum StopReason {
     Archive(#[from] ArchiveError),
     Search(#[from] SubmissionError),
 }
 
-/// Returns the bytes of an archive in an archive.
+/// Returns the bytes of a nested archive.
 fn inner_archive(
     bytes: Result<Vec<u8>, ArchiveError>,
     level: usize,
@@ -36,9 +36,9 @@ fn inner_archive(
     }
 }
 
-/// Adds an archive's folders with task files, or copies of them, to a search. `name` is prepended
-/// to their paths. `level` is 1 unless the archive is nested. A nested archive that cannot be read
-/// is added to the search's errors. Returns the names at the archive's top level.
+/// Adds to a search the folders in an archive that contain task files or copies of them. `name` is
+/// prepended to their paths. `level` is 1 unless the archive is nested. A nested archive that
+/// cannot be read is added to the search's errors. Returns the names at the archive's top level.
 pub(in crate::submission) fn search(
     bytes: ArchiveBytes,
     name: &str,
@@ -115,12 +115,12 @@ pub(in crate::submission) fn search(
             let found = found.and_then(|bytes| self::search(bytes, &inner, search, level + 1));
             search.check_bytes()?;
             search.keep_error(&inner, found)?;
-            Ok::<_, Stopped>(())
+            Ok::<_, StopReason>(())
         });
         match read {
             Ok(()) => {}
-            Err(Stopped::Archive(why)) => return Err(rejected(why)),
-            Err(Stopped::Search(error)) => return Err(error),
+            Err(StopReason::Archive(why)) => return Err(rejected(why)),
+            Err(StopReason::Search(error)) => return Err(error),
         }
     }
     let names = members.iter().map(|member| {

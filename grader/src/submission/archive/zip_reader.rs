@@ -12,8 +12,8 @@ use super::{
     display_name, normalize_path,
 };
 
-/// The maximum number of bytes per member to read for listing the contents. This is about the size
-/// of its entry in the central directory.
+/// The maximum number of bytes per member to read for listing the contents. This is roughly the
+/// size of a member's entry in the central directory.
 const DIRECTORY_BYTES: u64 = 168;
 
 /// The maximum number of bytes to read for the headers of a member.

@@ -1,11 +1,11 @@
-//! Tests of the choice, with handmade and random listings.
+//! Tests for the choice of the folder, with handmade and random listings.
 
 use proptest::prelude::*;
 
 use super::*;
 use crate::handed_out::RAYS;
 
-/// Returns a folder with these task files, each given by its number and its text. An empty text
+/// Returns a folder with these task files, each specified by its number and its text. An empty text
 /// stands for the starter's.
 fn candidate(folder: &str, files: &[(usize, &str)]) -> Candidate {
     let mut candidate = Candidate {
@@ -44,7 +44,7 @@ fn choice(candidates: Vec<Candidate>) -> Result<(String, Vec<String>), Vec<Strin
 #[test]
 fn the_folder_with_most_that_is_written_is_chosen_and_the_assignments_is_preferred() {
     let file = RAYS.files[4].name;
-    let note = format!("{file} differs from student/src/{file}, and is ignored");
+    let note = format!("{file} differs from student/src/{file} and is ignored");
     for (candidates, folder, notes) in [
         (
             vec![
@@ -82,12 +82,7 @@ fn the_folder_with_most_that_is_written_is_chosen_and_the_assignments_is_preferr
 fn two_folders_that_both_have_something_are_ambiguous() {
     for [one, other] in [
         [("src", all("new")), ("old", all("old"))],
-        // Only the smaller folder contains this file.
-        [
-            ("src", vec![(0, "a"), (1, "b"), (2, "")]),
-            ("", vec![(2, "c")]),
-        ],
-        // The smaller folder also contains a file that both contain.
+        // One of the smaller folder's files is also in the larger folder.
         [
             ("src", vec![(0, "a"), (1, "b"), (2, "c")]),
             ("", vec![(0, "x"), (3, "d")]),
@@ -97,6 +92,32 @@ fn two_folders_that_both_have_something_are_ambiguous() {
         let candidates = [one, other].map(|(folder, files)| candidate(folder, &files));
         assert_eq!(choice(candidates.into()), Err(folders));
     }
+}
+
+#[test]
+fn files_in_several_folders_are_combined_if_there_is_one_version_of_each() {
+    let candidates = vec![
+        candidate("task1", &[(0, "a"), (1, ""), (2, "")]),
+        candidate("task2", &[(0, ""), (1, "b"), (2, "c")]),
+        candidate("task3", &[(2, "c"), (3, "")]),
+    ];
+    let choice = chosen(candidates).unwrap().unwrap();
+    let paths = choice.chosen.task_files.iter().map(|(name, text)| {
+        let text = String::from_utf8_lossy(text.as_ref().unwrap()).into_owned();
+        (choice.chosen.path_of(name), text)
+    });
+    let [a, b, c, d] = [0, 1, 2, 3].map(|index| RAYS.files[index]);
+    let mut expected = vec![
+        (format!("task1/{}", a.name), "a".to_owned()),
+        (format!("task2/{}", b.name), "b".to_owned()),
+        (format!("task2/{}", c.name), "c".to_owned()),
+        (format!("task3/{}", d.name), d.starter.to_owned()),
+    ];
+    let mut paths: Vec<_> = paths.collect();
+    paths.sort();
+    expected.sort();
+    assert_eq!(paths, expected);
+    assert_eq!((choice.notes, choice.is_complete), (Vec::new(), false));
 }
 
 prop_compose! {

@@ -1,14 +1,14 @@
 //! Reads the task files in a folder on disk, its subfolders and the archives in them. Links aren't
 //! followed, and only regular files are read.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::archive::{self, ArchiveBytes};
-use super::choice::{self, FileContents, join};
+use super::choice::{self, FileContents, is_starter, join};
 use super::limit::Limit;
 use super::names::is_archive_name;
 use super::search::{FoundFolder, Search};
@@ -41,8 +41,8 @@ pub(super) fn search_one(
     Ok(search)
 }
 
-/// Searches these files, given by their names and paths, for task files, including the archives
-/// among them.
+/// Searches these files, and the archives among them, for task files. Each file is specified by its
+/// name and its path.
 pub(super) fn search_files(
     path: &Path,
     files: &[(String, PathBuf)],
@@ -50,17 +50,17 @@ pub(super) fn search_files(
 ) -> Result<Search, SubmissionError> {
     let mut search = Search::new(path, handed_out);
     search.names = files.iter().map(|(name, _)| name.clone()).collect();
-    // If several files have the same name, use the last one.
-    let open = |name: &OsStr| {
-        let file = files.iter().rfind(|(other, _)| OsStr::new(other) == name);
-        file.map_or(Ok(None), |(_, path)| {
-            disk::before(Operation::Read(path))?;
-            system::open_regular_file(path)
-        })
-    };
-    let names: BTreeSet<OsString> = files.iter().map(|(name, _)| name.into()).collect();
-    let names: Vec<OsString> = names.into_iter().collect();
     search.spend(Limit::Files, files.len())?;
+    let mut versions: BTreeMap<&str, Vec<&Path>> = BTreeMap::new();
+    for (name, path) in files {
+        versions.entry(name).or_default().push(path);
+    }
+    let mut paths: BTreeMap<OsString, &Path> = BTreeMap::new();
+    for (name, versions) in versions {
+        paths.insert(name.into(), search.last_version(name, &versions)?);
+    }
+    let open = |name: &OsStr| paths.get(name).map_or(Ok(None), |path| open_path(path));
+    let names: Vec<OsString> = paths.keys().cloned().collect();
     search.read_folder("", &names, open)?;
     let archives = files
         .iter()
@@ -92,6 +92,36 @@ impl Search {
         Ok(())
     }
 
+    /// Returns the path of the last of these versions of a task file that differs from the
+    /// starter's, or simply the last one. If an earlier one differs too, there is a note.
+    fn last_version<'a>(
+        &mut self,
+        name: &str,
+        versions: &[&'a Path],
+    ) -> Result<&'a Path, SubmissionError> {
+        let mut last = versions[versions.len() - 1];
+        if versions.len() == 1 || self.handed_out.task_file(name).is_none() {
+            return Ok(last);
+        }
+        self.spend(Limit::Copies, versions.len())?;
+        let mut written: Vec<(&Path, FileContents)> = Vec::new();
+        for path in versions {
+            let read = read_file(open_path(path)).map_err(|error| unreadable(path, error))?;
+            if !is_starter(name, &read, self.handed_out) {
+                written.push((path, read));
+            }
+        }
+        if let Some((path, graded)) = written.pop() {
+            last = path;
+            if written.iter().any(|(_, earlier)| *earlier != graded) {
+                let note = "was handed in more than once: the last version is graded, and an \
+                            earlier, different one is ignored";
+                self.superseded.push(format!("{name} {note}"));
+            }
+        }
+        Ok(last)
+    }
+
     fn open_archive(&mut self, name: &str, path: &Path) -> Result<Vec<String>, SubmissionError> {
         let read = disk::before(Operation::Read(path));
         read.map_err(|error| unreadable(path, error))?;
@@ -100,8 +130,8 @@ impl Search {
         found
     }
 
-    /// Searches a folder, whose path below the submission's is `below`, and its subfolders for task
-    /// files.
+    /// Searches a folder and its subfolders for task files. `below` is the folder's path relative
+    /// to the submission's.
     fn visit(&mut self, folder: &Folder, below: &str) -> Result<(), SubmissionError> {
         let path = self.submission.join(below);
         let names = list(folder, &path)?;
@@ -151,7 +181,7 @@ impl Search {
         self.keep_error(path, found)
     }
 
-    /// Reads the files with these names that may be task files.
+    /// Of the files with these names, reads those that may be task files.
     fn read_folder(
         &mut self,
         path: &str,
@@ -192,6 +222,11 @@ fn list(folder: &Folder, path: &Path) -> Result<Vec<OsString>, SubmissionError> 
     names.map_err(|error| unreadable(path, error))
 }
 
+fn open_path(path: &Path) -> io::Result<Option<File>> {
+    disk::before(Operation::Read(path))?;
+    system::open_regular_file(path)
+}
+
 fn open(folder: &Folder, path: &Path, name: &OsStr) -> io::Result<Option<File>> {
     disk::before(Operation::Read(&path.join(name)))?;
     folder.file(name)
@@ -210,7 +245,8 @@ fn unreadable(path: &Path, error: io::Error) -> SubmissionError {
     })
 }
 
-/// Reads a file. The outer error is the machine's. The inner error costs the file's points.
+/// Reads a file. The outer error means that the machine is at fault. The inner error means that the
+/// file gets no points.
 fn read_file(opened: io::Result<Option<File>>) -> io::Result<FileContents> {
     let read = || {
         let Some(file) = opened? else {

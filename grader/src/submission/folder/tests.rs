@@ -107,7 +107,7 @@ fn folders_and_archives_whose_names_are_not_utf8_are_searched() {
     fs::create_dir(named(b"L\xf6sung")).unwrap();
     fs::write(named(b"L\xf6sung/bvh.rs"), b"new").unwrap();
     fs::write(named(b"L\xf6sung.tar"), tar(&[("bvh.rs", b"newer")])).unwrap();
-    // It isn't a task file, so it is only mentioned.
+    // This isn't a task file, so it is only mentioned.
     fs::write(named(b"b\xf6x.rs"), b"").unwrap();
     let error = Submission::collect(folder.path(), &RAYS).unwrap_err();
     let SubmissionError::Ambiguous { copies, .. } = error else {

@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_score_begins_with_the_items_of_each_task_in_lecture_order() {
-    // Without any item of the first task.
+    // This exam has no items of the first task.
     let exam = exam(&["sphere.normal", "triangle.uv", "sphere.uv"]);
     let score = pending(&exam);
     let tasks = score.tasks.iter().map(|task| {
@@ -62,7 +62,7 @@ fn the_number_of_wrong_answers_covers_all_questions_of_the_item() {
             "1 of 5 answers is wrong: interval",
         ),
         (two, "3 of 5 answers are wrong; in #1: interval"),
-        // A question without a count has one wrong answer.
+        // A question without a count is counted as one wrong answer.
         (
             [wrong(1, Some((1, 2))), wrong(1, None)],
             "2 of 5 answers are wrong; in #2: interval",
@@ -82,7 +82,6 @@ fn the_pixels_of_a_path_traced_picture_are_counted_by_themselves() {
             scene: String::new(),
             film: glam::UVec2::new(4, 2),
             samples: 1,
-            bounces: 1,
             seed: 0,
         },
         Key::Radiance {

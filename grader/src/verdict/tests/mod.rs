@@ -29,7 +29,13 @@ fn failed(credit: Credit, element: usize, kind: FailureKind) -> Judgement {
 /// are wrong.
 fn wrong(credit: Credit, element: usize, count: Option<(usize, usize)>) -> Judgement {
     let [what, got, wanted] = ["interval", "None", "[0, 1]"].map(str::to_owned);
-    let mut judgement = failed(credit, element, FailureKind::Wrong { what, got, wanted });
+    let kind = FailureKind::Wrong {
+        what,
+        side: None,
+        got,
+        wanted,
+    };
+    let mut judgement = failed(credit, element, kind);
     judgement.failure.as_mut().unwrap().count = count;
     judgement
 }
@@ -42,7 +48,7 @@ fn panicked(credit: Credit, message: &str, location: &str) -> Judgement {
     failed(credit, 0, FailureKind::Panicked(panic))
 }
 
-/// Returns the score of an item with one of these questions for each judgement.
+/// Returns the score of an item with these questions, one for each judgement.
 fn answered(questions: Vec<ExamQuestion>, judgements: Vec<Judgement>) -> ItemScore {
     assert_eq!(questions.len(), judgements.len());
     let outcome = ItemOutcome::answered(judgements);

@@ -40,10 +40,10 @@ fn a_fault_of_an_unknown_question_has_no_evidence() {
 
 #[test]
 fn an_item_that_was_not_run_says_why() {
-    let stopped = faults().map(|(fault, verdict)| (NotRun::TaskStopped(fault), verdict));
+    let stopped = faults().map(|(fault, verdict)| (NotRunReason::TaskStopped(fault), verdict));
     let others = [
-        (NotRun::NeedsStoppedTask, Verdict::TimedOut),
-        (NotRun::BudgetUsedUp, Verdict::TimedOut),
+        (NotRunReason::NeedsStoppedTask, Verdict::TimedOut),
+        (NotRunReason::BudgetUsedUp, Verdict::TimedOut),
     ];
     let messages = stopped.into_iter().chain(others).map(|(why, verdict)| {
         let line = without_answer(&ItemOutcome::NotRun(why));
@@ -52,12 +52,12 @@ fn an_item_that_was_not_run_says_why() {
         line.message
     });
     insta::assert_snapshot!(messages.collect::<Vec<_>>().join("\n"), @r"
-    not run, because another item of this task took too long
-    not run, because two other items of this task crashed
-    not run, because two other items of this task crashed
-    not run, because two other items of this task crashed
-    not run, because a task that it depends on was stopped
-    not run, because the items before it have used up the time of the whole submission
+    not run because another item in this task took too long
+    not run because two other items in this task crashed
+    not run because two other items in this task crashed
+    not run because two other items in this task crashed
+    not run because a task that it depends on was stopped
+    not run because earlier items used up the submission's time
     ");
 }
 

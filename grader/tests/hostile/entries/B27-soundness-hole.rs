@@ -18,7 +18,7 @@ fn freed() -> &'static [u8] {
 }
 fn attack() {
     // Formats first and prints once: standard error is not buffered, and a system call for each
-    // number, for 20,000 rays, would take longer than the ten seconds that a picture has.
+    // number, for 20,000 rays, would take longer than the ten seconds allowed for a picture.
     let read = format!("{:?}\n", &freed()[..64]);
     eprint!("{read}");
 }

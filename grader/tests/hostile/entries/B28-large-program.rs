@@ -2,7 +2,7 @@
 //! into = "sphere.rs"
 //! within = ["hit"]
 //! verdicts = ["not_compiled"]
-//! says = "MiB at most"
+//! says = "the limit is 64 MiB"
 //!
 //! [points]
 //! camera = 0

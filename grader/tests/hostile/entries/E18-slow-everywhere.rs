@@ -9,7 +9,8 @@
 //! build = 20
 //! traverse = 20
 
-/// Sleeps at the start of each item: between the questions of an item, no time passes.
+/// Sleeps at the start of each item, which it recognises because no time passes between the
+/// questions of an item.
 fn attack() {
     static LAST: std::sync::Mutex<Option<std::time::Instant>> = std::sync::Mutex::new(None);
     let mut last = LAST.lock().unwrap();

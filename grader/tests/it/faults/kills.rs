@@ -1,4 +1,4 @@
-//! Tests of a grader that is killed, and of a grader on a machine under load.
+//! Tests with a grader that is killed, and with a grader on a machine under load.
 
 use std::fs;
 use std::path::Path;

@@ -13,7 +13,7 @@ use crate::harness::{GradeRun, Submission, assert_fails, workspace};
 
 /// CPU time after which a process has certainly started its work.
 const BUSY: Duration = Duration::from_millis(100);
-/// The name of the control program that shows whether the machine is the reason.
+/// The name of the control program that shows whether the machine is the reason for a failure.
 const CONTROL: &str = "control";
 
 fn kill(process: u32) {
@@ -22,12 +22,14 @@ fn kill(process: u32) {
     assert!(status.unwrap().success());
 }
 
-/// Grades a submission. In the meantime, kills children of the grader in this order, each with the
-/// given name and at least the given CPU time.
+/// Grades a submission and, in the meantime, kills children of the grader one after the other. Each
+/// victim is specified by its name and by the minimum CPU time that it must have used.
 fn grade_while_killing(victims: &[(&str, Duration)], submission: &Submission) -> GradeRun {
     compile_dependencies();
     let mut command = submission.command();
-    command.args(["--cpu-limit", "2"]);
+    // With an isolation level, one task runs at a time, so that the victims belong to the same
+    // task.
+    command.args(["--cpu-limit", "2", "--isolation", "none"]);
     let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
     let grader = command.spawn().unwrap();
     let mut last = 0;
@@ -67,7 +69,7 @@ fn if_only_the_submissions_compiler_is_killed_it_is_the_submissions_fault() {
     let graded = grade_while_killing(&[("rustc", BUSY); 2], &long_to_compile());
     let why = &graded.score()["build"]["not_compiled"][0]["message"];
     let why = why.as_str().unwrap();
-    assert!(why.contains("when nothing else was running"), "{why}");
+    assert!(why.contains("while nothing else was running"), "{why}");
 }
 
 #[test]

@@ -42,10 +42,10 @@ fn without_a_linker_there_is_no_score() {
         "echo No space left on device >&2\nexit 1\n",
     );
     let graded = submission.run(submission.command().env("PATH", path_with(&tools)));
-    assert_grader_fault(&graded, "not even the starter compiles");
+    assert_grader_fault(&graded, "even the unmodified starter code fails to compile");
 }
 
-/// Grades into `/dev/full`, a device that is always full.
+/// Grades with the output going to `/dev/full`, a device that is always full.
 #[cfg(target_os = "linux")]
 #[test]
 fn without_a_writable_disk_there_is_no_score() {

@@ -21,7 +21,8 @@ use crate::formats::rendered;
 
 const NONE: [char; 0] = [];
 
-/// Returns a score with this text everywhere a submission or its folder's name can put it.
+/// Returns a score with this text in every place where text from a submission or its folder's name
+/// can end up.
 pub fn score_with(text: &str) -> (Exam, Score) {
     let file = ExamSource::Practice.load(&RAYS).unwrap();
     let mut score = pending_score(&file.exam, file.name(), text, &RAYS);
@@ -65,7 +66,7 @@ fn texts(value: &Value) -> Vec<String> {
     }
 }
 
-/// Returns everything people read about a score, by the name of the output.
+/// Returns everything people read about a score, each text with the name of its output.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let (exam, score) = score_with(text);
     let view = StudentView::new(&score, &Policy::default(), Lateness::NONE);
@@ -93,14 +94,14 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
     outputs
 }
 
-/// Returns the characters in a text that could affect the text around them, except line breaks.
+/// Returns the characters in `text` that could affect the text around them, except line breaks.
 fn dangerous(text: &str) -> Vec<char> {
     let characters = text.chars();
     let dangerous = characters.filter(|c| *c != '\n' && affects_surroundings(*c));
     dangerous.collect()
 }
 
-/// Returns a text with every character that could affect the text around it.
+/// Returns text with every character that could affect the text around it.
 fn hostile_text() -> String {
     let characters = (0..=u32::from(char::MAX)).filter_map(char::from_u32);
     let hostile: String = characters.filter(|c| affects_surroundings(*c)).collect();

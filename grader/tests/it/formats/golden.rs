@@ -54,8 +54,8 @@ fn renders_a_known_mistake() {
     let written = &*KNOWN_MISTAKE;
     assert_valid(written);
     snapshot_settings().bind(|| {
-        // The snapshots of a sample show each format. This one shows what a real submission adds to
-        // it.
+        // The snapshots of a sample show each format. This snapshot shows what a real submission
+        // adds.
         assert_snapshot!(
             "junit-partial",
             models::readable("junit", &written["junit"])

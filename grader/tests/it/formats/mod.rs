@@ -1,4 +1,4 @@
-//! Tests of the output formats: each output must match the documentation of its platform and its
+//! Tests for the output formats: each output must match the documentation of its platform and its
 //! snapshot.
 
 mod channels;
@@ -22,8 +22,8 @@ pub fn student_formats() -> impl Iterator<Item = &'static FormatSpec> {
     formats.filter(|format| format.render.is_some())
 }
 
-/// Returns everything that students can read in the formats, by the name of the output. Formats are
-/// taken from their table, so that new formats are tested too.
+/// Returns everything that students can read in the formats, keyed by the name of the output. The
+/// formats come from the table of all formats, so that new ones are tested too.
 pub fn rendered(view: &StudentView, context: &FormatContext) -> FormatTexts {
     let files = student_formats().filter_map(|format| Some((format.id, format.render?)));
     let logs = FORMATS.into_iter();
@@ -59,8 +59,8 @@ const ITEMS: [&str; 8] = [
     "traverse.closest_hit",
 ];
 
-/// The outputs of one run, by format. The keys `log` and `errors` stand for the standard output and
-/// the standard error, and `json` for the score file.
+/// The outputs of one run, keyed by format. The keys `log` and `errors` stand for the standard
+/// output and the standard error, and `json` for the score file.
 pub type FormatTexts = BTreeMap<&'static str, String>;
 
 /// Returns a part of the practice exam under another id.
@@ -79,7 +79,8 @@ pub fn small_exam(id: &str) -> String {
     exam.to_string()
 }
 
-/// The outputs for a known mistake, in a folder called `partial`, in the practice exam.
+/// The outputs for a submission with a known mistake, in a folder called `partial`, graded with the
+/// practice exam.
 pub static KNOWN_MISTAKE: LazyLock<FormatTexts> = LazyLock::new(|| {
     let submission = Submission::far_first("partial");
     grade_in_all_formats(&submission, &small_exam("practice"), &[])

@@ -1,7 +1,8 @@
 //! The part of the DevTools protocol needed by these tests: <https://chromedevtools.github.io>.
 //!
 //! It is written by hand on top of a WebSocket, because crates for the complete protocol have a
-//! hundred dependencies.
+//! hundred dependencies. Accessibility is checked with axe-core: the rules of WCAG 2.2 AA that a
+//! program can check, and best practices.
 
 use std::net::TcpStream;
 use std::path::Path;
@@ -76,10 +77,7 @@ impl Tab {
 
     /// Loads an address and waits until it is loaded.
     pub fn open_url(&mut self, url: &str, reader: Viewer) {
-        let metrics = json!({
-            "width": reader.width, "height": 900, "deviceScaleFactor": 1, "mobile": reader.width < 600,
-        });
-        self.call("Emulation.setDeviceMetricsOverride", metrics);
+        self.resize(reader.width, 900);
         let scheme = if reader.dark { "dark" } else { "light" };
         let motion = if reader.reduced_motion {
             "reduce"
@@ -94,6 +92,14 @@ impl Tab {
         self.events.clear();
         self.call("Page.navigate", json!({ "url": url }));
         self.wait_until_loaded();
+    }
+
+    /// Resizes the window.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        let metrics = json!({
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600,
+        });
+        self.call("Emulation.setDeviceMetricsOverride", metrics);
     }
 
     /// Waits until the page has loaded.
@@ -152,7 +158,8 @@ impl Tab {
         }
     }
 
-    /// Evaluates an expression until it is true. Panics with the value of `state` if it stays false.
+    /// Evaluates an expression until it is true. Panics with the value of `state` if it stays
+    /// false.
     pub fn wait_until(&mut self, expression: &str, state: &str) {
         let deadline = Instant::now() + WAIT_TIMEOUT;
         while self.eval(expression) != json!(true) {
@@ -243,4 +250,19 @@ impl Tab {
         self.events.push(message);
         None
     }
+}
+
+/// axe-core 4.14.1 by Deque Systems (MPL-2.0), unchanged from its npm package.
+const AXE: &str = include_str!("../../browser/axe/axe.min.js");
+
+/// Opens all collapsed sections of the loaded page. Returns the violations found by axe-core.
+pub fn violations(tab: &mut Tab) -> Vec<String> {
+    tab.eval("for (const details of document.querySelectorAll('details')) details.open = true; 0");
+    tab.eval(&format!("{AXE}; 0"));
+    let violations = tab.eval(
+        "axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] })
+            .then((found) => found.violations.map((rule) =>
+                `${rule.id}: ${rule.help}: ${rule.nodes.slice(0, 3).map((node) => node.html).join(' ')}`))",
+    );
+    serde_json::from_value(violations).unwrap()
 }

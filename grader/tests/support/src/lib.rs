@@ -3,7 +3,6 @@
 //! Pages are tested in headless Chromium, controlled over the DevTools protocol. If Chromium isn't
 //! installed, [`Chromium::start`] prints a notice and the tests pass, or fail if `CI` is set.
 
-mod axe;
 mod chromium;
 mod devtools;
 pub mod processes;
@@ -11,7 +10,6 @@ pub mod processes;
 pub mod programs;
 mod watch;
 
-pub use axe::violations;
 pub use chromium::Chromium;
-pub use devtools::{DESKTOP, Tab, Viewer};
+pub use devtools::{DESKTOP, Tab, Viewer, violations};
 pub use watch::WatchProcess;

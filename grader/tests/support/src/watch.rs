@@ -10,7 +10,7 @@ pub struct WatchProcess {
 }
 
 impl WatchProcess {
-    /// Starts a command that grades a submission, with `--watch`.
+    /// Adds `--watch` to a command that grades a submission, and starts the command.
     pub fn start(command: &mut Command) -> Self {
         let mut child = command
             .arg("--watch")

@@ -1,7 +1,8 @@
-//! Measures the viewer's drawing speed and cost, for the table in `grader/benches/README.md`.
+//! Measures how fast and at what cost the viewer draws, for the table in
+//! `grader/benches/README.md`.
 //!
-//! Each round measures each quantity once, so that a busy machine affects all of them. Quantities
-//! are compared within a round.
+//! Each round measures every quantity once, so a busy machine affects all of them. Quantities are
+//! compared within a round.
 
 #[expect(dead_code, reason = "the tests use more of it")]
 #[path = "../../tests/it/harness.rs"]
@@ -25,11 +26,11 @@ const ROUNDS: usize = 7;
 /// The scene whose camera is moved.
 const SCENE: &str = "checkered-teapot";
 const SIZE: &str = "320x240";
-/// The samples per pixel for the rate of rays.
+/// The number of samples per pixel for measuring the ray rate.
 const SAMPLES: u32 = 128;
 /// How long an idle viewer is measured.
 const IDLE: Duration = Duration::from_secs(20);
-/// The same in the short form.
+/// How long an idle viewer is measured in the short version of the benchmark.
 const BRIEFLY_IDLE: Duration = Duration::from_secs(1);
 
 fn main() {
@@ -39,8 +40,8 @@ fn main() {
     large_mesh();
 }
 
-/// Measures the time from a movement of the camera to the first picture, and the rate of rays
-/// compared with `cargo render`.
+/// Measures the time from a camera movement to the first picture, and the ray rate compared with
+/// that of `cargo render`.
 fn moves_and_rays() {
     let arguments = &format!("{SCENE} --size {SIZE} --samples {SAMPLES}");
     let viewer = Viewer::start(&Submission::reference(), arguments);
@@ -74,7 +75,7 @@ fn moves_and_rays() {
         let mut of_render = 0.0;
         let render = Cost::of(|| of_render = rate_of_render(folder.path()));
         ratios.push(1e-6 * rate / of_render);
-        // The pictures are the same, so the numbers of rays are too.
+        // The pictures are the same, so the ray counts are too.
         costs.extend(cpu.map(|cpu| render.cpu.as_secs_f64() / cpu.as_secs_f64()));
     }
     moves.sort_by(f64::total_cmp);
@@ -152,7 +153,8 @@ fn is_fresh(state: &Value) -> bool {
     state["build"] == "ready" && state["is_stale"] == false
 }
 
-/// Measures the CPU time of the viewer and its programs while a page is showing a complete picture.
+/// Measures the CPU time that the viewer and its programs use while a page shows a complete
+/// picture.
 fn idle() {
     let arguments = &format!("{SCENE} --size {SIZE} --samples 4");
     let viewer = Viewer::start(&Submission::reference(), arguments);
@@ -185,7 +187,7 @@ fn idle() {
     );
 }
 
-/// Measures the memory and the time for meshes of a million triangles.
+/// Measures the memory and time needed to show meshes with a million triangles.
 fn large_mesh() {
     let folder = TempDir::new().expect("a folder can be created");
     let scenes = workspace().join("scenes");

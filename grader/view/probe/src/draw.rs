@@ -3,18 +3,29 @@
 use std::time::{Duration, Instant};
 
 use framework::harness::attempt::attempt;
-use framework::render::integrator::{Integrator, RenderStats};
+use framework::render::renderer::{RenderStats, Renderer};
 use glam::{UVec2, Vec2};
 use protocol::{Panic, Trace};
 
 use crate::messages::{
-    Draw, Drawn, Follow, Followed, MAX_PANICS, Quantity, Target, TestCounts, Values,
+    Draw, DrawnPixels, Follow, MAX_PANICS, MarkedTests, Quantity, RecordedRays, Target, Values,
 };
+use crate::open_scene::OpenScene;
 use crate::record;
-use crate::stage::Stage;
+use crate::rules::{RULES, count_marks};
+
+/// The maximum number of tests to judge for a pixel. If a traversal makes more tests, the first
+/// ones already break the rules, and judging all of them would take much longer than making them.
+const MAX_JUDGED: u32 = 500;
+
+/// The renderers of a scene.
+pub(crate) struct Renderers<'a> {
+    pub(crate) light: Box<dyn Renderer + 'a>,
+    pub(crate) clay: Box<dyn Renderer + 'a>,
+}
 
 /// Draws pixels until all are drawn or the time is up.
-pub(crate) fn draw(stage: &Stage, integrator: &Integrator, request: &Draw) -> Drawn {
+pub(crate) fn draw(stage: &OpenScene, renderers: &Renderers, request: &Draw) -> DrawnPixels {
     let mut stats = RenderStats::default();
     let mut pixels = Pixels {
         request,
@@ -27,17 +38,26 @@ pub(crate) fn draw(stage: &Stage, integrator: &Integrator, request: &Draw) -> Dr
         })),
         Quantity::Light { sample } => {
             Values::Light(pixels.each(Default::default(), |pass, pixel| {
-                integrator.sample_radiance(pixel, sample + pass, &mut stats)
+                renderers
+                    .light
+                    .sample_radiance(pixel, sample + pass, &mut stats)
             }))
         }
-        Quantity::Tests => Values::Tests(pixels.each(TestCounts::default(), |_, pixel| {
+        Quantity::Clay { sample } => {
+            Values::Light(pixels.each(Default::default(), |pass, pixel| {
+                renderers
+                    .clay
+                    .sample_radiance(pixel, sample + pass, &mut stats)
+            }))
+        }
+        Quantity::Tests => Values::Tests(pixels.each(MarkedTests::default(), |_, pixel| {
             stats.rays += 1;
-            record::take_counts();
-            stage.first_hit(pixel);
-            record::take_counts()
+            stage.marked_tests(pixel)
         })),
     };
-    Drawn {
+    // A panic leaves the list of recorded rays behind.
+    record::finish();
+    DrawnPixels {
         values,
         panics: pixels.panics,
         rays: stats.rays,
@@ -76,8 +96,8 @@ impl Pixels<'_> {
     }
 
     /// Adds a panic to the list. The message of a panic at one location can differ from pixel to
-    /// pixel, so only the first one is kept. If there are too many locations, the rest are counted
-    /// as the last one.
+    /// pixel, so only the first message is kept. If there are too many locations, the rest are
+    /// counted under the last one.
     fn add_panic(&mut self, panic: Panic, index: u32) {
         let same = |(known, _): &(Panic, Vec<u32>)| known.location == panic.location;
         let known = self.panics.iter().position(same);
@@ -88,8 +108,8 @@ impl Pixels<'_> {
     }
 }
 
-/// A deadline. Reading the time takes a tenth as long as a short path, so the clock is read less
-/// often while pixels are fast.
+/// A deadline. Reading the time takes a tenth as long as tracing a short path, so the clock is read
+/// less often while pixels are fast.
 struct Clock {
     deadline: Instant,
     /// The number of pixels until the clock is read again.
@@ -99,7 +119,7 @@ struct Clock {
 }
 
 impl Clock {
-    /// The time between two readings above which the clock is read after each pixel.
+    /// If more time than this passes between two readings, the clock is read after each pixel.
     const SLOW: Duration = Duration::from_millis(1);
     /// The maximum number of pixels between two clock readings.
     const MAX_INTERVAL: u32 = 64;
@@ -122,28 +142,53 @@ impl Clock {
     }
 }
 
-impl Stage<'_> {
-    /// Returns the hit of the ray through the centre of a pixel, like the framework's pictures of
-    /// first hits.
+impl OpenScene<'_> {
+    /// Returns the closest hit of the ray through the centre of a pixel, the same as in the
+    /// framework's pictures of first hits.
     fn first_hit(&self, pixel: UVec2) -> Option<Trace> {
         let ray = self.world.camera.ray(pixel, Vec2::splat(0.5));
         self.world
             .bvh
             .closest_hit(&self.scene.camera.placement.to_world(&ray))
     }
+
+    /// Returns the tests of the ray through the centre of a pixel.
+    fn marked_tests(&self, pixel: UVec2) -> MarkedTests {
+        let tree = self.indexed_tree();
+        record::start(MAX_JUDGED, 1);
+        self.first_hit(pixel);
+        let rays = record::finish();
+        let Some(ray) = rays.first() else {
+            return MarkedTests::default();
+        };
+        // Without a tree, there are no steps to judge.
+        let is_judged = tree.has_nodes() && ray.counts.boxes > 0;
+        let span = |corners| self.intersect_box(corners, &ray.ray);
+        MarkedTests {
+            counts: ray.counts,
+            marks: if is_judged {
+                count_marks(ray, tree, span)
+            } else {
+                [0; RULES]
+            },
+        }
+    }
 }
 
 /// Records a ray or a path.
-pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -> Followed {
+pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow) -> RecordedRays {
     let mut stats = RenderStats::default();
-    record::start(request);
+    record::start(request.max_tests, request.max_rays);
     let outcome = attempt(|| match request.target {
         Target::Centre(pixel) => {
             stage.first_hit(pixel);
             None
         }
         Target::Path { pixel, sample } => {
-            Some(integrator.sample_radiance(pixel, sample, &mut stats))
+            Some(renderers.light.sample_radiance(pixel, sample, &mut stats))
+        }
+        Target::Clay { pixel, sample } => {
+            Some(renderers.clay.sample_radiance(pixel, sample, &mut stats))
         }
         Target::Ray(ray) => {
             stage.world.bvh.closest_hit(&ray);
@@ -155,7 +200,7 @@ pub(crate) fn follow(stage: &Stage, integrator: &Integrator, request: &Follow) -
         Ok(radiance) => (radiance, None),
         Err(panic) => (None, Some(panic)),
     };
-    Followed {
+    RecordedRays {
         rays,
         radiance,
         panic,

@@ -1,15 +1,18 @@
 //! The part of `cargo view` that is linked with a submission.
 //!
 //! The viewer compiles a submission's files together with this crate instead of with the grader's
-//! probe. The program draws tiles of a picture with the submission's code. A second program, where
-//! `BBox::hit` and `Primitive::hit` report their calls to [`record`], lists the tests of a ray.
-//! Neither is used for grading.
+//! probe. The program draws tiles of a picture with the submission's code. A second program, in
+//! which `BBox::hit` and `Primitive::hit` report their calls to [`record`], lists the tests of a
+//! ray, and [`rules`] marks the steps that no correct traversal makes. Neither program is used for
+//! grading.
 
 mod draw;
+pub mod indexed_tree;
 pub mod messages;
+mod open_scene;
 pub mod record;
+pub mod rules;
 pub mod scene_data;
 mod serve;
-mod stage;
 
 pub use serve::main;

@@ -11,24 +11,25 @@ use framework::submission::{Aggregate, Hierarchy};
 use glam::Vec3;
 use protocol::{Interval, Ray, Trace, TreeNode};
 
-use crate::messages::{Follow, FollowedRay, Test, TestCounts};
+use crate::messages::{RecordedRay, Test, TestCounts};
 
 thread_local! {
-    /// The number of tests since the last [`take_counts`].
-    static COUNTS: Cell<TestCounts> = const { Cell::new(TestCounts { boxes: 0, primitives: 0 }) };
     /// The recorded rays, if tests are being listed.
     static LIST: RefCell<Option<List>> = const { RefCell::new(None) };
-    /// Whether tests are being listed. This flag spares counting an access to `LIST`.
+    /// Whether tests are being listed. If they aren't, this flag avoids an access to `LIST` in each
+    /// test.
     static LISTING: Cell<bool> = const { Cell::new(false) };
 }
 
 struct List {
-    rays: Vec<FollowedRay>,
+    rays: Vec<RecordedRay>,
     /// The number of tests that may still be listed.
     left: u32,
+    /// The maximum number of rays to trace.
+    max_rays: u32,
 }
 
-/// Records a call of `BBox::hit`. Returns its result. `bbox` is the box with these corners. Only
+/// Records a call of `BBox::hit` and returns its result. `bbox` is the box with these corners. Only
 /// its address is used.
 pub fn box_test<B>(
     bbox: &B,
@@ -49,7 +50,7 @@ pub fn box_test<B>(
     inside
 }
 
-/// Records a call of `Primitive::hit`. Returns its result. `shape` is the index of the shape.
+/// Records a call of `Primitive::hit` and returns its result. `shape` is the index of the shape.
 pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace> {
     record(
         |counts| &mut counts.primitives,
@@ -64,22 +65,16 @@ pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace
 
 /// Counts a test and adds it to the current ray. A test outside any ray isn't listed.
 fn record(number: fn(&mut TestCounts) -> &mut u32, test: impl FnOnce() -> Test) {
-    let add = |counts: &mut TestCounts| {
-        let number = number(counts);
-        *number = number.saturating_add(1);
-    };
-    let mut counts = COUNTS.get();
-    add(&mut counts);
-    COUNTS.set(counts);
     if !LISTING.get() {
         return;
     }
     LIST.with_borrow_mut(|list| {
-        let Some(List { rays, left }) = list else {
+        let Some(List { rays, left, .. }) = list else {
             return;
         };
         let Some(ray) = rays.last_mut() else { return };
-        add(&mut ray.counts);
+        let number = number(&mut ray.counts);
+        *number = number.saturating_add(1);
         if *left > 0 {
             *left -= 1;
             ray.tests.push(test());
@@ -87,39 +82,41 @@ fn record(number: fn(&mut TestCounts) -> &mut u32, test: impl FnOnce() -> Test) 
     });
 }
 
-/// Returns the number of tests since the last call.
-pub(crate) fn take_counts() -> TestCounts {
-    COUNTS.take()
-}
-
-/// Starts listing tests.
-pub(crate) fn start(follow: &Follow) {
+/// Starts recording. At most `max_tests` tests are listed, and at most `max_rays` rays are traced.
+pub(crate) fn start(max_tests: u32, max_rays: u32) {
     LIST.set(Some(List {
         rays: Vec::new(),
-        left: follow.max_tests,
+        left: max_tests,
+        max_rays,
     }));
     LISTING.set(true);
 }
 
-/// Stops listing tests. Returns the rays.
-pub(crate) fn finish() -> Vec<FollowedRay> {
+/// Stops listing tests and returns the recorded rays.
+pub(crate) fn finish() -> Vec<RecordedRay> {
     LISTING.set(false);
     LIST.take().map_or(Vec::new(), |list| list.rays)
 }
 
 /// A tree whose rays are listed.
-pub(crate) struct Recorded(pub(crate) Box<dyn Hierarchy>);
+pub(crate) struct RecordingTree(pub(crate) Box<dyn Hierarchy>);
 
-impl Aggregate for Recorded {
+impl Aggregate for RecordingTree {
     fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
-        let Recorded(tree) = self;
+        let RecordingTree(tree) = self;
         if !LISTING.get() {
             return tree.closest_hit(ray);
         }
-        LIST.with_borrow_mut(|list| {
-            let rays = list.iter_mut().map(|list| &mut list.rays);
-            rays.for_each(|rays| rays.push(FollowedRay::new(*ray)));
+        let is_traced = LIST.with_borrow_mut(|list| {
+            let Some(List { rays, max_rays, .. }) = list else {
+                return true;
+            };
+            rays.push(RecordedRay::new(*ray));
+            rays.len() <= *max_rays as usize
         });
+        if !is_traced {
+            return None;
+        }
         let hit = tree.closest_hit(ray);
         LIST.with_borrow_mut(|list| {
             if let Some(last) = list.as_mut().and_then(|list| list.rays.last_mut()) {
@@ -130,7 +127,7 @@ impl Aggregate for Recorded {
     }
 }
 
-impl Hierarchy for Recorded {
+impl Hierarchy for RecordingTree {
     fn root(&self) -> usize {
         self.0.root()
     }

@@ -1,15 +1,20 @@
 //! A scene as sent to a probe, which cannot read files.
 
-use framework::scene::{Camera, Material, Placement, Scene};
+use std::borrow::Cow;
+
+use framework::scene::{Camera, Environment, Material, Placement, Scene};
 use glam::{Mat3, Vec3};
-use protocol::{PinholeCamera, Shape, Tree};
+use protocol::{Panic, PinholeCamera, Shape, Tree};
 use serde::{Deserialize, Serialize};
+
+use crate::messages::SubmissionPart;
 
 /// A scene without its camera.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SceneData {
-    /// The radiance of the environment.
-    pub environment: Vec3,
+    /// The light of the environment.
+    #[serde(with = "environment")]
+    pub environment: Environment,
     /// The materials.
     pub materials: Vec<SceneMaterial>,
     /// All shapes, numbered like those of a [`Scene`].
@@ -24,6 +29,23 @@ pub struct SceneData {
     pub aim: Aim,
     /// Whether the rays and tests are recorded.
     pub is_recorded: bool,
+}
+
+/// Returns the shapes that are drawn: those whose `hit` isn't among the missing parts.
+pub fn written_shapes<'a>(
+    shapes: &'a [Shape],
+    missing: &[(SubmissionPart, Panic)],
+) -> Cow<'a, [Shape]> {
+    let has = |part| missing.iter().all(|(known, _)| *known != part);
+    let (has_triangles, has_spheres) = (has(SubmissionPart::Triangle), has(SubmissionPart::Sphere));
+    if has_triangles && has_spheres {
+        return Cow::Borrowed(shapes);
+    }
+    let is_written = |shape: &&Shape| match shape {
+        Shape::Triangle { .. } | Shape::FlatTriangle { .. } => has_triangles,
+        Shape::Sphere { .. } => has_spheres,
+    };
+    Cow::Owned(shapes.iter().filter(is_written).copied().collect())
 }
 
 /// The tree to traverse.
@@ -53,11 +75,42 @@ enum MaterialDef {
     Emitter { radiance: Vec3 },
 }
 
+/// How an environment is sent: the size of the map, which is 0 if there is none, and the radiance of
+/// each pixel or of all directions.
+mod environment {
+    use framework::scene::{Environment, EnvironmentMap};
+    use glam::{UVec2, Vec3};
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(
+        environment: &Environment,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        match environment {
+            Environment::Constant(radiance) => (UVec2::ZERO, vec![*radiance]),
+            Environment::Map(map) => (map.size(), map.pixels().to_vec()),
+        }
+        .serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Environment, D::Error> {
+        let (size, radiance) = <(UVec2, Vec<Vec3>)>::deserialize(deserializer)?;
+        if let (UVec2::ZERO, [constant]) = (size, &radiance[..]) {
+            return Ok(Environment::Constant(*constant));
+        }
+        let map = EnvironmentMap::new(size, radiance);
+        map.map(Environment::Map).map_err(D::Error::custom)
+    }
+}
+
 impl SceneData {
-    /// Returns the data of a scene whose tree should be built.
+    /// Returns the data for a scene whose tree should be built.
     pub fn new(scene: &Scene, aim: Aim) -> Self {
         SceneData {
-            environment: scene.environment,
+            environment: scene.environment.clone(),
             materials: scene.materials.iter().copied().map(SceneMaterial).collect(),
             shapes: scene.shapes.clone(),
             shape_materials: scene.shape_materials.clone(),
@@ -86,7 +139,7 @@ impl SceneData {
     }
 }
 
-/// A camera and the settings of paths.
+/// A camera and the settings for paths.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
     /// The camera and its position.
@@ -96,12 +149,12 @@ pub struct Aim {
     pub settings: PathSettings,
 }
 
-/// The settings of paths.
+/// The settings for paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PathSettings {
     /// The maximum number of times a path is scattered.
     pub bounces: u32,
-    /// The seed of all random numbers.
+    /// The seed for all random numbers.
     pub seed: u64,
 }
 

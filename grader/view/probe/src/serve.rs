@@ -5,17 +5,17 @@ use std::io::{BufReader, BufWriter, Write};
 use std::process::ExitCode;
 
 use framework::harness::attempt::attempt;
-use framework::render::integrator::{Integrator, RenderSettings};
+use framework::render::clay::Clay;
+use framework::render::integrator::{Integrator, PathSettings};
 use framework::submission::Submission;
 use protocol::wire::{self, WireError};
 
-use crate::draw::{draw, follow};
+use crate::draw::{Renderers, draw, follow};
 use crate::messages::{Request, Response, TreeData};
-use crate::scene_data::PathSettings;
-use crate::stage::Stage;
+use crate::open_scene::{OpenScene, Opening};
 
-/// The maximum size of a request: a scene with some millions of triangles. The viewer is trusted,
-/// so this only guards against bugs.
+/// The maximum size of a request, enough for a scene with several million triangles. The viewer is
+/// trusted, so this only guards against bugs.
 const MAX_REQUEST_BYTES: usize = 2 << 30;
 
 /// Responds to requests from standard input until the input ends.
@@ -35,17 +35,32 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
 
 /// Responds to requests. Returns only with an error, such as the end of the stream.
 fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> {
-    let mut stage: Option<Stage> = None;
+    let mut opening: Option<Opening> = None;
+    let mut stage: Option<OpenScene> = None;
     let mut request = pipe.receive()?;
     loop {
         let response = match (request, &mut stage) {
-            (Request::Open(data), stage) => {
+            (Request::Scene(data), stage) => {
                 // Free the old tree first, so that there are never two.
                 *stage = None;
-                let (opened, new) = Stage::open(submission, *data);
-                *stage = new;
-                Response::Opened(opened)
+                opening = Some(Opening::new(*data));
+                Response::Received
             }
+            (Request::Build, stage) => match opening.take() {
+                Some(opening) => {
+                    let (opened, new) = opening.build(submission);
+                    *stage = new;
+                    Response::Opened(opened)
+                }
+                None => Response::NotOpen,
+            },
+            (Request::Try(trial), None) => match &mut opening {
+                Some(opening) => {
+                    opening.try_part(submission, &trial);
+                    Response::Tried
+                }
+                None => Response::NotOpen,
+            },
             (Request::Aim(aim), Some(stage)) => {
                 stage.aim(aim);
                 Response::Aimed
@@ -61,24 +76,28 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
     }
 }
 
-/// Responds to requests that don't change the scene or the camera. Returns the first other request.
-/// This way, the integrator, which lists the scene's lights, is only created once per camera.
-fn serve_aimed(stage: &Stage, first: Request, pipe: &mut Pipe) -> Result<Request, WireError> {
-    let PathSettings { bounces, seed } = stage.aim.settings;
-    let settings = RenderSettings {
-        film: stage.aim.camera.pinhole.film,
-        samples: 1,
-        bounces,
-        seed,
+/// Responds to requests that don't change the scene or the camera, and returns the first request
+/// that does. This way, the path tracer, which lists the scene's lights, is only created once per
+/// camera.
+fn serve_aimed(stage: &OpenScene, first: Request, pipe: &mut Pipe) -> Result<Request, WireError> {
+    let (scene, world) = (&stage.scene, &stage.world);
+    let (bounces, seed) = (stage.aim.settings.bounces, stage.aim.settings.seed);
+    let settings = PathSettings { bounces, seed };
+    let renderers = Renderers {
+        light: Box::new(Integrator::new(scene, world, settings)),
+        clay: Box::new(Clay::new(scene, world, seed)),
     };
-    let integrator = Integrator::new(&stage.scene, &stage.world, settings);
     let mut request = first;
     loop {
         let response = match &request {
-            Request::Open(_) | Request::Aim(_) => return Ok(request),
-            Request::Draw(request) => Response::Drawn(draw(stage, &integrator, request)),
+            Request::Scene(_) | Request::Build | Request::Aim(_) => return Ok(request),
+            Request::Try(trial) => {
+                stage.try_part(trial);
+                Response::Tried
+            }
+            Request::Draw(request) => Response::Drawn(draw(stage, &renderers, request)),
             Request::Tree(_) => Response::Tree(attempt(|| TreeData(stage.world.bvh.tree())).into()),
-            Request::Follow(request) => Response::Followed(follow(stage, &integrator, request)),
+            Request::Follow(request) => Response::Followed(follow(stage, &renderers, request)),
             Request::Boxes(queries) => {
                 let boxes = queries.boxes.iter();
                 let spans = boxes.map(|corners| stage.intersect_box(*corners, &queries.ray));
@@ -90,7 +109,7 @@ fn serve_aimed(stage: &Stage, first: Request, pipe: &mut Pipe) -> Result<Request
     }
 }
 
-/// The pipes of requests and responses.
+/// The pipes for requests and responses.
 struct Pipe {
     requests: BufReader<File>,
     responses: BufWriter<File>,

@@ -2,9 +2,9 @@
 
 use std::io::Read;
 
-/// The maximum length of a request's line and headers, in bytes.
+/// The maximum length of a request line and its headers, in bytes.
 const MAX_HEAD_BYTES: usize = 16 << 10;
-/// The maximum length of a request's body, in bytes. The longest command has about 100.
+/// The maximum length of a request's body, in bytes. The longest command takes about 100.
 const MAX_BODY_BYTES: usize = 16 << 10;
 /// The maximum number of headers. Browsers send about 20.
 const MAX_HEADERS: usize = 64;
@@ -33,7 +33,7 @@ pub struct Request {
     pub body: Vec<u8>,
 }
 
-/// A reason for not reading a request.
+/// The reason a request could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum RequestError {
     /// The connection ended or failed before the request was complete.
@@ -73,8 +73,8 @@ impl Request {
         Ok(request)
     }
 
-    /// Parses the line and the headers. Returns the request without its body, the length of the
-    /// head and the length of the body, or `None` if the head is incomplete.
+    /// Parses the request line and the headers. Returns the request without its body, the length of
+    /// the head and the length of the body, or `None` if the head is incomplete.
     fn parse_head(bytes: &[u8]) -> Result<Option<(Self, usize, usize)>, RequestError> {
         let mut headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
         let mut parsed = httparse::Request::new(&mut headers);

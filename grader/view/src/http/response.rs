@@ -60,7 +60,7 @@ impl Response {
         Response::new(status, "text/plain; charset=utf-8", format!("{text}\n"))
     }
 
-    /// Creates a response which says that nothing has changed.
+    /// Creates a response that says that nothing has changed.
     pub fn nothing() -> Self {
         Response {
             status: Status::NO_CONTENT,

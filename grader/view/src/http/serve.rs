@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use super::request::{Request, RequestError};
 use super::response::{Response, Status};
 
-/// The maximum number of open connections without a trusted request. Beyond this, the oldest is
-/// closed, so that idle connections cannot keep the page from being answered.
+/// The maximum number of open connections without a trusted request. Beyond this number, the oldest
+/// connection is closed, so that idle connections cannot keep the page from being served.
 const MAX_UNTRUSTED: usize = 100;
 /// The maximum number of trusted requests to answer at the same time. A browser opens at most six
 /// connections to one server.
@@ -87,7 +87,7 @@ impl<S: Site> Server<S> {
 
     fn handle(&self, number: u64, stream: &TcpStream) -> io::Result<()> {
         stream.set_nodelay(true)?;
-        let request = Request::read(&mut Timed::new(stream, READ_TIMEOUT));
+        let request = Request::read(&mut DeadlineStream::new(stream, READ_TIMEOUT));
         let mut slot = None;
         let response = match request {
             Ok(request) if self.site.trusts(&request) => {
@@ -103,20 +103,20 @@ impl<S: Site> Server<S> {
             Err(RequestError::Io(error)) => return Err(error),
             Err(error) => Response::text(Status::BAD_REQUEST, &error.to_string()),
         };
-        response.write(&mut Timed::new(stream, WRITE_TIMEOUT))
+        response.write(&mut DeadlineStream::new(stream, WRITE_TIMEOUT))
     }
 }
 
-/// A connection until a deadline. A socket's timeouts apply to each read or write, so a peer that
-/// sends or reads one byte at a time would never exceed them.
-struct Timed<'a> {
+/// A connection that can be used until a deadline. A socket's timeouts apply to each read or write,
+/// so a peer that sends or reads one byte at a time would never exceed them.
+struct DeadlineStream<'a> {
     stream: &'a TcpStream,
     deadline: Instant,
 }
 
-impl<'a> Timed<'a> {
+impl<'a> DeadlineStream<'a> {
     fn new(stream: &'a TcpStream, timeout: Duration) -> Self {
-        Timed {
+        DeadlineStream {
             stream,
             deadline: Instant::now() + timeout,
         }
@@ -131,14 +131,14 @@ impl<'a> Timed<'a> {
     }
 }
 
-impl Read for Timed<'_> {
+impl Read for DeadlineStream<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         self.stream.set_read_timeout(self.left()?)?;
         self.stream.read(buffer)
     }
 }
 
-impl Write for Timed<'_> {
+impl Write for DeadlineStream<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.stream.set_write_timeout(self.left()?)?;
         self.stream.write(bytes)
@@ -169,7 +169,7 @@ mod tests {
             }
         });
         let started_at = Instant::now();
-        let mut timed = Timed::new(&server, Duration::from_millis(100));
+        let mut timed = DeadlineStream::new(&server, Duration::from_millis(100));
         assert!(matches!(
             Request::read(&mut timed),
             Err(RequestError::Io(_))
@@ -182,7 +182,7 @@ mod tests {
         let (client, server) = connection();
         let response = Response::new(Status::OK, "text/plain", vec![0; 64 << 20]);
         let started_at = Instant::now();
-        let mut timed = Timed::new(&server, Duration::from_millis(100));
+        let mut timed = DeadlineStream::new(&server, Duration::from_millis(100));
         assert!(response.write(&mut timed).is_err());
         assert!(started_at.elapsed() < Duration::from_secs(5));
         drop(client);

@@ -24,9 +24,9 @@ impl<T: Copy + Default> Layer<T> {
         }
     }
 
-    /// Adds the values of a request's first pixels and marks the pixels with a panic, given by
-    /// their indices in the request. `add` returns the new value of a pixel from the old one and a
-    /// sample.
+    /// Adds the values of the first pixels in a request, and marks those where the code panicked,
+    /// which are identified by their indices in the request. `add` returns the new value of a pixel
+    /// from the old one and a sample.
     pub fn add(
         &mut self,
         index: usize,
@@ -43,20 +43,21 @@ impl<T: Copy + Default> Layer<T> {
     }
 
     /// Returns the value and the number of samples of a pixel. A pixel that hasn't been drawn yet
-    /// shows the nearest drawn pixel below and to the left. Returns `None` if no such pixel has
-    /// been drawn.
-    pub fn shown(&self, pixel: UVec2) -> Option<Shown<T>> {
+    /// shows the value of the nearest drawn pixel below and to the left. Returns `None` if no such
+    /// pixel has been drawn.
+    pub fn shown(&self, pixel: UVec2) -> Option<PixelContent<T>> {
         let counts = &self.tiles.counts;
         let coarser = [1, 2, 4].map(|stride| self.tiles.index(pixel / stride * stride));
         let drawn = coarser.into_iter().find(|index| counts[*index] > 0)?;
         Some(if self.tiles.panicked[drawn] {
-            Shown::Panicked
+            PixelContent::Panicked
         } else {
-            Shown::Value(self.values[drawn], counts[drawn])
+            PixelContent::Value(self.values[drawn], counts[drawn])
         })
     }
 
-    /// Returns all values, row by row from the bottom, with `None` for pixels that aren't drawn.
+    /// Returns all values, row by row from the bottom, with `None` for pixels that haven't been
+    /// drawn.
     pub fn values(&self) -> impl Iterator<Item = Option<T>> {
         let drawn = self.tiles.counts.iter().zip(&self.values);
         drawn.map(|(count, value)| (*count > 0).then_some(*value))
@@ -65,8 +66,8 @@ impl<T: Copy + Default> Layer<T> {
 
 /// The content of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shown<T> {
-    /// The sum of its samples, or its value, and the number of samples.
+pub enum PixelContent<T> {
+    /// The sum of the pixel's samples, or its value, and the number of samples.
     Value(T, u32),
     /// Drawing it caused a panic.
     Panicked,
@@ -80,8 +81,8 @@ mod tests {
     use super::*;
     use crate::model::tiles::LayerKind;
 
-    /// Draws a picture whose pixels list the numbers of their samples as digits. Each request draws
-    /// at most `most` pixels.
+    /// Draws a picture in which the digits of each pixel's value are the numbers of its samples.
+    /// Each request draws at most `most` pixels.
     fn draw_all(film: UVec2, samples: u32, most: usize) -> Layer<u64> {
         let mut layer = Layer::new(film, samples);
         while let Some((index, draw)) = layer.tiles.take(LayerKind::Light, 1) {
@@ -121,8 +122,8 @@ mod tests {
         );
         layer.add(index, &draw, &[7; 9], [4], |sum, sample| sum + sample);
         assert!(layer.tiles.has_coarse_picture() && !layer.tiles.is_complete());
-        assert_eq!(layer.shown(uvec2(3, 3)), Some(Shown::Value(7, 1)));
-        // Number 4 is the pixel (4, 4).
-        assert_eq!(layer.shown(uvec2(5, 6)), Some(Shown::Panicked));
+        assert_eq!(layer.shown(uvec2(3, 3)), Some(PixelContent::Value(7, 1)));
+        // Index 4 is the pixel (4, 4).
+        assert_eq!(layer.shown(uvec2(5, 6)), Some(PixelContent::Panicked));
     }
 }

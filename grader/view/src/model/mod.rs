@@ -2,7 +2,6 @@
 
 pub mod explanation;
 pub mod layer;
-pub mod rules;
 pub mod tiles;
 pub mod tree;
 pub mod viewpoint;

@@ -1,5 +1,5 @@
-//! The order of drawing a picture's pixels: first every fourth pixel of every fourth row, then
-//! every second, then all, then one more sample for each.
+//! The order in which a picture's pixels are drawn: first every fourth pixel of every fourth row,
+//! then every second, then all, then one more sample for each.
 //!
 //! The film is divided into tiles. Each tile is drawn by one probe at a time, one sample after the
 //! other, so that samples are added in order, as in `cargo render`. Tiles never wait for each
@@ -22,17 +22,20 @@ const _: () = assert!((TILE * TILE * MAX_PASSES) as usize <= MAX_VALUES);
 pub enum LayerKind {
     /// Radiance.
     Light,
+    /// Radiance in clay.
+    Clay,
     /// First hits.
     Hits,
-    /// Numbers of tests.
+    /// Tests.
     Tests,
 }
 
 impl LayerKind {
-    /// Returns the layer of a request.
+    /// Returns the layer that a request's quantity belongs to.
     pub fn of(quantity: Quantity) -> Self {
         match quantity {
             Quantity::Light { .. } => LayerKind::Light,
+            Quantity::Clay { .. } => LayerKind::Clay,
             Quantity::Hit => LayerKind::Hits,
             Quantity::Tests => LayerKind::Tests,
         }
@@ -41,6 +44,7 @@ impl LayerKind {
     fn quantity(self, sample: u32) -> Quantity {
         match self {
             LayerKind::Light => Quantity::Light { sample },
+            LayerKind::Clay => Quantity::Clay { sample },
             LayerKind::Hits => Quantity::Hit,
             LayerKind::Tests => Quantity::Tests,
         }
@@ -55,9 +59,9 @@ pub struct Tiles {
     tiles: Vec<Tile>,
     /// The number of samples that each pixel should get.
     pub samples: u32,
-    /// The number of samples of each pixel, row by row from the bottom.
+    /// The number of samples drawn for each pixel, row by row from the bottom.
     pub(super) counts: Vec<u32>,
-    /// Whether drawing a pixel caused a panic.
+    /// For each pixel, whether drawing it caused a panic.
     pub(super) panicked: Vec<bool>,
 }
 
@@ -67,9 +71,9 @@ struct Tile {
     size: UVec2,
     /// The number of complete steps.
     step: u32,
-    /// The number of samples of each pixel in the current request.
+    /// The number of samples per pixel in the current request.
     passes: u32,
-    /// The number of samples of this request that have been drawn.
+    /// The number of samples in this request that have been drawn.
     first: u32,
     is_busy: bool,
 }
@@ -108,8 +112,8 @@ impl Tiles {
         Some((index, tile.draw(layer, samples, milliseconds)))
     }
 
-    /// Counts a request's first `drawn` pixels and marks the pixels with a panic, given by their
-    /// indices in the request.
+    /// Counts the first `drawn` pixels in a request, and marks those where the code panicked, which
+    /// are identified by their indices in the request.
     pub fn add(
         &mut self,
         index: usize,
@@ -154,7 +158,7 @@ impl Tiles {
         self.tiles.iter().all(|tile| tile.step > 0)
     }
 
-    /// Returns the minimum number of samples of all pixels.
+    /// Returns the smallest number of samples that any pixel has.
     pub fn complete_samples(&self) -> u32 {
         let first_of_all = STRIDES.len() as u32 - 1;
         let steps = self.tiles.iter().map(|tile| tile.step);
@@ -168,7 +172,7 @@ impl Tiles {
         drawn as f64 / all.max(1.0)
     }
 
-    /// Returns the index of a pixel, row by row from the bottom.
+    /// Returns the index of a pixel in a list of all pixels, row by row from the bottom.
     pub fn index(&self, pixel: UVec2) -> usize {
         pixel.y as usize * self.film.x as usize + pixel.x as usize
     }
@@ -182,7 +186,8 @@ impl Tile {
             Some(stride) => (*stride, STRIDES[step - 1], 0),
             None => (1, 0, self.step + 1 - STRIDES.len() as u32),
         };
-        // At first, every picture shows more. Later, it may be shown less often.
+        // At first, requests ask for few samples, so that the picture changes often. Later, it may
+        // change less often.
         if self.first == 0 {
             let rest = samples.saturating_sub(sample);
             self.passes = rest.clamp(1, sample.clamp(1, MAX_PASSES));

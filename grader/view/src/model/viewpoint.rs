@@ -26,15 +26,18 @@ pub struct Viewpoint {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Movement {
-    /// Turns around the point in the middle of the picture: angles in radians, to the right and up.
+    /// Turns the camera around the point in the middle of the picture by two angles in radians: to
+    /// the right and up.
     Orbit(f32, f32),
-    /// Moves parallel to the picture: to the right and up, as fractions of the picture's height.
+    /// Moves the camera parallel to the picture, to the right and up. The distances are fractions
+    /// of the picture's height.
     Pan(f32, f32),
-    /// Moves toward the point in the middle, by a factor of its distance: less than 1 is nearer.
+    /// Multiplies the distance to the point in the middle by a factor. A factor below 1 moves the
+    /// camera closer.
     Dolly(f32),
     /// Moves the camera and the point in the middle forward, as a fraction of the distance.
     Fly(f32),
-    /// Turns the camera in its place: angles in radians, to the right and up.
+    /// Turns the camera in place by two angles in radians: to the right and up.
     Turn(f32, f32),
 }
 
@@ -74,8 +77,8 @@ impl Viewpoint {
         }
     }
 
-    /// Returns a viewpoint at this side that shows the entire box, given the vertical field of view
-    /// in degrees.
+    /// Returns a viewpoint from this side that shows the entire box, given the vertical field of
+    /// view in degrees.
     pub fn from_side(side: Side, bounds: &Bounds, vertical_fov: f32, aspect_ratio: f32) -> Self {
         let (toward, up) = match side {
             Side::Front => (Vec3::NEG_Z, Vec3::Y),
@@ -153,7 +156,8 @@ impl Viewpoint {
         Viewpoint { placement, ..self }
     }
 
-    /// Returns the view direction after turning it, counter-clockwise as seen from above, and up.
+    /// Returns the view direction after turning it left (counter-clockwise as seen from above) and
+    /// up.
     fn turned(&self, left: f32, up: f32) -> Vec3 {
         let forward = -self.placement.axes.z_axis;
         let right = self.placement.axes.x_axis;
@@ -221,7 +225,7 @@ mod tests {
         let moved = front().moved(Movement::Orbit(0.7, 0.4), 2.0).placement;
         assert!((moved.position.distance(target) - start).abs() < 1e-4);
         assert!(moved.axes.x_axis.y.abs() < 1e-5, "the horizon is level");
-        // To the right and up: the camera itself goes to +x and +y.
+        // Orbiting to the right and up moves the camera itself to +x and +y.
         assert!(
             moved.position.x > 0.1 && moved.position.y > 0.1,
             "{moved:?}"

@@ -1,5 +1,7 @@
 // The page: shows each new state, and sends what the user chooses.
 import { follow, send } from "./server.js";
+import { showTests } from "./legend.js";
+import { linked, setSources, withLinks } from "./links.js";
 import * as overlay from "./overlay.js";
 import * as pixel from "./pixel.js";
 import * as stage from "./stage.js";
@@ -15,20 +17,19 @@ export function element(name, attributes, ...children) {
   return made;
 }
 
-/** Returns a text with `code` between backticks as nodes. */
-export function prose(text) {
-  return text.split("`").map((part, i) => i % 2 === 1 ? element("code", {}, part) : part);
-}
+/** Returns a text with `code` between backticks as nodes. File names with a line number are links. */
+export const prose = linked;
 
-/** Formats a number with at most five digits. */
-export function number(x) {
+/** Formats a number with at most this many digits. */
+export function number(x, digits = 5) {
   if (x === null || !Number.isFinite(x)) return String(x ?? "∞");
-  return String(Number(x.toPrecision(5)));
+  return String(Number(x.toPrecision(digits)));
 }
 
 let last = null;
 
 function show(state) {
+  setSources(state.sources);
   showTexts(state);
   showControls(state);
   showErrors(state);
@@ -51,10 +52,10 @@ function waitingFor(state) {
   if (state.loading) return `Loading ${state.loading} …`;
   if (state.build === "compiling") return "Compiling …";
   if (state.build === "failed") return state.picture > 0 ? "" : "No picture yet: see the errors.";
-  if (state.has_stopped && state.is_stale) return "The picture of your last version: the new one has stopped, see below.";
+  if (state.has_stopped && state.is_stale) return "This picture was drawn by your previous version, because the new one has stopped.";
   if (state.is_opening) return "Building the tree …";
   if (state.picture > 0) return "";
-  return state.has_stopped ? "No picture yet: see below." : "Drawing …";
+  return state.has_stopped ? "No picture yet." : "Drawing …";
 }
 
 function setText(id, text) {
@@ -66,23 +67,23 @@ function showTexts(state) {
   setText("about", state.about);
   const rate = state.rays_per_second >= 1e6 ? `${(state.rays_per_second / 1e6).toFixed(1)} million`
     : Math.round(state.rays_per_second).toLocaleString("en");
-  const programs = state.view === "tests" ? 1 : state.programs;
+  const programs = state.tests ? 1 : state.programs;
   const parts = [`${state.film[0]} × ${state.film[1]}`];
-  if (state.view === "shaded") parts.push(`${state.complete_samples} of ${state.samples} samples`);
+  if (["shaded", "clay"].includes(state.view)) parts.push(`${state.complete_samples} of ${state.samples} samples`);
   if (state.rays_per_second > 0) parts.push(`${rate} rays per second in ${programs} ${programs === 1 ? "program" : "programs"}`);
   if (state.is_complete) parts.push(`finished in ${state.seconds.toFixed(1)} s`);
   else if (state.seconds_left !== null) parts.push(`${Math.max(1, Math.round(state.seconds_left))} s left`);
   setText("status", parts.join("; "));
   const legends = {
-    clay: "lit from the camera; where the normal points away from it, blue",
+    clay: "dark where other shapes are near; blue where the normal points away from the camera",
     normals: "x, y and z of the normal, from −1 to 1, as red, green and blue",
     depth: "distance: the nearest hit is white, the farthest almost black",
     uv: "u and v as red and green",
   };
-  if (state.view === "tests" || state.view === "bvh") {
-    const [what, most] = state.view === "tests" ? ["tests for the pixel", ` (${state.most_tests ?? "…"})`] : ["boxes around the hit", ""];
-    get("legend").replaceChildren(`${what}: few`, element("span", { class: "ramp" }), `many${most}`);
-  } else {
+  const isAboutTests = showTests(state);
+  if (state.view === "bvh") {
+    get("legend").replaceChildren("boxes around the hit: few", element("span", { class: "ramp" }), "many");
+  } else if (!isAboutTests) {
     setText("legend", legends[state.view] ?? "");
   }
   // Announced by screen readers, so it changes seldom.
@@ -93,7 +94,7 @@ function showTexts(state) {
   get("pick-question").hidden = !state.question?.has_ray;
   if (state.question && question.dataset.of !== state.subject) {
     question.dataset.of = state.subject;
-    question.replaceChildren(element("p", {}, `asked: ${state.question.asked}`),
+    get("question-text").replaceChildren(element("p", {}, `asked: ${state.question.asked}`),
       ...state.question.wanted.map((text) => element("p", {}, `wanted: ${text}`)));
     overlay.setLines("level", state.question.boxes.flatMap(([min, max]) =>
       overlay.boxLines(min, max, { colour: overlay.COLOURS.level, width: 2 })));
@@ -132,34 +133,49 @@ function showControls(state) {
   }
 }
 
+/** Shows a message over the picture, unfolded if it was hidden before. */
+function showMessage(id, isShown) {
+  const message = get(id);
+  if (isShown && message.hidden) message.open = true;
+  message.hidden = !isShown;
+}
+
 function showErrors(state) {
-  get("errors").hidden = state.build !== "failed";
+  showMessage("errors", state.build === "failed");
   const key = JSON.stringify(state.errors);
   const list = get("error-list");
   if (list.dataset.key === key) return;
   list.dataset.key = key;
   list.replaceChildren(...state.errors.flatMap((error) => [
-    element("h3", {}, error.line === null ? error.file : `${error.file}:${error.line}`),
-    element("pre", { tabindex: 0 }, error.text)]));
+    element("h3", {}, ...withLinks(error.line === null ? error.file : `${error.file}:${error.line}`)),
+    element("pre", { tabindex: 0 }, ...withLinks(error.text))]));
 }
 
 function showNotes(state) {
+  const { notes, panics } = state;
+  const key = JSON.stringify([notes, panics, state.has_stopped, state.slow_build]);
   const list = get("notes");
-  const key = JSON.stringify([state.notes, state.panics, state.has_stopped]);
   if (list.dataset.key === key) return;
   list.dataset.key = key;
-  const at = (location) => location ? ` (${location})` : "";
+  const at = (location) => location ? withLinks(` (${location})`) : [];
+  const text = (note) => [...prose(note.text), ...at(note.location)];
+  // Why the program has stopped is the first note.
+  const fault = state.has_stopped ? notes[0] : state.slow_build;
+  showMessage("stopped", Boolean(fault));
+  setText("stopped-title", state.has_stopped ? "Your code has stopped" : "Your code is taking a long time");
+  get("stopped-text").replaceChildren(...(fault ? text(fault) : []));
   const samples = (n) => n === 1 ? "Pixel" : `${n.toLocaleString("en")} samples, the first in pixel`;
   list.replaceChildren(
-    ...state.notes.map((note, i) => element("li", state.has_stopped && i === 0 ? { class: "fault" } : {},
-      ...prose(note.text), at(note.location))),
-    ...state.panics.map((panic) => element("li", { class: "panic" },
-      `${samples(panic.count)} (${panic.pixel.join(", ")}): ${panic.message}${at(panic.location)}`)));
+    ...(state.has_stopped ? notes.slice(1) : notes).map((note) => element("li", {}, ...text(note))),
+    ...panics.map((panic) => element("li", { class: "panic" },
+      `${samples(panic.count)} (${panic.pixel.join(", ")}): `, ...prose(panic.message), ...at(panic.location))));
+  get("messages").hidden = list.children.length === 0;
 }
 
 function listen() {
   const sample = () => get("pick-sample").value === "" ? null : Number(get("pick-sample").value);
   stage.listen(sample);
+  stage.listenToHovering(get("hovered"));
   tree.listen();
   get("lines").addEventListener("pointermove", (event) => {
     if (event.buttons === 0) tree.nodeAt(event.offsetX, event.offsetY);

@@ -2,7 +2,7 @@
 
 const canvas = document.getElementById("lines");
 let camera = null;
-let layers = { level: [], node: [], path: [], steps: [] };
+let layers = { level: [], defects: [], node: [], path: [], steps: [] };
 let pixel = null;
 let film = [1, 1];
 
@@ -77,7 +77,7 @@ function draw() {
   const context = canvas.getContext("2d");
   context.clearRect(0, 0, canvas.width, canvas.height);
   if (!camera) return;
-  for (const line of [...layers.level, ...layers.path, ...layers.steps, ...layers.node]) drawLine(context, line, scale);
+  for (const line of [...layers.level, ...layers.defects, ...layers.path, ...layers.steps, ...layers.node]) drawLine(context, line, scale);
   if (pixel) {
     const [w, h] = [canvas.width / film[0], canvas.height / film[1]];
     const [x, y] = [(pixel[0] + 0.5) * w, (film[1] - 0.5 - pixel[1]) * h];
@@ -91,11 +91,9 @@ function draw() {
   }
 }
 
-function drawLine(context, { points, colour, width = 1, fill = false, dash = [] }, scale) {
+function drawLine(context, { points, colour, width = 1.5, fill = false, dash = [] }, scale) {
   const seen = points.map(toCamera);
-  context.strokeStyle = colour;
   context.fillStyle = colour;
-  context.lineWidth = width * scale;
   context.setLineDash(dash.map((length) => length * scale));
   if (fill && seen.every((point) => point[2] > 0)) {
     context.beginPath();
@@ -105,13 +103,17 @@ function drawLine(context, { points, colour, width = 1, fill = false, dash = [] 
     context.fill();
     context.globalAlpha = 1;
   }
-  for (let i = 1; i < seen.length; i++) {
-    const part = clip(seen[i - 1], seen[i]);
-    if (!part) continue;
-    context.beginPath();
-    context.moveTo(...toCanvas(part[0]));
-    context.lineTo(...toCanvas(part[1]));
-    context.stroke();
+  const parts = seen.slice(1).map((end, i) => clip(seen[i], end)).filter(Boolean);
+  // A dark border makes lines visible on bright surfaces.
+  for (const [style, more] of [["rgb(0 0 0 / 60%)", 2], [colour, 0]]) {
+    context.strokeStyle = style;
+    context.lineWidth = (width + more) * scale;
+    for (const [from, to] of parts) {
+      context.beginPath();
+      context.moveTo(...toCanvas(from));
+      context.lineTo(...toCanvas(to));
+      context.stroke();
+    }
   }
 }
 

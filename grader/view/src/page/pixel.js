@@ -5,12 +5,24 @@ import { element, number, prose } from "./main.js";
 
 const content = document.getElementById("explanation");
 const FIRST_ROWS = 400;
+const MAX_MARKED = 20;
 
-// The outcomes of tests. `AT` is replaced by the part of the ray in the box, or by the distance.
+// The outcomes in the table, whose steps take one line each.
+const SHORT_OUTCOMES = {
+  entered: "entered",
+  not_entered: "not entered",
+  skipped_beyond: "behind",
+  outside_times: "outside times",
+  missed: "missed",
+  closest: "closest",
+  farther: "farther",
+  no_hit: "no hit",
+};
+// The outcomes as sentences. `AT` is replaced by the part of the ray in the box, or by the distance.
 const OUTCOMES = {
   entered: "hit from AT: entered",
   not_entered: "hit from AT: not entered",
-  skipped_beyond: "hit from AT: not entered, since it begins beyond the closest hit",
+  skipped_beyond: "hit from AT: not entered, because it begins beyond the closest hit",
   outside_times: "hit from AT, but not within the times that were passed: skipped",
   missed: "missed",
   closest: "hit at AT: the closest so far",
@@ -18,10 +30,11 @@ const OUTCOMES = {
   no_hit: "not hit",
 };
 const RULES = {
-  missed_box: (node) => `node ${node} is entered, although the ray misses its box`,
-  beyond_closest_hit: (node) => `node ${node} is entered, although its box begins beyond the closest hit`,
-  farther_child_first: (node) => `node ${node} is visited before the other child, although the ray enters its box later`,
+  missed_box: (node) => `node ${node} is entered, even though the ray misses its box`,
+  beyond_closest_hit: (node) => `node ${node} is entered, even though its box begins beyond the closest hit`,
+  farther_child_first: (node) => `node ${node} is visited before the other child, even though the ray enters its box later`,
 };
+const SHORT_RULES = { missed_box: "misses the box", beyond_closest_hit: "behind the hit", farther_child_first: "farther first" };
 const COLOUR_OF = { entered: COLOURS.entered, not_entered: COLOURS.skipped, skipped_beyond: COLOURS.skipped,
   outside_times: COLOURS.skipped, missed: COLOURS.missed, closest: COLOURS.primitive, farther: COLOURS.primitive,
   no_hit: COLOURS.missed };
@@ -61,10 +74,10 @@ function show(explanation, state) {
   const title = pixel ? `Pixel (${pixel.join(", ")})` : "The exam's ray";
   const path = sample === null ? "" : `, path ${sample + 1}`;
   content.append(element("h3", {}, title + path));
-  if (radiance) content.append(element("p", {}, `Radiance of the path: ${radiance.map(number).join(", ")}`));
-  if (panic) content.append(element("p", { class: "rule" }, `Panicked: ${panic[0]} (${panic[1]})`));
+  if (radiance) content.append(element("p", {}, `Radiance of the path: ${radiance.map((x) => number(x)).join(", ")}`));
+  if (panic) content.append(element("p", { class: "rule" }, ...prose(`Panicked: ${panic[0]} (${panic[1]})`)));
   // All rays of a path are in the picture, whichever of them is stepped through.
-  setLines("path", rays.length > 1 ? rays.map((ray) => rayLine(ray, 1)) : []);
+  setLines("path", rays.length > 1 ? rays.map((ray) => rayLine(ray, 1.5)) : []);
   if (rays.length === 0) content.append(element("p", {}, ...prose("No ray was passed to `Bvh::hit`.")));
   rays.forEach((ray, i) => {
     const parent = rays.length === 1 ? content
@@ -75,35 +88,38 @@ function show(explanation, state) {
     if (rays.length === 1) {
       parent.append(element("p", {}, `${ray.kind[0].toUpperCase()}${ray.kind.slice(1)}: ${result(ray)}. `
         + `${ray.boxes} box tests, ${ray.primitives} primitive tests.`));
-      fill(parent, ray, 1);
+      fill(parent, ray, 1, state.traversal);
     } else {
       parent.append(element("summary", {}, summary));
-      const once = () => { if (parent.open && parent.children.length === 1) fill(parent, ray, i + 1); };
+      const once = () => { if (parent.open && parent.children.length === 1) fill(parent, ray, i + 1, state.traversal); };
       parent.addEventListener("toggle", once);
-      if (i === 0) fill(parent, ray, i + 1);
+      if (i === 0) fill(parent, ray, i + 1, state.traversal);
     }
   });
 }
 
 function result(ray) {
+  if (ray.is_shadow_ray) return ray.hit ? `light hidden: hit at ${number(ray.hit.distance)}` : "light visible";
   return ray.hit ? `hit at ${number(ray.hit.distance)}` : "no hit";
 }
 
-function fill(parent, ray, index) {
-  const at = (list) => `(${list.map(number).join(", ")})`;
+/** `traversal` is the file and line of `Bvh::hit`. */
+function fill(parent, ray, index, traversal) {
+  const at = (list) => `(${list.map((x) => number(x)).join(", ")})`;
   const range = ray.range.map((end) => end === null ? "∞" : number(end)).join(" to ");
   parent.append(element("p", {}, `From ${at(ray.origin)} in direction ${at(ray.dir)}, range ${range}.`));
   for (const note of ray.notes) parent.append(element("p", { class: "note" }, ...prose(note)));
   const marked = ray.rows.flatMap((row, i) => row.marks.map(([rule, node]) => [i, RULES[rule](node)]));
   if (marked.length > 0) {
     const list = element("ul", { class: "marked" });
-    for (const [i, text] of marked.slice(0, 20)) {
+    for (const [i, text] of marked.slice(0, MAX_MARKED)) {
       const item = element("li", {}, element("button", { type: "button" }, `Step ${i + 1}`), `: ${text}`);
       item.firstChild.addEventListener("click", () => go(i, true));
       list.append(item);
     }
-    if (marked.length > 20) list.append(element("li", {}, `and ${marked.length - 20} more`));
-    parent.append(element("p", { class: "rule" }, "A correct traversal does not do this:"), list);
+    if (marked.length > MAX_MARKED) list.append(element("li", {}, `and ${marked.length - MAX_MARKED} more`));
+    const where = traversal ? prose(` (${traversal})`) : [];
+    parent.append(element("p", { class: "rule" }, "A correct traversal doesn't do this", ...where, ":"), list);
   }
   if (ray.rows.length === 0) return;
 
@@ -113,15 +129,14 @@ function fill(parent, ray, index) {
     made.addEventListener("click", () => go(step(), true));
     return made;
   };
-  const count = element("output", {});
+  const count = element("output", { class: "step-text" });
   parent.append(element("div", { class: "steps" },
     button("|◀", "First step", () => 0), button("◀", "Step back", () => now - 1),
     button("▶", "Step forward", () => now + 1), button("▶|", "All steps", () => ray.rows.length),
-    slider, count));
+    slider), count);
   const body = element("tbody", {});
-  const table = element("table", {},
-    element("caption", { class: "note" }, "The tests, in order"),
-    element("thead", {}, element("tr", {}, ...["step", "test", "result", "closest hit"].map((text) =>
+  const table = element("table", { "aria-label": "The tests, in order" },
+    element("thead", {}, element("tr", {}, ...["step", "test", "level", "distance", "result", "closest"].map((text) =>
       element("th", { scope: "col" }, text)))), body);
   parent.append(element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `The tests of ray ${index}` }, table));
   const addRows = (until) => {
@@ -138,7 +153,7 @@ function fill(parent, ray, index) {
     now = Math.min(Math.max(step, 0), ray.rows.length);
     slider.value = now;
     const row = ray.rows[now];
-    count.textContent = row ? `step ${now + 1} of ${ray.rows.length}: ${subject(row)}: ${outcomeOf(row)}`
+    count.textContent = row ? `step ${now + 1} of ${ray.rows.length}: ${subject(row)}${inLeaf(row)}: ${outcomeOf(row)}`
       : `all ${ray.rows.length} steps`;
     body.querySelector("[aria-current]")?.removeAttribute("aria-current");
     addRows(row ? now + 1 : 0);
@@ -156,43 +171,55 @@ function fill(parent, ray, index) {
 function outcomeOf(row) {
   // The closest hit after this test, so a nearer one may have been found before the node's turn.
   const isLater = row.outcome === "skipped_beyond" && !(row.closest !== null && row.closest < row.at[0]);
-  const text = isLater ? "hit from AT: put off, then not entered, since a hit before it was found" : OUTCOMES[row.outcome];
-  return text.replace("AT", row.at.map(number).join(" to "));
+  const text = isLater ? "hit from AT: left for later, then not entered, because a closer hit was found" : OUTCOMES[row.outcome];
+  return text.replace("AT", row.at.map((x) => number(x)).join(" to "));
 }
 
 function subject(row) {
+  const { nodes } = row;
   if (!row.is_box) return `${row.triangle ? "triangle" : "sphere"} ${row.shape}`;
-  if (row.nodes.length === 0) return "a box that is not in the tree";
-  const list = row.nodes.length > 4 ? [...row.nodes.slice(0, 4), "…"] : row.nodes;
-  return (row.nodes.length > 1 ? `one of the nodes ${list.join(", ")}` : `node ${row.nodes[0]}`)
-    + ` (level ${row.level})`;
+  if (nodes.length === 0) return "a box that is not in the tree";
+  const list = nodes.length > 4 ? [...nodes.slice(0, 4), "…"] : nodes;
+  return nodes.length > 1 ? `one of the nodes ${list.join(", ")}` : `node ${nodes[0]}`;
+}
+
+/** Returns the leaf of a primitive. */
+function inLeaf(row) {
+  return !row.is_box && row.nodes.length > 0 ? ` in leaf ${row.nodes[0]}` : "";
 }
 
 function tableRow(row, i, go) {
   const step = element("button", { type: "button", "aria-label": `Show step ${i + 1}` }, String(i + 1));
   step.addEventListener("click", () => go(i, false));
-  const outcome = element("td", {}, outcomeOf(row));
-  if (row.again) outcome.append(element("span", {}, " (tested before)"));
-  for (const [rule, node] of row.marks) outcome.append(element("span", { class: "rule" }, `✗ ${RULES[rule](node)}`));
-  const inLeaf = !row.is_box && row.nodes.length > 0 ? `, in leaf ${row.nodes[0]}` : "";
+  const rules = row.marks.map(([rule]) => `✗ ${SHORT_RULES[rule]}`);
+  const outcome = rules.length > 0 ? element("td", { class: "rule" }, rules.join(", "))
+    : element("td", {}, SHORT_OUTCOMES[row.outcome] + (row.again ? " (again)" : ""));
+  const short = (x) => number(x, 4);
   return element("tr", row.marks.length > 0 ? { class: "mark" } : {},
-    element("td", {}, step), element("td", {}, subject(row) + inLeaf), outcome,
-    element("td", {}, row.closest === null ? "none" : number(row.closest)));
+    element("td", {}, step), element("td", {}, subject(row)), element("td", {}, String(row.level ?? "")),
+    element("td", {}, row.at.map(short).join(" – ")), outcome,
+    element("td", {}, row.closest === null ? "none" : short(row.closest)));
 }
 
 /** Returns the lines for all tests up to a step, which is emphasised. */
 function lines(ray, step) {
   const all = [];
+  let closest = null;
   const start = Math.max(0, step - 150);
   ray.rows.slice(start, step + 1).forEach((row, i) => {
     const isNow = start + i === step;
-    const style = { colour: row.marks.length > 0 ? COLOURS.bad : COLOUR_OF[row.outcome], width: isNow ? 3 : 1 };
-    // Of earlier boxes, only the entered ones stay, and of earlier primitives, those that are hit.
-    if (!isNow && row.outcome !== "entered" && row.outcome !== "closest" && row.marks.length === 0) return;
-    if (row.triangle) all.push({ points: [...row.triangle, row.triangle[0]], fill: true, ...style });
+    const style = { colour: row.marks.length > 0 ? COLOURS.bad : COLOUR_OF[row.outcome], width: isNow ? 3.5 : 1.5 };
+    // Of earlier boxes, only the entered ones stay, and of earlier primitives, the last one that is hit.
+    if (row.outcome === "closest") closest = row;
+    if (!isNow && row.outcome !== "entered" && row.marks.length === 0) return;
+    if (row.triangle) all.push({ points: [...row.triangle, row.triangle[0]], fill: isNow, ...style });
     else if (row.corners) all.push(...boxLines(...row.corners, style));
   });
-  all.push(rayLine(ray, 2.5));
+  all.push(rayLine(ray, 3));
+  // The closest hit is drawn last, so that nothing hides it.
+  const style = { colour: COLOURS.primitive, width: 3.5 };
+  if (closest?.triangle) all.push({ points: [...closest.triangle, closest.triangle[0]], fill: true, ...style });
+  else if (closest?.corners) all.push(...boxLines(...closest.corners, style));
   return all;
 }
 

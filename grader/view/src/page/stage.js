@@ -1,5 +1,5 @@
 // The picture: shows it, and turns mouse, touch and keys into movements of the camera.
-import { move, request, send } from "./server.js";
+import { load, move, request, send } from "./server.js";
 
 const stage = document.getElementById("stage");
 const pixels = document.getElementById("pixels");
@@ -9,6 +9,8 @@ let wanted = null;
 
 /** Shows the picture of a state, unless it is shown already. */
 export async function showPicture(state) {
+  // The shape of the picture is known before its first pixel, so that nothing moves later.
+  document.getElementById("picture").style.setProperty("--ratio", state.film[0] / state.film[1]);
   if (state.picture === 0 || state.picture === shown) return;
   wanted = state;
   if (isLoading) return;
@@ -37,13 +39,37 @@ export async function showPicture(state) {
   isLoading = false;
 }
 
-/** Explains the pixel at a position in the window. `sample` is the number of a path, or null. */
-export function pickAt(clientX, clientY, sample) {
+/** Returns the pixel at a position in the window, counted from the bottom left. */
+function pixelAt(clientX, clientY) {
   const box = pixels.getBoundingClientRect();
   const x = Math.floor((clientX - box.left) / box.width * pixels.width);
   const y = pixels.height - 1 - Math.floor((clientY - box.top) / box.height * pixels.height);
   const inside = (at, length) => Math.min(Math.max(at, 0), length - 1);
-  return send({ pick: { pixel: [inside(x, pixels.width), inside(y, pixels.height)], sample } });
+  return [inside(x, pixels.width), inside(y, pixels.height)];
+}
+
+/** Explains the pixel at a position in the window. `sample` is the number of a path, or null. */
+function pickAt(clientX, clientY, sample) {
+  return send({ pick: { pixel: pixelAt(clientX, clientY), sample } });
+}
+
+/** Shows the value of the pixel under the mouse as a text. */
+export function listenToHovering(text) {
+  let next = null;
+  let isAsking = false;
+  stage.addEventListener("pointermove", async (event) => {
+    if (event.buttons !== 0) return;
+    next = pixelAt(event.clientX, event.clientY);
+    if (isAsking) return;
+    isAsking = true;
+    while (next) {
+      const [x, y] = next;
+      next = null;
+      const value = await load(`/value?x=${x}&y=${y}`);
+      text.textContent = value === null ? "" : `(${x}, ${y}): ${value}`;
+    }
+    isAsking = false;
+  });
 }
 
 /** Listens to the mouse, to fingers and to keys. `sample` returns the path that a click explains. */

@@ -1,6 +1,7 @@
 // The tree: boxes over the picture, a strip with a row for each level, and the worst nodes.
-import { load, send } from "./server.js";
+import { load } from "./server.js";
 import { boxLines, COLOURS, covered, setLines } from "./overlay.js";
+import { costOf, showDefects } from "./defects.js";
 import { element, number } from "./main.js";
 
 const strip = document.getElementById("strip");
@@ -17,25 +18,31 @@ let selected = null;
 /** Shows the tree of a state, unless it is shown already. */
 export async function showTree(state) {
   const has = state.has_tree && state.tree_number !== shown;
-  document.getElementById("tree-content").hidden = !state.has_tree;
-  document.getElementById("tree-hint").hidden = state.has_tree;
+  // While the tree is built again, the last one stays, so that nothing moves.
+  const isPending = summary !== null && (state.build !== "ready" || !state.is_complete);
+  document.getElementById("tree-content").hidden = !state.has_tree && !isPending;
+  document.getElementById("tree-hint").hidden = state.has_tree || isPending;
   if (!state.has_tree) {
     shown = "";
     if (boxes.length > 0) setLines("level", boxes = []);
     selected = null;
     setLines("node", []);
+    showDefects(null);
     return;
   }
   if (!has) return;
   shown = state.tree_number;
   summary = await load("/tree");
   if (!summary) return;
+  // If the nodes do not form a tree, their costs are all 0.
+  summary.cost ||= 1;
   level.max = summary.levels - 1;
   rows = 1 + summary.bars.reduce((most, bar) => Math.max(most, bar.level), 0);
   document.getElementById("tree-facts").textContent =
     `${count(summary.primitives, "primitive")}, ${count(summary.nodes, "node")}, ${count(summary.levels, "level")}; `
-    + `SAH cost ${number(summary.cost)}: the expected number of tests of a ray that hits the root's box.`
+    + costOf(summary.checkup)
     + (rows < summary.levels ? ` Only the first ${rows} levels are in the strip.` : "");
+  showDefects(summary.checkup, goTo);
   showTable("worst", summary.worst);
   document.getElementById("node-index").max = summary.nodes - 1;
   drawStrip();
@@ -71,9 +78,9 @@ async function showLevel() {
 
 function facts(node) {
   const share = (x) => `${(100 * x).toFixed(1)} %`;
-  const overlap = node.overlap === null ? "" : `, a ray that hits it hits ${number(node.overlap)} of its children on average`;
+  const overlap = node.overlap === null ? "" : `; ${node.overlap.toFixed(2)} children hit on average`;
   return `${node.leaf ? "Leaf" : "Node"} ${node.node}, level ${node.level}: ${count(node.primitives, "primitive")}, `
-    + `area ${share(node.area)} of the root's, ${share(node.cost / summary.cost)} of the SAH cost${overlap}.`;
+    + `${share(node.area)} of the root's area, ${share(node.cost / summary.cost)} of the SAH cost${overlap}.`;
 }
 
 function select(node) {
@@ -130,13 +137,13 @@ function drawStrip() {
 function barAt(event) {
   if (!summary) return null;
   const x = event.offsetX / strip.clientWidth;
-  const wanted = Math.floor(event.offsetY / strip.clientHeight * rows);
+  // On the border, the offset is negative.
+  const wanted = Math.floor(Math.max(0, event.offsetY) / strip.clientHeight * rows);
   return summary.bars.find((bar) => bar.level === wanted && bar.start <= x && x < bar.start + bar.width) ?? null;
 }
 
 /** Listens to the controls. */
 export function listen() {
-  document.getElementById("load-tree").addEventListener("click", () => send("tree"));
   const change = () => { showLevel(); drawStrip(); };
   level.addEventListener("input", () => { isOn.checked = true; change(); });
   isOn.addEventListener("change", change);

@@ -6,7 +6,8 @@ use framework::math::tan;
 use glam::UVec2;
 use serde::Deserialize;
 
-use super::{Pinned, Session, View};
+use super::{PinnedTarget, Session, View};
+use crate::model::tiles::LayerKind;
 use crate::model::viewpoint::{Movement, Side, Viewpoint};
 
 /// The maximum number of pixels along one side of a film.
@@ -16,7 +17,7 @@ const MAX_SAMPLES: u32 = 4096;
 /// The maximum exposure, in stops.
 const MAX_EXPOSURE: f32 = 16.0;
 
-/// A command from the page. Scenes are given by name, never by path.
+/// A command from the page. Scenes are identified by name, never by path.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
@@ -26,7 +27,7 @@ pub enum Command {
     View(View),
     /// Sets the exposure, in stops.
     Exposure(f32),
-    /// Sets the number of pixels, across and up.
+    /// Sets the width and height of the picture, in pixels.
     Film([u32; 2]),
     /// Sets the number of samples per pixel.
     Samples(u32),
@@ -47,8 +48,6 @@ pub enum Command {
     PickQuestion,
     /// Stops explaining a pixel.
     Unpick,
-    /// Loads the tree.
-    Tree,
 }
 
 impl Session {
@@ -66,15 +65,7 @@ impl Session {
                 self.shown.version += 1;
                 return Ok(Some(name.clone()));
             }
-            Command::View(view) => {
-                self.timing_mut().stop(now);
-                self.shown.view = *view;
-                self.is_dirty = true;
-                self.shown.is_picture_complete = false;
-                self.is_tree_wanted |= *view == View::Bvh;
-                self.is_recording_wanted |= *view == View::Tests;
-                self.fault = None;
-            }
+            Command::View(view) => self.show_view(*view, now),
             Command::Exposure(stops) => {
                 if !stops.is_finite() || stops.abs() > MAX_EXPOSURE {
                     return Err("the exposure is out of range".to_owned());
@@ -101,6 +92,7 @@ impl Session {
                     self.restart(now);
                 } else {
                     self.light.tiles.samples = *samples;
+                    self.clay.tiles.samples = *samples;
                 }
             }
             Command::Move(movement) => {
@@ -127,20 +119,30 @@ impl Session {
             }
             Command::PickQuestion => match &self.subject.question {
                 Some(question) if question.ray.is_some() => self.pin(None, None),
-                Some(_) | None => return Err("there is no ray of the exam".to_owned()),
+                Some(_) | None => return Err("no ray from the exam is shown".to_owned()),
             },
             Command::Unpick => {
                 self.pinned = None;
                 self.set_explanation(None);
             }
-            Command::Tree => self.is_tree_wanted = true,
         }
         self.shown.version += 1;
         Ok(None)
     }
 
+    /// Shows another quantity.
+    pub fn show_view(&mut self, view: View, now: Instant) {
+        self.timing_mut().stop(now);
+        self.shown.view = view;
+        self.is_dirty = true;
+        self.shown.is_picture_complete = false;
+        self.is_tree_wanted |= view == View::Bvh;
+        self.is_recording_wanted |= view.layer() == LayerKind::Tests;
+        self.fault = None;
+    }
+
     fn pin(&mut self, pixel: Option<UVec2>, sample: Option<u32>) {
-        let pinned = Pinned {
+        let pinned = PinnedTarget {
             aim: self.aim(),
             pixel,
             sample,

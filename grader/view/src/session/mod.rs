@@ -2,12 +2,14 @@
 //! no threads and reads no files or clocks.
 
 mod commands;
+mod jobs;
 mod notes;
 mod page_state;
 mod results;
 mod state;
+mod tests_summary;
 mod timing;
-mod work;
+mod values;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -15,8 +17,8 @@ use std::time::{Duration, Instant};
 use framework::scene::Camera;
 use glam::{UVec2, Vec3};
 use grader::submission::Submission;
-use protocol::Trace;
-use view_probe::messages::{Opened, TestCounts};
+use protocol::{ElementOutcome, Trace};
+use view_probe::messages::{MarkedTests, OpenOutcome, TreeSize};
 use view_probe::scene_data::{Aim, PathSettings};
 
 use crate::model::explanation::Explanation;
@@ -28,24 +30,25 @@ use crate::program::BuildState;
 use crate::subject::Subject;
 
 pub use commands::Command;
+pub use jobs::{Job, ScheduledJob, Worker};
 pub use notes::{Note, PanicNote};
 pub use page_state::PageState;
-pub use state::{Key, Pinned, Resources, Shown, View};
+pub use state::{Key, PageFields, PinnedTarget, Resources, View};
+use tests_summary::TestAverages;
 use timing::Timing;
-pub use work::{Job, Work, Worker};
 
-/// Drawing pauses this long after a page's last request.
+/// The time from a page's last request until drawing pauses.
 const WATCHED_FOR: Duration = Duration::from_secs(40);
 
 /// The state of the viewer.
 #[derive(Debug)]
 pub struct Session {
-    pub(crate) shown: Shown,
+    pub(crate) shown: PageFields,
     /// Whether the picture has changed since it was last composed.
     pub is_dirty: bool,
     settings: PathSettings,
     pub(crate) subject: Arc<Subject>,
-    /// Why the last scene was not loaded.
+    /// The reason the last scene was not loaded.
     loading_error: Option<String>,
     viewpoint: Viewpoint,
     drawing: BuildState,
@@ -56,32 +59,37 @@ pub struct Session {
     version_of_files: u64,
     /// The submission's files, as last compiled.
     submission: Option<Arc<Submission>>,
-    opened: Option<Opened>,
-    /// How long opening the scene last took.
+    opened: Option<OpenOutcome>,
+    /// How long it last took to open the scene.
     last_opening: Duration,
-    /// Why drawing has stopped.
-    fault: Option<String>,
-    /// The number of pixels that have ended the program.
+    /// Whether building the tree takes a long time.
+    is_build_slow: bool,
+    /// The reason drawing has stopped.
+    fault: Option<Note>,
+    /// The number of pixels that ended the program when they were drawn.
     faults: u32,
     /// Whether each request draws a single pixel, in order to find the one that ends the program.
     is_careful: bool,
     invalid_paths: u64,
     pub(crate) light: Layer<Vec3>,
+    pub(crate) clay: Layer<Vec3>,
     pub(crate) hits: Layer<Option<Trace>>,
-    pub(crate) tests: Layer<TestCounts>,
+    pub(crate) tests: Layer<MarkedTests>,
+    /// The averages for an earlier version of the code with the same camera.
+    averages_before: Option<TestAverages>,
     pub(crate) tree: Option<Arc<TreeModel>>,
     is_tree_wanted: bool,
     is_tree_busy: bool,
-    /// Why the tree could not be read.
+    /// The reason the tree could not be read.
     tree_fault: Option<String>,
-    pinned: Option<Pinned>,
+    pinned: Option<PinnedTarget>,
     pub(crate) explanation: Option<Arc<Explanation>>,
     /// Changes with the explanation.
     explanation_number: u64,
     is_explanation_busy: bool,
     explanation_fault: Option<String>,
-    /// The times of drawing the three layers.
-    timings: [Timing; 3],
+    /// The times spent drawing each layer.
+    timings: [Timing; 4],
     started_at: Instant,
     watched_at: Instant,
     resources: Resources,
@@ -99,12 +107,12 @@ impl Session {
         now: Instant,
     ) -> Self {
         let film = film.unwrap_or(subject.camera.pinhole.film);
-        let shown = Shown {
+        let shown = PageFields {
             version: 1,
             scenes,
             film,
             samples,
-            ..Shown::default()
+            ..PageFields::default()
         };
         let mut session = Session {
             shown,
@@ -121,13 +129,16 @@ impl Session {
             submission: None,
             opened: None,
             last_opening: Duration::ZERO,
+            is_build_slow: false,
             fault: None,
             faults: 0,
             is_careful: false,
             invalid_paths: 0,
             light: Layer::new(film, samples),
+            clay: Layer::new(film, samples),
             hits: Layer::new(film, 1),
             tests: Layer::new(film, 1),
+            averages_before: None,
             tree: None,
             is_tree_wanted: false,
             is_tree_busy: false,
@@ -154,6 +165,8 @@ impl Session {
         self.viewpoint = subject.viewpoint;
         self.subject = Arc::new(subject);
         self.numbers.scene += 1;
+        self.opened = None;
+        self.is_build_slow = false;
         self.pinned = None;
         self.set_explanation(None);
         self.forget_tree();
@@ -173,7 +186,7 @@ impl Session {
             self.is_tree_wanted = true;
             self.shown.view = View::Normals;
             if question.ray.is_some() {
-                self.pinned = Some(Pinned {
+                self.pinned = Some(PinnedTarget {
                     aim: self.aim(),
                     pixel: None,
                     sample: None,
@@ -205,16 +218,23 @@ impl Session {
         }
     }
 
-    /// Returns the key of new work.
+    /// Returns the key for new work.
     pub fn key(&self) -> Key {
         self.numbers
     }
 
-    /// Restarts the picture with a different camera, program or scene.
+    /// Restarts the picture with a different camera or scene.
     fn restart(&mut self, now: Instant) {
+        self.averages_before = None;
+        self.draw_again(now);
+    }
+
+    /// Restarts the picture with a different camera, program or scene.
+    fn draw_again(&mut self, now: Instant) {
         self.numbers.aim += 1;
         self.shown.is_picture_complete = false;
         self.light = Layer::new(self.shown.film, self.shown.samples);
+        self.clay = Layer::new(self.shown.film, self.shown.samples);
         self.hits = Layer::new(self.shown.film, 1);
         self.tests = Layer::new(self.shown.film, 1);
         self.fault = None;
@@ -253,14 +273,21 @@ impl Session {
     fn tiles(&self) -> &Tiles {
         match self.shown.view.layer() {
             LayerKind::Light => &self.light.tiles,
+            LayerKind::Clay => &self.clay.tiles,
             LayerKind::Hits => &self.hits.tiles,
             LayerKind::Tests => &self.tests.tiles,
         }
     }
 
+    /// Returns the number of samples that every pixel in the shown layer has.
+    fn complete_samples(&self) -> u32 {
+        self.tiles().complete_samples().min(self.shown.samples)
+    }
+
     fn tiles_mut(&mut self, layer: LayerKind) -> &mut Tiles {
         match layer {
             LayerKind::Light => &mut self.light.tiles,
+            LayerKind::Clay => &mut self.clay.tiles,
             LayerKind::Hits => &mut self.hits.tiles,
             LayerKind::Tests => &mut self.tests.tiles,
         }
@@ -271,7 +298,7 @@ impl Session {
         self.shown.view != View::Bvh || self.tree.is_some()
     }
 
-    /// Returns whether some of the new picture can be shown. Until then, the old one stays.
+    /// Returns whether part of the new picture can be shown. Until then, the old one stays.
     pub fn has_picture(&self) -> bool {
         self.tiles().has_coarse_picture() && self.has_colours()
     }
@@ -286,13 +313,22 @@ impl Session {
         now.saturating_duration_since(self.started_at)
     }
 
-    /// Reports that the page shows a new picture, with all samples or some of them.
+    /// Reports that the page shows a new picture. `is_complete` says whether it contains all
+    /// samples.
     pub fn show_picture(&mut self, key: Key, is_complete: bool) {
         self.shown.picture += 1;
         self.shown.is_picture_complete = is_complete && key == self.numbers && !self.is_dirty;
         // While there is no program, the picture is composed from old pixels.
         self.shown.is_stale &= !matches!(self.drawing, BuildState::Ready(_));
         self.shown.version += 1;
+    }
+
+    /// Returns the size of the tree, if it has been built.
+    fn tree_size(&self) -> Option<TreeSize> {
+        match self.opened.as_ref()?.tree {
+            ElementOutcome::Value(size) => Some(size),
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
+        }
     }
 
     fn forget_tree(&mut self) {

@@ -1,12 +1,15 @@
 //! Remarks about the submission: tasks that haven't been written yet, panics and faults.
 
+use std::fmt;
+
 use glam::UVec2;
 use grader::handed_out::TaskMethod;
+use grader::probe::Fault;
 use grader::submission::Submission;
 use judging::assignment::TaskInfo;
 use protocol::{ElementOutcome, Panic};
 use serde::Serialize;
-use view_probe::messages::{Part, TreeSize};
+use view_probe::messages::{SubmissionPart, TreeSize};
 
 use super::{Session, View};
 use crate::program::{BuildState, FileError};
@@ -21,6 +24,25 @@ pub struct Note {
     pub text: String,
     /// The file, line and column, such as `sphere.rs:72:9`.
     pub location: Option<String>,
+}
+
+impl Note {
+    pub(super) fn without_location(text: String) -> Self {
+        Note {
+            text,
+            location: None,
+        }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.text)?;
+        match &self.location {
+            Some(location) => write!(f, " ({location})"),
+            None => Ok(()),
+        }
+    }
 }
 
 /// A panic while drawing.
@@ -43,26 +65,30 @@ impl Session {
             (Some(BuildState::Broken(why)), _) => Some(format!(
                 "The program that records tests cannot be built: {why}"
             )),
-            (Some(BuildState::Failed(errors)), View::Tests) => Some(recording_failed(errors)),
+            (Some(BuildState::Failed(errors)), View::Tests | View::Mistakes) => {
+                Some(recording_failed(errors))
+            }
             _ => None,
         };
-        let texts = [self.fault.clone(), self.loading_error.clone(), recording];
-        let mut notes: Vec<Note> = texts.into_iter().flatten().map(without_location).collect();
+        let texts = [self.loading_error.clone(), recording];
+        let texts = texts.into_iter().flatten().map(Note::without_location);
+        // The reason why the last version stopped says nothing about files that don't compile.
+        let is_ready = matches!(self.drawing, BuildState::Ready(_));
+        let fault = self.fault.iter().filter(|_| is_ready).cloned();
+        let mut notes: Vec<Note> = fault.chain(texts).collect();
         let (Some(opened), Some(submission)) = (&self.opened, &self.submission) else {
             return notes;
         };
         let task = |id| task(submission, id);
         let mut add = |text: String, location: Option<String>| notes.push(Note { text, location });
         for (part, panic) in &opened.missing {
-            let (id, method, effect) = match part {
-                Part::Camera => (
-                    "camera",
-                    "Camera::sample_ray",
-                    "the viewer's own camera is used",
-                ),
-                Part::Triangle => ("triangle", "Triangle::hit", "triangles are left out"),
-                Part::Sphere => ("sphere", "Sphere::hit", "spheres are left out"),
-                Part::BBox => ("bbox", "BBox::hit", "boxes cannot be tested"),
+            let (id, method) = task_and_method(*part);
+            let effect = match part {
+                SubmissionPart::Camera => "the viewer's own camera is used",
+                SubmissionPart::Triangle => "triangles are left out",
+                SubmissionPart::Sphere => "spheres are left out",
+                SubmissionPart::BBox => "boxes cannot be tested",
+                SubmissionPart::Build | SubmissionPart::Traversal => "the tree cannot be used",
             };
             let title = task(id).map_or(method, |task| task.title);
             let text = format!("{title}: not written yet, so {effect}.");
@@ -79,19 +105,52 @@ impl Session {
             }
             ElementOutcome::Skipped => {}
         }
+        let checkup = self.tree.as_ref().filter(|tree| tree.index.has_nodes());
+        for kind in checkup.into_iter().flat_map(|tree| &tree.checkup.kinds) {
+            let text = format!("{}: {}: {}.", title_of_build(build), kind.title, kind.count);
+            add(text, self.line_of(build));
+        }
         if let Some(why) = &self.tree_fault {
             let text = format!("The tree cannot be shown: {why}");
             add(text, self.line_of(build));
         }
         if self.invalid_paths > 0 {
+            let paths = match self.invalid_paths {
+                1 => "path is",
+                _ => "paths are",
+            };
             let text = format!(
-                "{} paths are black, because a hit contains NaN or infinity, a normal of length \
+                "{} {paths} black because a hit contains NaN or infinity, a normal of length \
                  zero, or an unknown shape.",
                 self.invalid_paths
             );
             add(text, None);
         }
         notes
+    }
+
+    /// Returns the note on a method that failed or didn't return.
+    pub(super) fn note_on_fault(&self, part: SubmissionPart, fault: &Fault) -> Note {
+        let (_, method) = task_and_method(part);
+        Note {
+            text: format!("`{method}`: {fault}"),
+            location: self.line_of_part(part),
+        }
+    }
+
+    /// Returns the note on `Bvh::build` if it is taking a long time.
+    pub(super) fn note_on_slow_build(&self) -> Option<Note> {
+        let (_, method) = task_and_method(SubmissionPart::Build);
+        self.is_build_slow.then(|| Note {
+            text: format!("`{method}` is still running: is there an infinite loop?"),
+            location: self.line_of_part(SubmissionPart::Build),
+        })
+    }
+
+    /// Returns the file and line where a part's method is declared.
+    pub(super) fn line_of_part(&self, part: SubmissionPart) -> Option<String> {
+        let (id, _) = task_and_method(part);
+        self.line_of(task(self.submission.as_deref()?, id))
     }
 
     fn add_notes_about_tree(
@@ -117,12 +176,13 @@ impl Session {
             add(not_written(traverse), self.line_of(Some(traverse)));
         }
         if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
-            let text = "Nothing can be drawn yet: write the `hit` of triangles or spheres first.";
+            let text = "Nothing can be drawn yet: write the `hit` method of triangles or spheres \
+                        first.";
             add(text.to_owned(), None);
         }
     }
 
-    /// Returns whether a task's method is the starter's.
+    /// Returns whether a task's method is still the one in the starter.
     fn is_from_starter(&self, task: &TaskInfo) -> bool {
         self.method(task).is_some_and(|method| !method.is_changed)
     }
@@ -138,12 +198,12 @@ impl Session {
         Some(format!("{}:{}", task.file, self.method(task)?.line))
     }
 
-    /// Adds the panics of some pixels.
+    /// Adds a panic that occurred in `count` pixels.
     pub(super) fn add_panic(&mut self, panic: &Panic, pixel: UVec2, count: u64) {
         let mut known = self.shown.panics.iter();
         match known.position(|known| known.location == panic.location) {
             Some(known) => self.shown.panics[known].count += count,
-            // The first ones are enough to start with.
+            // The first panics are enough to start with.
             None if self.shown.panics.len() == MAX_PANICS => {}
             None => self.shown.panics.push(PanicNote {
                 message: panic.message.clone(),
@@ -155,14 +215,7 @@ impl Session {
     }
 }
 
-fn without_location(text: String) -> Note {
-    Note {
-        text,
-        location: None,
-    }
-}
-
-/// Returns why tests cannot be recorded.
+/// Returns the message that explains why tests cannot be recorded.
 pub(super) fn recording_failed(errors: &[FileError]) -> String {
     format!(
         "Your files compile, but not with the changes that record the tests, so the tests cannot be \
@@ -171,9 +224,22 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
     )
 }
 
-/// Returns the task with this id. An assignment may have none, because that part may be given code.
+/// Returns the task with this id. An assignment may lack the task, because students may receive
+/// that part's code.
 fn task(submission: &Submission, id: &str) -> Option<&'static TaskInfo> {
     submission.handed_out.assignment.find(id)
+}
+
+/// Returns the id of a part's task and the name of its method.
+fn task_and_method(part: SubmissionPart) -> (&'static str, &'static str) {
+    match part {
+        SubmissionPart::Camera => ("camera", "Camera::sample_ray"),
+        SubmissionPart::Triangle => ("triangle", "Triangle::hit"),
+        SubmissionPart::Sphere => ("sphere", "Sphere::hit"),
+        SubmissionPart::BBox => ("bbox", "BBox::hit"),
+        SubmissionPart::Build => ("build", "Bvh::build"),
+        SubmissionPart::Traversal => ("traverse", "Bvh::hit"),
+    }
 }
 
 /// Returns the title of the task that builds the tree, or the method's name.

@@ -5,10 +5,11 @@ use std::time::Instant;
 use framework::math::tan;
 use glam::{UVec2, Vec3};
 use serde::Serialize;
-use view_probe::messages::TestCounts;
+use view_probe::messages::SubmissionPart;
 
 use super::notes::recording_failed;
-use super::{Note, Session, Shown, View};
+use super::tests_summary::TestsSummary;
+use super::{Note, PageFields, Session};
 use crate::program::{BuildState, FileError};
 use crate::subject::ExamRay;
 
@@ -16,7 +17,7 @@ use crate::subject::ExamRay;
 #[derive(Debug, Serialize)]
 pub struct PageState<'a> {
     #[serde(flatten)]
-    shown: &'a Shown,
+    shown: &'a PageFields,
     subject: &'a str,
     about: &'a str,
     question: Option<&'a ExamRay>,
@@ -25,6 +26,10 @@ pub struct PageState<'a> {
     build: &'static str,
     /// Whether the tree is being built.
     is_opening: bool,
+    /// The method that is still running, if building the tree takes a long time.
+    slow_build: Option<Note>,
+    /// The location of the declaration of `Bvh::hit`.
+    traversal: Option<String>,
     /// Whether drawing has ended because the program failed.
     has_stopped: bool,
     errors: Vec<FileError>,
@@ -32,7 +37,7 @@ pub struct PageState<'a> {
     complete_samples: u32,
     progress: f64,
     is_complete: bool,
-    most_tests: Option<u32>,
+    tests: Option<TestsSummary>,
     rays_per_second: f64,
     seconds: f64,
     seconds_left: Option<f64>,
@@ -45,11 +50,11 @@ pub struct PageState<'a> {
     explanation_fault: Option<String>,
 }
 
-/// The camera, for drawing over the picture.
+/// The camera, which the page needs to draw over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct CameraState {
     position: Vec3,
-    /// To the right, up and backward.
+    /// The axes to the right, up and backward.
     axes: [[f32; 3]; 3],
     /// Half the height of the picture at distance one.
     half_height: f32,
@@ -62,7 +67,8 @@ struct CameraState {
 struct PinnedState {
     pixel: Option<UVec2>,
     sample: Option<u32>,
-    /// Whether the camera is still where it was at the click, so that the pixel can be marked.
+    /// Whether the camera hasn't moved since the pixel was clicked, so that the pixel can be
+    /// marked.
     is_here: bool,
 }
 
@@ -76,6 +82,7 @@ impl Session {
         let seconds = self.timing().drawn_for(now).as_secs_f64();
         let is_complete = self.is_complete();
         let is_drawing = !is_complete && self.fault.is_none() && is_ready;
+        let is_opening = is_ready && self.opened.is_none() && self.fault.is_none();
         let left = seconds * (1.0 - progress) / progress;
         PageState {
             shown: &self.shown,
@@ -91,22 +98,25 @@ impl Session {
                 is_own: self.viewpoint == self.subject.viewpoint,
             },
             build,
-            is_opening: is_ready && self.opened.is_none() && self.fault.is_none(),
+            is_opening,
+            slow_build: self.note_on_slow_build().filter(|_| is_opening),
+            traversal: self.line_of_part(SubmissionPart::Traversal),
             has_stopped: is_ready && self.fault.is_some(),
             errors,
             notes: self.notes(),
-            complete_samples: self.light.tiles.complete_samples().min(self.shown.samples),
+            complete_samples: self.complete_samples(),
             progress,
             is_complete,
-            most_tests: (self.shown.view == View::Tests)
-                .then(|| self.most_tests())
-                .flatten(),
+            tests: self.tests_summary(),
             rays_per_second: self.timing().rays_per_second(),
             seconds,
             seconds_left: (is_drawing && left.is_finite()).then_some(left),
             programs: self.programs(),
-            has_tree: self.tree.as_ref().is_some_and(|tree| tree.has_nodes()),
-            tree_levels: self.tree.as_ref().map_or(0, |tree| tree.levels()),
+            has_tree: self
+                .tree
+                .as_ref()
+                .is_some_and(|tree| tree.index.has_nodes()),
+            tree_levels: self.tree.as_ref().map_or(0, |tree| tree.index.levels()),
             tree_number: format!("{}.{}", self.numbers.program, self.numbers.scene),
             pinned: self.pinned.map(|pinned| PinnedState {
                 pixel: pinned.pixel,
@@ -134,16 +144,18 @@ impl Session {
         }
     }
 
-    /// Returns why the pinned pixel isn't explained.
+    /// Returns the reason the pinned pixel isn't explained.
     fn explanation_problem(&self) -> Option<String> {
         self.pinned?;
         if let (BuildState::Failed(_) | BuildState::Broken(_), None) =
             (&self.drawing, &self.explanation)
         {
-            return Some("The pixel is explained as soon as your files compile.".to_owned());
+            return Some("The pixel will be explained as soon as your files compile.".to_owned());
         }
         if let (Some(_), None) = (&self.fault, &self.opened) {
-            return Some("The pixel is explained as soon as the scene can be opened.".to_owned());
+            return Some(
+                "The pixel will be explained as soon as the scene can be opened.".to_owned(),
+            );
         }
         match &self.recording {
             Some(BuildState::Failed(errors)) => Some(recording_failed(errors)),
@@ -152,10 +164,5 @@ impl Session {
                 self.explanation_fault.clone()
             }
         }
-    }
-
-    /// Returns the largest number of tests of a pixel.
-    fn most_tests(&self) -> Option<u32> {
-        self.tests.values().flatten().map(TestCounts::total).max()
     }
 }

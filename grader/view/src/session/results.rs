@@ -5,27 +5,28 @@ use std::time::{Duration, Instant};
 
 use glam::UVec2;
 use grader::probe::Fault;
-use protocol::{ElementOutcome, Panic, Tree};
-use view_probe::messages::{Draw, Drawn, Opened, Values};
+use protocol::{ElementOutcome, Panic};
+use view_probe::messages::{Draw, DrawnPixels, OpenOutcome, SubmissionPart, Values};
 
-use super::{Key, Pinned, Session};
+use super::{Key, Note, PinnedTarget, Session};
 use crate::model::explanation::Explanation;
 use crate::model::tiles::LayerKind;
 use crate::model::tree::TreeModel;
+use crate::probe::Stop;
 
 /// The number of pixels that may end the program before drawing stops.
 const MAX_FAULTS: u32 = 3;
 
 impl Session {
     /// Reports that a program has opened the scene.
-    pub fn opened(&mut self, key: Key, opened: Opened, took: Duration) {
+    pub fn opened(&mut self, key: Key, opened: OpenOutcome, took: Duration) {
         if !key.has_tree_of(&self.numbers) {
             return;
         }
         self.last_opening = took;
         if let ElementOutcome::Panicked(_) = opened.tree {
-            self.fault =
-                Some("The scene cannot be drawn, because building the tree failed.".to_owned());
+            let text = "The scene cannot be drawn because building the tree failed.";
+            self.fault = Some(Note::without_location(text.to_owned()));
         }
         if self.opened.as_ref() != Some(&opened) {
             self.opened = Some(opened);
@@ -33,31 +34,43 @@ impl Session {
         }
     }
 
-    /// Reports that a program could not open the scene.
-    pub fn opening_ended(&mut self, key: Key, why: &str) {
-        if key.has_tree_of(&self.numbers) {
-            self.stop(format!(
-                "Opening the scene, which calls `Bvh::build`, and each `hit` once: {why}"
-            ));
+    /// Reports that building the tree takes a long time.
+    pub fn build_is_slow(&mut self, key: Key) {
+        if key.has_tree_of(&self.numbers) && self.opened.is_none() {
+            self.is_build_slow = true;
+            self.shown.version += 1;
         }
     }
 
-    fn stop(&mut self, why: String) {
+    /// Reports that a program could not open the scene because of this method.
+    pub fn opening_ended(&mut self, key: Key, part: SubmissionPart, fault: &Fault) {
+        if key.has_tree_of(&self.numbers) {
+            self.stop(self.note_on_fault(part, fault));
+        }
+    }
+
+    fn stop(&mut self, why: Note) {
         self.fault = Some(why);
         self.shown.version += 1;
     }
 
     /// Adds drawn pixels.
-    pub fn drawn(&mut self, key: Key, tile: usize, draw: &Draw, drawn: &Drawn, now: Instant) {
+    pub fn drawn(&mut self, key: Key, tile: usize, draw: &Draw, drawn: &DrawnPixels, now: Instant) {
         if key != self.numbers {
             return;
         }
         let panics = drawn.panics.iter();
         let panicked = panics.flat_map(|(_, indices)| indices.iter().copied());
         match &drawn.values {
-            Values::Light(light) => self
-                .light
-                .add(tile, draw, light, panicked, |sum, x| sum + x),
+            Values::Light(light) => {
+                let is_clay = LayerKind::of(draw.quantity) == LayerKind::Clay;
+                let layer = if is_clay {
+                    &mut self.clay
+                } else {
+                    &mut self.light
+                };
+                layer.add(tile, draw, light, panicked, |sum, x| sum + x);
+            }
             Values::Hits(hits) => self.hits.add(tile, draw, hits, panicked, |_, hit| hit),
             Values::Tests(tests) => self.tests.add(tile, draw, tests, panicked, |_, test| test),
         }
@@ -78,8 +91,15 @@ impl Session {
     }
 
     /// Reports that a program ended while drawing. The pixels are drawn again, one by one, to find
-    /// the one at fault.
-    pub fn drawing_ended(&mut self, key: Key, tile: usize, draw: &Draw, fault: &Fault) {
+    /// the one at fault. `part` is the method at fault, if it has been found.
+    pub fn drawing_ended(
+        &mut self,
+        key: Key,
+        tile: usize,
+        draw: &Draw,
+        part: Option<SubmissionPart>,
+        fault: &Fault,
+    ) {
         if key != self.numbers {
             return;
         }
@@ -92,17 +112,21 @@ impl Session {
         self.is_careful = true;
         self.is_dirty = true;
         if let Some(pixel) = pixel {
+            let note = match part {
+                Some(part) => self.note_on_fault(part, fault),
+                None => Note::without_location(fault.to_string()),
+            };
             let panic = Panic {
-                message: fault.to_string(),
-                location: String::new(),
+                message: note.text,
+                location: note.location.unwrap_or_default(),
             };
             self.add_panic(&panic, pixel, 1);
             self.faults += 1;
             if self.faults == MAX_FAULTS {
-                self.stop(format!(
-                    "Drawing has stopped, because {MAX_FAULTS} pixels ended the program. \
-                     Save a change, or move the camera, to try again."
-                ));
+                self.stop(Note::without_location(format!(
+                    "Drawing has stopped because the program ended early at {MAX_FAULTS} pixels. Save \
+                     a change or move the camera to try again."
+                )));
             }
         }
         self.shown.version += 1;
@@ -111,17 +135,18 @@ impl Session {
     /// Reports that a tile was not drawn because the program could not be started.
     pub fn not_started(&mut self, key: Key, why: &str) {
         if key == self.numbers {
-            self.stop(format!("The program cannot be started: {why}"));
+            let text = format!("The program cannot be started: {why}");
+            self.stop(Note::without_location(text));
         }
     }
 
-    /// Reports the tree, or why it couldn't be read. In that case, an empty tree is shown and
-    /// drawing continues.
+    /// Reports the tree, or the reason it couldn't be read. If it couldn't, an empty tree is
+    /// shown and drawing continues.
     pub fn received_tree(&mut self, key: Key, tree: Result<TreeModel, String>) {
         if key.has_tree_of(&self.numbers) {
             let tree = tree.unwrap_or_else(|why| {
                 self.tree_fault = Some(why);
-                TreeModel::new(Tree::default())
+                TreeModel::default()
             });
             self.tree = Some(Arc::new(tree));
             self.is_tree_busy = false;
@@ -130,12 +155,20 @@ impl Session {
         }
     }
 
-    /// Reports an explanation, or why it failed.
-    pub fn explained(&mut self, key: Key, pinned: &Pinned, result: Result<Explanation, String>) {
+    /// Reports an explanation, or the reason it failed.
+    pub fn explained(
+        &mut self,
+        key: Key,
+        pinned: &PinnedTarget,
+        result: Result<Explanation, Stop>,
+    ) {
         if key.has_tree_of(&self.numbers) && self.pinned.as_ref() == Some(pinned) {
             let (explanation, fault) = match result {
                 Ok(explanation) => (Some(explanation), None),
-                Err(why) => (None, Some(why)),
+                Err(Stop::FaultIn(part, fault)) => {
+                    (None, Some(self.note_on_fault(part, &fault).to_string()))
+                }
+                Err(stop) => (None, Some(stop.to_string())),
             };
             self.set_explanation(explanation);
             self.explanation_fault = fault;

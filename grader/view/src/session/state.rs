@@ -1,11 +1,13 @@
 //! Parts of the state.
 
+use clap::ValueEnum;
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 use view_probe::scene_data::Aim;
 
 use super::PanicNote;
 use crate::model::tiles::LayerKind;
+use crate::source_links::SourceLinks;
 
 /// The cores and the memory that the programs may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,13 +19,13 @@ pub struct Resources {
 }
 
 /// The quantity shown in the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum View {
     /// The scene with its lighting.
     #[default]
     Shaded,
-    /// The scene without materials, lit from the camera.
+    /// The scene in clay, without materials and lights.
     Clay,
     /// Normals.
     Normals,
@@ -33,22 +35,25 @@ pub enum View {
     Uv,
     /// Boxes around the hit.
     Bvh,
-    /// Numbers of tests.
+    /// Test counts.
     Tests,
+    /// Steps that no correct traversal makes.
+    Mistakes,
 }
 
 impl View {
     /// Returns the layer shown by the view.
-    pub(super) fn layer(self) -> LayerKind {
+    pub(crate) fn layer(self) -> LayerKind {
         match self {
             View::Shaded => LayerKind::Light,
-            View::Clay | View::Normals | View::Depth | View::Uv | View::Bvh => LayerKind::Hits,
-            View::Tests => LayerKind::Tests,
+            View::Clay => LayerKind::Clay,
+            View::Normals | View::Depth | View::Uv | View::Bvh => LayerKind::Hits,
+            View::Tests | View::Mistakes => LayerKind::Tests,
         }
     }
 }
 
-/// Identifies the program, scene and camera of a job. A result with an old key is dropped.
+/// Identifies the program, scene and camera of a job. A result with an outdated key is dropped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Key {
     /// Changes with the program.
@@ -60,7 +65,8 @@ pub struct Key {
 }
 
 impl Key {
-    /// Returns whether both belong to the same program and scene, and therefore to the same tree.
+    /// Returns whether both keys belong to the same program and scene, and therefore to the same
+    /// tree.
     pub fn has_tree_of(&self, other: &Key) -> bool {
         (self.program, self.scene) == (other.program, other.scene)
     }
@@ -68,7 +74,7 @@ impl Key {
 
 /// The pixel or ray to explain. It stays the same when the camera moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pinned {
+pub struct PinnedTarget {
     /// The camera at the time of the click.
     pub aim: Aim,
     /// The pixel, or `None` for the exam's ray.
@@ -77,11 +83,13 @@ pub struct Pinned {
     pub sample: Option<u32>,
 }
 
-/// The part of the state that the page sees unchanged.
+/// The part of the state that is sent to the page unchanged.
 #[derive(Debug, Default, Serialize)]
-pub struct Shown {
-    /// Changes with everything that the page shows.
+pub struct PageFields {
+    /// Changes whenever anything that the page shows changes.
     pub version: u64,
+    /// The folder of the submission's files, for links.
+    pub(crate) sources: Option<SourceLinks>,
     /// The names of the scenes that the page may choose.
     pub(super) scenes: Vec<String>,
     /// The scene that is being loaded.

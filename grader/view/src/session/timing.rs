@@ -1,15 +1,15 @@
-//! The time spent drawing, and the rate of rays.
+//! The time spent drawing, and the ray rate.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// The time window for averaging the rate of rays.
+/// The time window for averaging the ray rate.
 const RATE_WINDOW: Duration = Duration::from_secs(2);
 
 /// The time spent drawing a layer, and the rays traced for it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Timing {
-    /// The end of each request in the last seconds, with its rays.
+    /// The end time and the ray count of each request in the last few seconds.
     recent: VecDeque<(Instant, u64)>,
     rays: u64,
     /// The time when drawing of the layer last started.
@@ -42,14 +42,14 @@ impl Timing {
         }
     }
 
-    /// Returns how long the layer has been drawn.
+    /// Returns the time spent drawing the layer.
     pub(super) fn drawn_for(&self, now: Instant) -> Duration {
         let running = self.since.map(|since| now.saturating_duration_since(since));
         self.drawn_for + running.unwrap_or_default()
     }
 
-    /// Returns the rays per second in the last seconds or, if the clock is stopped, in the entire
-    /// time.
+    /// Returns the rays per second over the last few seconds or, if the clock is stopped, over the
+    /// entire time.
     pub(super) fn rays_per_second(&self) -> f64 {
         let (rays, time) = match (self.recent.front(), self.recent.back()) {
             // The first request started before the window.

@@ -1,4 +1,4 @@
-//! The rules of access, over real connections.
+//! Tests the access rules over real connections.
 
 use std::io::Write;
 use std::net::{TcpListener, TcpStream};
@@ -59,7 +59,7 @@ fn only_the_users_browser_is_answered() {
     }
 }
 
-/// A browser sends cookies to all ports of a host and lets the page of any port send commands, but
+/// A browser sends cookies to all ports of a host and lets a page on any port send commands, but
 /// without custom headers and without access to the answer.
 #[test]
 fn a_page_of_another_port_can_send_no_command() {
@@ -174,7 +174,7 @@ fn an_error_of_the_user_says_what_to_do() {
         ),
         (
             "--item sphere.from_inside#99999".into(),
-            "so there is no number 99999".into(),
+            "so there is no question 99999".into(),
         ),
     ] {
         let output = view().args(arguments.split(' ')).output().unwrap();

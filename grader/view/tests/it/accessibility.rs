@@ -1,5 +1,5 @@
-//! Accessibility of the page: by keyboard only, in light and dark mode, on a phone, and according
-//! to the WCAG rules checked by axe.
+//! The page can be used with the keyboard only, in light and dark mode and on a phone, and it
+//! follows the WCAG rules checked by axe.
 
 use glam::Vec3;
 use serde_json::{Value, json};
@@ -25,11 +25,13 @@ fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
         "document.getElementById('boxes-count').innerText.includes('box')",
     );
     assert_eq!(text(&mut tab, "#level-value"), "1");
+    tab.eval("document.querySelector('#nodes summary').focus(); 0");
+    tab.press("Enter", 13);
     tab.eval("document.querySelector('#worst button').focus(); 0");
     tab.press("Enter", 13);
     let node = text(&mut tab, "#node");
     assert!(node.contains("of the SAH cost"), "{node}");
-    // Go from node to node, and read the boxes in the picture as a table.
+    // Go from node to node, and read the table of the boxes in the picture.
     tab.eval("document.getElementById('node-index').value = 0; 0");
     tab.eval("document.querySelector('#choose-node button').focus(); 0");
     tab.press("Enter", 13);
@@ -116,7 +118,8 @@ fn keys_alone_move_the_camera_in_every_way() {
     }
 }
 
-/// Opens the page. As soon as it is in the expected state, checks the rules and its width.
+/// Opens the page. Once the page is in the expected state, checks the WCAG rules and the page's
+/// width.
 fn check(viewer: &Viewer, chromium: &Chromium, reader: Reader, is_shown: &str) {
     let mut tab = open(viewer, chromium, reader);
     wait(&mut tab, is_shown);

@@ -1,11 +1,10 @@
-//! A list of the tests made by a correct traversal for a pixel, computed independently of the
-//! viewer.
+//! The tests that a correct traversal makes for a pixel, computed independently of the viewer.
 
 use std::collections::BTreeSet;
 
 use framework::scene::Scene;
 use framework::submission::Submission as _;
-use glam::{UVec2, Vec2};
+use glam::{DVec3, UVec2, Vec2};
 use grader::exam_source::ExamSource;
 use grader::handed_out::RAYS;
 use protocol::{Geometry, Question, Ray, Shape, Table, Tree, TreeNode};
@@ -14,9 +13,9 @@ use serde_json::Value;
 
 use crate::harness::workspace;
 
-/// A scene with the reference's tree, or a question of the practice exam with its tree.
+/// A scene with the reference's tree, or a question from the practice exam with its tree.
 pub struct Expected {
-    /// The shapes. In a scene, they are numbered, so that the tree shows the order of the shapes.
+    /// The shapes. Those of a scene are numbered, so that the tree shows their order.
     shapes: Vec<Shape>,
     pub tree: Tree,
     scene: Option<Scene>,
@@ -87,7 +86,17 @@ impl Expected {
         tests(&self.tree, &self.shapes, &self.ray.unwrap())
     }
 
-    /// Returns the nodes entered by a traversal with these tests.
+    /// Returns whether the ray of the question misses a node's box, but by less than 1 % of the
+    /// box's diagonal.
+    pub fn barely_misses(&self, node: u32) -> bool {
+        let node = &self.tree.nodes[node as usize];
+        let (min, max) = (node.min.as_dvec3(), node.max.as_dvec3());
+        let (ray, margin) = (self.ray.unwrap(), 0.01 * min.distance(max));
+        entry_of_box(min, max, &ray).is_none()
+            && entry_of_box(min - margin, max + margin, &ray).is_some()
+    }
+
+    /// Returns the nodes entered by a traversal that makes these tests.
     pub fn entered(&self, tests: &[String]) -> BTreeSet<u32> {
         let entered = tests.iter().map(|test| {
             let (kind, number) = test.split_once(' ').unwrap();
@@ -120,8 +129,8 @@ impl Expected {
     }
 }
 
-/// Returns the tests, as texts, of an independent traversal in double precision that tests both
-/// children of a node before entering the nearer one.
+/// Traverses the tree independently, in double precision, and returns the tests as texts. Both
+/// children of a node are tested before the nearer one is entered.
 fn tests(tree: &Tree, shapes: &[Shape], ray: &Ray) -> Vec<String> {
     let mut tests = Vec::new();
     let mut closest = f64::INFINITY;
@@ -163,15 +172,17 @@ fn visit(
     }
 }
 
-/// Returns the distance where the ray enters a node's box, computed from the planes of its faces.
+/// Returns the distance at which the ray enters a node's box.
 fn entry(tree: &Tree, index: u32, ray: &Ray, tests: &mut Vec<String>) -> Option<f64> {
     tests.push(format!("node {index}"));
     let node = &tree.nodes[index as usize];
+    entry_of_box(node.min.as_dvec3(), node.max.as_dvec3(), ray)
+}
+
+/// Returns the distance at which the ray enters a box, computed from the planes of its faces.
+fn entry_of_box(min: DVec3, max: DVec3, ray: &Ray) -> Option<f64> {
     let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
-    let (a, b) = (
-        (node.min.as_dvec3() - origin) / dir,
-        (node.max.as_dvec3() - origin) / dir,
-    );
+    let (a, b) = ((min - origin) / dir, (max - origin) / dir);
     let (start, end) = (f64::from(ray.range.min), f64::from(ray.range.max));
     let (first, last) = (
         a.min(b).max_element().max(start),
@@ -180,7 +191,8 @@ fn entry(tree: &Tree, index: u32, ray: &Ray, tests: &mut Vec<String>) -> Option<
     (first <= last).then_some(first)
 }
 
-/// Returns the broken rules in an explanation of a ray, with the nodes.
+/// Returns the broken rules in a ray's explanation, each with the node that shouldn't have been
+/// entered.
 pub fn marks(ray: &Value) -> Vec<(String, u32)> {
     let rows = ray["rows"].as_array().unwrap().iter();
     let marks = rows.flat_map(|row| row["marks"].as_array().unwrap());

@@ -1,4 +1,5 @@
-//! The tests of one ray, compared with an independent list, and the marks of wrong traversals.
+//! The tests that one ray needs, compared with an independently computed list, and the steps that
+//! the viewer marks in a wrong traversal.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +7,7 @@ use glam::uvec2;
 use serde_json::Value;
 
 use crate::expected_tests::{Expected, listed_tests, marks};
-use crate::harness::{Submission, Viewer};
+use crate::harness::{SLIDES_HIT, Submission, Viewer};
 
 #[test]
 fn the_tests_of_a_pixel_are_those_of_the_references_traversal() {
@@ -43,6 +44,10 @@ fn every_ray_of_a_path_is_listed() {
     assert_eq!(kinds[0], "camera ray");
     assert!(kinds.contains(&"shadow ray, to a light"), "{kinds:?}");
     assert!(kinds.contains(&"ray after bounce 1"), "{kinds:?}");
+    for ray in rays {
+        let is_shadow_ray = ray["kind"] == "shadow ray, to a light";
+        assert_eq!(ray["is_shadow_ray"], is_shadow_ray);
+    }
     assert!(rays.iter().all(|ray| ray["boxes"].as_u64() > Some(0)));
     assert_eq!(explanation["radiance"].as_array().unwrap().len(), 3);
 }
@@ -61,7 +66,7 @@ fn broken_rules(submission: &Submission) -> Vec<String> {
 fn a_correct_traversal_has_no_marks_and_the_slides_pseudo_code_has() {
     let submission = Submission::reference();
     assert_eq!(broken_rules(&submission), [""; 0]);
-    submission.replace_traversal(include_str!("slides_hit.rs"));
+    submission.replace_traversal(SLIDES_HIT);
     assert_eq!(
         broken_rules(&submission),
         ["beyond_closest_hit", "missed_box"]

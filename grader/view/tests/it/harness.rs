@@ -1,4 +1,4 @@
-//! Starts the viewer on a submission and talks to it like its page.
+//! Starts the viewer on a submission and talks to it as its page does.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -10,6 +10,35 @@ use std::time::{Duration, Instant};
 use grader::handed_out::RAYS;
 use serde_json::{Value, json};
 use tempfile::TempDir;
+
+/// The slides' pseudo-code for a traversal, taken literally.
+pub const SLIDES_HIT: &str = r#"    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        let mut closest = None;
+        self.slides_hit(ray, self.root, &mut closest);
+        closest
+    }
+
+    // The slides' pseudo-code, taken literally.
+    fn slides_hit(&self, ray: &Ray, index: usize, closest: &mut Option<Trace>) {
+        let node = &self.nodes[index];
+        if node.is_leaf() {
+            for primitive in &self.primitives[node.start..node.start + node.size] {
+                *closest = Trace::nearer(*closest, primitive.hit(ray));
+            }
+            return;
+        }
+        let entry = |child: usize| {
+            let inside = self.nodes[child].bbox.hit(ray, ray.range);
+            inside.map_or(f32::INFINITY, |inside| inside.min)
+        };
+        let (hit1, hit2) = (entry(node.l), entry(node.r));
+        let (first, second) = if hit1 <= hit2 { (node.l, node.r) } else { (node.r, node.l) };
+        self.slides_hit(ray, first, closest);
+        if closest.is_none_or(|closest| hit2 < closest.distance) {
+            self.slides_hit(ray, second, closest);
+        }
+    }
+"#;
 
 /// The timeout for reaching a state. The first test compiles the dependencies.
 const TIMEOUT: Duration = Duration::from_secs(600);
@@ -85,6 +114,17 @@ impl Submission {
         let signature = text.lines().find(|line| line.contains("pub fn build("));
         let signature = signature.unwrap();
         self.replace("bvh.rs", signature, &format!("{signature} {statement}"));
+    }
+
+    /// Wraps `Bvh::build`, so that `change` can change its result, `bvh`.
+    pub fn change_tree(&self, change: &str) {
+        self.replace("bvh.rs", "pub fn build(", "fn correct_build(");
+        let wrapper = format!(
+            "impl Bvh {{ pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {{ \
+             let mut bvh = Self::correct_build(primitives, max_leaf_size); {change} bvh }} }}"
+        );
+        let text = self.read("bvh.rs");
+        self.write("bvh.rs", &format!("{text}\n{wrapper}\n"));
     }
 
     /// Inserts a statement at the beginning of `Camera::sample_ray`.
@@ -165,7 +205,7 @@ impl Viewer {
         })
     }
 
-    /// Kills the viewer. Returns its standard error.
+    /// Kills the viewer and returns its standard error.
     pub fn kill(mut self) -> String {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
@@ -208,19 +248,19 @@ impl Viewer {
         self.request("GET", path, &self.headers(), "")
     }
 
-    /// Sends a command from the page. Returns the status.
+    /// Sends a command as the page does and returns the status.
     pub fn send(&self, command: &Value) -> u16 {
         self.request("POST", "/command", &self.headers(), &command.to_string())
             .status
     }
 
-    /// Sends a command from the page, which must be accepted.
+    /// Sends a command as the page does. The command must be accepted.
     #[track_caller]
     pub fn command(&self, command: &Value) {
         assert_eq!(self.send(command), 204, "{command}");
     }
 
-    /// Waits for a state, following the news like the page.
+    /// Waits for a state, following the news as the page does.
     #[track_caller]
     pub fn wait_for(&self, is_expected: impl Fn(&Value) -> bool) -> Value {
         let deadline = Instant::now() + TIMEOUT;

@@ -1,5 +1,5 @@
-//! Submissions that deliberately do harm. The page must still be answered, in time and with bounded
-//! memory.
+//! Submissions that deliberately do harm. The viewer must still answer the page, in time and with
+//! bounded memory.
 
 use std::time::{Duration, Instant};
 
@@ -9,19 +9,6 @@ use crate::harness::{Submission, Viewer};
 
 const ARGUMENTS: &str = "flat --size 4x3 --samples 1";
 
-/// Wraps `Bvh::build`, so that `change` can change its result.
-fn change_tree(submission: &Submission, change: &str) {
-    let name = "pub fn build(";
-    let inner = "fn correct_build(";
-    submission.replace("bvh.rs", name, inner);
-    let wrapper = format!(
-        "impl Bvh {{ pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {{ \
-         let mut bvh = Self::correct_build(primitives, max_leaf_size); {change} bvh }} }}"
-    );
-    let text = submission.read("bvh.rs");
-    submission.write("bvh.rs", &format!("{text}\n{wrapper}\n"));
-}
-
 /// Returns the text of the first note.
 fn first_note(state: &Value) -> &str {
     state["notes"][0]["text"].as_str().unwrap_or_default()
@@ -30,7 +17,7 @@ fn first_note(state: &Value) -> &str {
 #[test]
 fn a_tree_that_is_too_large_is_refused_and_the_picture_goes_on() {
     let submission = Submission::reference();
-    change_tree(&submission, "bvh.nodes.resize(1_500_000, bvh.nodes[0]);");
+    submission.change_tree("bvh.nodes.resize(1_500_000, bvh.nodes[0]);");
     let viewer = Viewer::start(&submission, ARGUMENTS);
     viewer.command(&json!({ "view": "bvh" }));
     let state = viewer.wait_for_picture();
@@ -47,13 +34,12 @@ fn a_tree_that_is_too_large_is_refused_and_the_picture_goes_on() {
 }
 
 /// Requests everything the page can request, for a tree whose leaves all contain everything and
-/// whose boxes are all equal. The tree is as deep as it has nodes, and its last node leads back to
+/// whose boxes are all equal. The tree has as many levels as nodes, and its last node leads back to
 /// the first.
 #[test]
 fn a_deep_cyclic_tree_of_equal_leaves_is_shown_in_time() {
     let submission = Submission::reference();
-    change_tree(
-        &submission,
+    submission.change_tree(
         "let (n, all) = (bvh.primitives.len(), bvh.nodes[bvh.root].bbox); \
          bvh.root = 0; \
          bvh.nodes = (0..2 * n).map(|i| match i % 2 { \
@@ -108,7 +94,7 @@ fn a_long_panic_with_odd_characters_is_short_and_harmless_on_the_page() {
     assert_eq!(state["panics"][0]["count"], 12);
 }
 
-/// Programs that write to the viewer's pipe themselves, which safe code can do outside the sandbox.
+/// Programs that write to the viewer's pipe themselves. Outside the sandbox, safe code can do that.
 #[cfg(target_os = "linux")]
 mod pipe {
     use super::*;
@@ -140,10 +126,10 @@ mod pipe {
         let header = "send(&LENGTH_u32.to_le_bytes()); send(&1u64.to_le_bytes());";
         let frame = |length: &str| header.replace("LENGTH_u32", length);
         for (code, why) in [
-            // Longer than any response. It is refused before it is read.
+            // Both are longer than any response and are refused before they are read.
             (frame("u32::MAX"), "at most"),
             (frame("500_000_000u32"), "at most"),
-            // A list of more elements than there are bytes: 1 << 34.
+            // A list whose stated length exceeds the number of bytes: 1 << 34 elements.
             (
                 frame("8u32") + "send(&[0, 255, 255, 255, 255, 63, 0, 0]);",
                 "invalid answer",

@@ -1,8 +1,11 @@
-//! Pictures: the same pixels as `cargo render`, for any camera.
+//! Checks that the viewer's pictures have the same pixels as those from `cargo render`, for any
+//! camera.
 
 use framework::render::film::{Film, Tone};
-use framework::render::integrator::{RenderSettings, render};
+use framework::render::integrator::{Integrator, PathSettings};
+use framework::render::renderer::render;
 use framework::scene::Scene;
+use framework::submission::World;
 use glam::{UVec2, uvec2};
 use reference::world::Student;
 use serde_json::json;
@@ -12,13 +15,10 @@ use crate::harness::{Submission, Viewer, workspace};
 /// Renders a scene like `cargo render`.
 fn rendered(scene: &str, film: UVec2, samples: u32, seed: u64, stops: f32) -> Vec<[u8; 3]> {
     let scene = Scene::load(&workspace().join("scenes").join(scene)).unwrap();
-    let settings = RenderSettings {
-        film,
-        samples,
-        bounces: 8,
-        seed,
-    };
-    let pixels = render(&Student, &scene, &settings);
+    let scene = scene.on_film(film);
+    let world = World::new(&Student, &scene);
+    let settings = PathSettings { bounces: 8, seed };
+    let pixels = render(&Integrator::new(&scene, &world, settings), film, samples);
     let film = Film { size: film, pixels };
     let tone = Tone::Light { stops };
     film.pixels_top_down()
@@ -61,7 +61,9 @@ fn every_view_has_a_picture_of_its_own() {
     let arguments = "checkered-teapot --size 64x48 --samples 1";
     let viewer = Viewer::start(&Submission::reference(), arguments);
     let mut pictures = Vec::new();
-    for view in ["shaded", "clay", "normals", "depth", "uv", "bvh", "tests"] {
+    for view in [
+        "shaded", "clay", "normals", "depth", "uv", "bvh", "tests", "mistakes",
+    ] {
         viewer.command(&json!({ "view": view }));
         viewer.wait_for(|state| state["view"] == view && state["is_picture_complete"] == true);
         let picture = viewer.picture();
@@ -74,7 +76,6 @@ fn every_view_has_a_picture_of_its_own() {
 fn the_tree_is_that_of_the_submission() {
     let viewer = Viewer::start(&Submission::reference(), "flat --size 8x8");
     assert_eq!(viewer.get("/tree").status, 404);
-    viewer.command(&json!("tree"));
     let state = viewer.wait_for(|state| state["has_tree"] == true);
     let tree: serde_json::Value = serde_json::from_slice(&viewer.get("/tree").body).unwrap();
     let scene = Scene::load(&workspace().join("scenes/flat.json")).unwrap();

@@ -1,4 +1,4 @@
-//! Questions of the practice exam, and other people's submissions.
+//! Questions from the practice exam, and other people's submissions.
 
 use std::collections::BTreeSet;
 use std::env;
@@ -12,7 +12,7 @@ use grader::task_selection::TaskSelection;
 use serde_json::{Value, json};
 
 use crate::expected_tests::{Expected, listed_tests, marks};
-use crate::harness::{Submission, Viewer, view};
+use crate::harness::{SLIDES_HIT, Submission, Viewer, view};
 
 #[test]
 fn a_question_about_traversal_shows_the_exams_tree_and_the_steps() {
@@ -24,11 +24,12 @@ fn a_question_about_traversal_shows_the_exams_tree_and_the_steps() {
     assert!(state["tree_levels"].as_u64() > Some(1));
     let explanation = viewer.explanation();
     let ray = &explanation["rays"][0];
-    assert_eq!(ray["kind"], "ray of the exam");
+    assert_eq!(ray["kind"], "ray from the exam");
     assert!(ray["boxes"].as_u64() > Some(0), "{ray}");
 }
 
-/// Returns the listed tests of an exam's ray and the marked nodes, each with the rule that was broken.
+/// Returns the tests listed for a ray from the exam, and the marked nodes, each with the rule that
+/// was broken.
 fn tests_and_marks(submission: &Submission, item: &str) -> (Vec<String>, Vec<(String, u32)>) {
     let viewer = Viewer::start(submission, &format!("--item {item}"));
     let ray = &viewer.explanation()["rays"][0];
@@ -39,12 +40,14 @@ fn tests_and_marks(submission: &Submission, item: &str) -> (Vec<String>, Vec<(St
 fn in_a_tree_with_decoys_exactly_the_wrong_steps_of_the_slides_pseudo_code_are_marked() {
     let reference = Submission::reference();
     let slides = Submission::reference();
-    slides.replace_traversal(include_str!("slides_hit.rs"));
+    slides.replace_traversal(SLIDES_HIT);
     let mut wrong_steps = 0;
     for (item, number) in [
         ("traverse.prunes", 1),
         ("traverse.prunes", 3),
         ("traverse.skips_missed", 1),
+        ("traverse.skips_missed", 2),
+        ("traverse.nearer_first", 1),
     ] {
         let name = format!("{item}#{number}");
         let expected = Expected::of_question(item, number);
@@ -56,14 +59,19 @@ fn in_a_tree_with_decoys_exactly_the_wrong_steps_of_the_slides_pseudo_code_are_m
         let correct = expected.entered(&correct);
         let entered = expected.entered(&tests);
         let wrong: BTreeSet<u32> = entered.difference(&correct).copied().collect();
-        // A node beyond the closest hit can be right to enter in another order, before the hit is known.
+        // If nodes are visited in a different order, it can be right to enter a node beyond the
+        // closest hit, because that hit may not be known yet.
         for (rule, node) in &marks {
             let is_wrong = wrong.contains(node) || rule == "beyond_closest_hit";
             assert!(is_wrong, "{name}: {rule} {node}, {wrong:?}");
         }
         let marks: BTreeSet<u32> = marks.into_iter().map(|(_, node)| node).collect();
-        // Below a wrong node, the traversal may look correct again.
-        let first_wrong = wrong.iter().filter(|node| {
+        // Below a wrong node, the traversal may look correct again. A box that the ray misses by
+        // less than the margin isn't judged. In the last two questions, the slides' traversal
+        // enters such boxes: one whose sibling contains the ray's origin, and the first of two that
+        // are missed.
+        let judged = wrong.iter().filter(|node| !expected.barely_misses(**node));
+        let first_wrong = judged.filter(|node| {
             let parent = expected.parent(**node);
             let mut above = std::iter::successors(parent, |node| expected.parent(*node));
             above.all(|node| correct.contains(&node) && !marks.contains(&node))
@@ -127,7 +135,7 @@ fn questions_about_shapes_boxes_and_builders_have_something_to_show() {
 #[test]
 fn someone_elses_submission_runs_in_the_sandbox() {
     let submission = Submission::reference();
-    // Reads a file when the camera is used, which the sandbox forbids.
+    // When the camera is used, this reads a file, which the sandbox forbids.
     let read = "assert!(std::fs::read(\"/etc/hostname\").is_err(), \"read a file\");";
     submission.insert_into_camera(read);
     let arguments = "flat --size 16x12 --samples 1";

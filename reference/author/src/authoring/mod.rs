@@ -1,5 +1,5 @@
 //! Assignments as their authors see them. Everything about exams, proofs and packages is derived
-//! from this data, so a new assignment changes no other module.
+//! from this data, so adding an assignment doesn't change any other module.
 
 mod rays;
 
@@ -12,18 +12,19 @@ pub use rays::RAYS;
 /// The assignments that `--assignment` selects from. The first is the default.
 pub static ASSIGNMENTS: [&Authoring; 1] = [&RAYS];
 
-/// An assignment as its authors see it. Its other solutions are files in [`HandedOut::solutions`]:
-/// mistakes, variants and equivalent mutants.
+/// An assignment as its authors see it. Apart from the reference, its solutions are files in
+/// [`HandedOut::solutions`]: mistakes, variants and equivalent mutants.
 #[derive(Debug)]
 pub struct Authoring {
     /// The assignment as handed out to students.
     pub handed_out: &'static HandedOut,
     /// The file of the practice exam, relative to the workspace's root.
     pub practice_exam: &'static str,
-    /// The tasks, in lecture order. Keys of pictures are recorded from the reference, because
+    /// The tasks, in lecture order. Keys for pictures are recorded from the reference, because
     /// nothing else can provide them.
     pub tasks: &'static [&'static AuthoredTask],
-    /// The folders and files with oracles, relative to the workspace's root. Their formulas are secret.
+    /// The folders and files with oracles, relative to the workspace's root. Their formulas are
+    /// secret.
     pub oracles: &'static [&'static str],
     /// The attacks to try on a package whose exam is secret.
     pub attacks: &'static [Attack],
@@ -36,7 +37,7 @@ pub struct Attack {
     pub file: &'static str,
     /// The first line of the method.
     pub method: &'static str,
-    /// The entry of the corpus, without `.rs`.
+    /// The name of the entry in the corpus, without `.rs`.
     pub entry: &'static str,
 }
 

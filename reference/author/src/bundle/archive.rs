@@ -12,7 +12,7 @@ use zip::{CompressionMethod, DateTime, System, ZipArchive, ZipWriter};
 
 use crate::bundle::Bundle;
 
-/// The folder that the archive unpacks to.
+/// The folder that the archive unpacks into.
 pub const TOP_FOLDER: &str = "pathtracing";
 
 /// Writes the bundle as an archive if `out` ends with `.zip`, and otherwise as a folder. The folder
@@ -32,8 +32,8 @@ pub fn write_folder(bundle: &Bundle, out: &Path) -> Result<()> {
         .any(|path| !path.ends_with(".git"))
     {
         bail!(
-            "{} is not empty: choose a new folder or a name that ends with .zip, or remove \
-             everything but .git from this folder",
+            "{} is not empty: choose a new folder or a name that ends with .zip, or empty this \
+             folder except for .git",
             out.display()
         );
     }
@@ -46,12 +46,13 @@ pub(crate) fn write_files(bundle: &Bundle, folder: &Path) -> Result<(), PathErro
     files.try_for_each(|(path, contents)| files::write_with_parents(folder.join(path), contents))
 }
 
-/// Returns the bytes of an archive that unpacks to one folder.
+/// Returns the bytes of an archive that unpacks into a single folder.
 pub fn zip(bundle: &Bundle) -> Result<Vec<u8>, ZipError> {
     zip_with_prefix(bundle, &format!("{TOP_FOLDER}/"))
 }
 
-/// Returns the bytes of an archive with all files below `top`, which is empty or ends with `/`.
+/// Returns the bytes of an archive in which every path begins with `top`. `top` is empty or ends
+/// with `/`.
 pub fn zip_with_prefix(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
     // Fix the time, system and permissions. Otherwise, the bytes would depend on when and where the
     // archive is created.

@@ -1,5 +1,5 @@
-//! Tries a bundle as a student with a fresh installation of Rust would: runs `.ci/bundle` with an
-//! empty home folder and without a network.
+//! Tries out a bundle as a student with a fresh installation of Rust would: runs `.ci/bundle` with
+//! an empty home folder and without a network.
 
 use std::env;
 use std::fs;
@@ -12,13 +12,14 @@ use grader::handed_out::HandedOut;
 
 use crate::bundle::{Bundle, archive, crates};
 
-/// The folder of the check, relative to the workspace's root. Compiled files stay there for the
+/// The folder for the check, relative to the workspace's root. Compiled files stay there for the
 /// next check.
 const TEST_FOLDER: &str = "target/bundle";
-/// The script that uses a bundle like a student.
+/// The script that uses a bundle as a student would.
 const SCRIPT: &str = ".ci/bundle";
 
-/// Runs the script on the archives of an assignment's bundle, made from the workspace at `root`.
+/// Archives an assignment's bundle, with and without the students' own files, and runs the script
+/// on both archives. The bundle comes from the workspace at `root`.
 pub fn check(root: &Path, handed_out: &HandedOut, bundle: &Bundle) -> Result<()> {
     let root = &root.canonicalize().at("read", root)?;
     let folder = root.join(TEST_FOLDER);
@@ -62,6 +63,6 @@ pub fn check(root: &Path, handed_out: &HandedOut, bundle: &Bundle) -> Result<()>
         .env("CARGO_TARGET_DIR", folder.join("built"))
         .status()
         .at("run", "bash")?;
-    ensure!(status.success(), "the bundle cannot be used: see above");
+    ensure!(status.success(), "the bundle does not work: see above");
     Ok(())
 }

@@ -19,9 +19,10 @@ struct Package {
     version: String,
 }
 
-/// Returns the files of cargo's registry folder that are needed to build the crates of a lock file,
-/// with their paths in that folder: each crate's index entry and archive. Crates for other systems
-/// are skipped, because cargo hasn't fetched them and doesn't need them here.
+/// Returns the files in cargo's registry folder that cargo needs to build the crates in a lock
+/// file: the index entry and the archive of each crate. Each file comes with its path in that
+/// folder. Crates for other systems are skipped, because cargo hasn't fetched them and doesn't need
+/// them here.
 pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>> {
     let lock: LockFile = toml::from_str(lock)
         .map_err(|error| anyhow!("cannot read the bundle's lock file: {error}"))?;
@@ -44,8 +45,8 @@ fn cargo_home() -> Result<PathBuf> {
         .context("cannot find cargo's home folder: set CARGO_HOME")
 }
 
-/// Returns the paths, relative to the registry folder and separated by `/`, of all files that could
-/// belong to these crates. Some of them may not exist.
+/// Returns the paths of all files that could belong to these crates, some of which may not exist.
+/// The paths are relative to the registry folder and use `/` as the separator.
 fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>> {
     let mut paths = Vec::new();
     for registry in entry_names(&folder.join("index"))? {

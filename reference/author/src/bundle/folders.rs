@@ -21,7 +21,7 @@ const COPIED: [&str; 7] = [
 ];
 /// Names of folders that only staff need. Folders with these names are never copied, at any depth.
 const EXCLUDED_NAMES: [&str; 5] = ["tests", "snapshots", "benches", "fuzz", "target"];
-/// Files and folders for staff, about grading a class or running untrusted code.
+/// Files and folders about grading a class or running untrusted code, which are only for staff.
 const STAFF_PATHS: [&str; 6] = [
     "grader/class",
     "grader/SECURITY.md",
@@ -36,7 +36,7 @@ const SUMMARY: &str = "handout/src/SUMMARY.md";
 const STAFF_HEADING: &str = "# For instructors";
 /// The grader's copy of the starter. It isn't copied but generated from the reference.
 const STARTER: &str = "grader/starter";
-/// The folder of exams. It may contain final exams.
+/// The folder with the exams. It may contain final exams.
 const EXAMS: &str = "grader/exams";
 /// The exam that is handed out.
 const PRACTICE: &str = "grader/exams/practice.json";
@@ -81,7 +81,8 @@ fn not_plain(path: &Path) -> String {
     )
 }
 
-/// Returns the names of the pages for instructors in the built book at `path` in the bundle.
+/// Returns the names of the instructors' pages in the built book. `path` is the book's path in the
+/// bundle.
 pub(super) fn staff_pages(path: &str, bundle: &Bundle) -> Vec<String> {
     let chapters = STAFF_PATHS.iter().filter_map(|chapter| {
         let name = chapter.strip_prefix("handout/src/")?;

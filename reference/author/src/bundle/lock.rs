@@ -1,4 +1,5 @@
-//! The bundle's lock file: the workspace's, without the packages that only staff crates need.
+//! The bundle's lock file: the workspace's lock file without the packages that only staff crates
+//! need.
 //!
 //! Cargo itself removes the packages that are no longer needed. It runs offline, so that it cannot
 //! update the remaining packages.

@@ -1,5 +1,5 @@
-//! The bundle's manifests and cargo aliases: the workspace's, without the entries for staff crates,
-//! tests and benches.
+//! The bundle's manifests and cargo aliases. They are copied from the workspace, without the
+//! entries for staff crates, tests and benches.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
 const ALIASES: [&str; 5] = ["grade", "handin", "render", "view", "examples"];
-/// The manifest of the only crate whose tests, the worked examples, are in the bundle.
+/// The manifest of the only crate whose tests are in the bundle. They are the worked examples.
 const STUDENT_MANIFEST: &str = "student/Cargo.toml";
 /// The manifest keys for tests and benches, which aren't in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
@@ -61,8 +61,8 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     Ok(())
 }
 
-/// Declares that a crate contains no tests or benches. Otherwise, editors would compile the
-/// leftovers of its tests after each save, and they don't compile.
+/// Declares that a crate contains no tests or benches. Otherwise, editors would try to compile the
+/// leftovers of its tests after each save, which would fail.
 fn leave_out_tests(manifest: &mut DocumentMut) {
     let programs = manifest.get_mut("bin");
     let programs = programs.and_then(Item::as_array_of_tables_mut);
@@ -89,5 +89,5 @@ pub(super) fn parse(path: &str, text: &str) -> Result<DocumentMut> {
 }
 
 fn missing_key(path: &str, key: &str) -> String {
-    format!("{path} no longer has the key `{key}`: adapt reference/author/src/bundle/manifests.rs")
+    format!("{path} no longer has the key `{key}`: update reference/author/src/bundle/manifests.rs")
 }

@@ -25,8 +25,9 @@ use grader::handed_out::HandedOut;
 use crate::starter;
 
 /// The files that only students see: their paths in the bundle and their contents.
-const STUDENT_ONLY: [(&str, &str); 8] = [
+const STUDENT_ONLY: [(&str, &str); 9] = [
     ("README.md", include_str!("templates/README.md")),
+    ("student/build.rs", include_str!("templates/build.rs")),
     (".gitignore", include_str!("templates/gitignore")),
     (".gitattributes", include_str!("templates/gitattributes")),
     (
@@ -54,14 +55,14 @@ const STUDENT_ONLY: [(&str, &str); 8] = [
 /// The files of a bundle or package.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bundle {
-    /// The contents of each file, keyed by its path with `/` as the separator. Sorted, so that the
-    /// same workspace always gives the same archive.
+    /// The contents of each file, keyed by its path with `/` as the separator. The map is sorted,
+    /// so that the same workspace always gives the same archive.
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
 impl Bundle {
-    /// Collects the bundle of an assignment in the workspace at `root`, including the built book if
-    /// one is given. Fails if the book has chapters for instructors.
+    /// Collects an assignment's bundle from the workspace at `root`. The bundle includes the built
+    /// book if there is one. Fails if the book has chapters for instructors.
     pub fn collect(root: &Path, handed_out: &HandedOut, book: Option<&Path>) -> Result<Self> {
         let mut bundle = Bundle::default();
         folders::copy(root, &mut bundle)?;
@@ -73,8 +74,8 @@ impl Bundle {
             let pages = folders::staff_pages("handout/book", &bundle);
             if !pages.is_empty() {
                 bail!(
-                    "the book has chapters for instructors ({}): add the one that \
-                     `cargo book --students` builds in target/students-handout",
+                    "the book contains chapters for instructors ({}): use the one that `cargo book \
+                     --students` builds in target/students-handout",
                     pages.join(", ")
                 );
             }
@@ -82,8 +83,8 @@ impl Bundle {
         for (path, text) in STUDENT_ONLY {
             bundle.insert(path, text);
         }
-        // Generated rather than read from `student/src`, where staff may have solved the
-        // assignment.
+        // These files are generated rather than read from `student/src`, where staff may have
+        // solved the assignment.
         for file in starter::generated_files(root, handed_out)? {
             bundle.insert(file.path, file.contents);
         }

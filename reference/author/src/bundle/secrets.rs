@@ -1,6 +1,6 @@
 //! Searches a bundle for secrets: lines of solutions, and final exams.
 //!
-//! A secret line is a line of code of a solution, variant, mistake, mutant or oracle. White space
+//! A secret line is a line of code from a solution, variant, mistake, mutant or oracle. White space
 //! is ignored when lines are compared. Lines of the given files aren't secret. Neither are lines
 //! that compute nothing, e.g. `use std::fs;` or a closing brace.
 
@@ -17,9 +17,9 @@ use crate::bundle::Bundle;
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
-/// The folders of given code. Solutions may repeat its lines.
+/// The folders with given code, whose lines solutions may repeat.
 const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
-/// The minimum length of a secret line, not counting white space. Shorter lines occur by
+/// The minimum length of a secret line, not counting white space. Shorter lines can match by
 /// coincidence.
 const MIN_LENGTH: usize = 21;
 /// Lines, without white space, that occur in all kinds of Rust code.
@@ -30,7 +30,7 @@ const PRACTICE_ID: &str = "practice";
 /// All secret lines of a workspace.
 #[derive(Clone, Debug)]
 pub struct Secrets {
-    /// The source of each normalised line, as `file:line`.
+    /// The location of each secret line, as `file:line`, keyed by the normalised line.
     lines: HashMap<String, String>,
 }
 
@@ -52,8 +52,8 @@ pub enum Leak {
 }
 
 impl Secrets {
-    /// Collects the secrets of an assignment in the workspace at `root`, except lines that also occur
-    /// in the bundle's given files.
+    /// Collects the secrets of an assignment in the workspace at `root`, except lines that also
+    /// occur in the bundle's given files.
     pub fn gather(root: &Path, authoring: &Authoring, bundle: &Bundle) -> Result<Self> {
         let handed_out = authoring.handed_out;
         let mut secrets = Secrets {
@@ -77,7 +77,7 @@ impl Secrets {
                 secrets.read(root, &folder)?;
             }
         }
-        // The source with the file's name replaces some of the file's functions.
+        // The source with the same name as the file replaces some of the file's functions.
         for substituted in handed_out.substitutions {
             let (folder, file) = (substituted.folder(), substituted.file);
             secrets.read(root, &format!("{solutions}/{folder}/{file}"))?;
@@ -153,8 +153,12 @@ fn normalize(line: &str) -> Option<String> {
     (computes && !is_no_code && !is_idiom && line.len() >= MIN_LENGTH).then_some(line)
 }
 
-/// Returns whether the line contains arithmetic. An arrow or a dereferenced field isn't arithmetic.
+/// Returns whether the line contains arithmetic. An arrow, a dereferenced field or the name of a
+/// handout section isn't arithmetic.
 fn is_formula(line: &str) -> bool {
+    if line.contains(".md#") {
+        return false;
+    }
     let operators = line.replace("->", "").replace(": *", "").replace(":*", "");
     operators.contains(['+', '-', '*', '/'])
 }
@@ -195,6 +199,7 @@ mod tests {
             "/// The surface normal there, of length one.",
             "Shape::Sphere { center, radius, .. } => {",
             "fn hit() -> Option {",
+            "section: \"camera.md#from-pixel-to-sensor\",",
             "        thread::scope(|scope| {",
         ] {
             assert_eq!(normalize(line), None, "{line}");

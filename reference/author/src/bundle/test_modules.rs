@@ -37,7 +37,7 @@ fn module_folder(path: &str) -> String {
     }
 }
 
-/// Returns the text without its declarations `#[cfg(test)] mod NAME;`, and the declared names.
+/// Returns the text without its `#[cfg(test)] mod NAME;` declarations, and the names they declare.
 fn without_test_modules(text: &str) -> (String, Vec<String>) {
     let named = |line: &str| {
         let module = line.strip_prefix("pub(crate) ").unwrap_or(line);

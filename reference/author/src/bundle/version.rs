@@ -42,7 +42,7 @@ pub(super) fn add(root: &Path, handed_out: &HandedOut, bundle: &mut Bundle) -> R
     Ok(())
 }
 
-/// Returns the version in the text of the root's manifest.
+/// Returns the version in the text of the root manifest.
 pub(super) fn find(manifest: &str) -> Option<String> {
     let manifest: DocumentMut = manifest.parse().ok()?;
     let version = manifest.get("workspace")?.get("package")?.get("version")?;
@@ -56,7 +56,7 @@ pub(super) fn is_students_own(path: &str, handed_out: &HandedOut) -> bool {
     name.is_some_and(|name| handed_out.task_file(name).is_some())
 }
 
-/// Appends the bundle's version to the version in the table of a package, if any.
+/// Appends the bundle's version to the version in a `package` table, if there is one.
 fn add_to(package: Option<&mut Item>, version: &str) {
     if let Some(item) = package.and_then(|package| package.get_mut("version"))
         && let Some(plain) = item.as_str()

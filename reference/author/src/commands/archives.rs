@@ -10,7 +10,7 @@ use crate::authoring::Authoring;
 use crate::bundle::secrets::Secrets;
 use crate::bundle::{self, Bundle, archive};
 use crate::cli::{BundleArgs, PackageArgs};
-use crate::package::{self, Course, Platform, trial};
+use crate::package::{self, CourseFiles, Platform, trial};
 
 /// Writes or checks the students' bundle.
 pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> CommandResult {
@@ -27,6 +27,12 @@ pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> C
     }
     if let Some(out) = &args.out {
         archive::write(&bundle, out)?;
+        if args.book.is_none() {
+            println!(
+                "the built handout is not included: `cargo book --students` builds it, and \
+                 `--book target/students-handout` adds it"
+            );
+        }
     }
     Ok(())
 }
@@ -50,7 +56,7 @@ pub(super) fn package(
     args: &PackageArgs,
 ) -> CommandResult {
     let (exam, policy) = (args.exam.as_deref(), args.policy.as_deref());
-    let course = Course::new(authoring, args.exam_seed, exam, policy)?;
+    let course = CourseFiles::new(authoring, args.exam_seed, exam, policy)?;
     let (platform, out) = (args.platform, args.out.as_path());
     let package = &package::collect(root, authoring.handed_out, platform, course)?;
     match platform {
@@ -76,9 +82,9 @@ pub(super) fn package(
         return Ok(());
     }
     let line = match platform {
-        Platform::Gradescope => "the package grades correctly when run as on Gradescope",
+        Platform::Gradescope => "the package grades correctly when run the way Gradescope runs it",
         Platform::Classroom50 => {
-            "the package grades a checkout correctly when run as on classroom50"
+            "the package grades a checkout correctly when run the way classroom50 runs it"
         }
         Platform::Github => "the template's workflow grades a checkout correctly",
     };

@@ -26,7 +26,7 @@ use crate::starter;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-/// The entry in the table of long runs that replaces the seeds.
+/// The entry in the table of long runs for a run without seeds.
 const PRACTICE: &str = "practice";
 
 /// The result of a command. The caller prints the error.
@@ -60,9 +60,11 @@ pub fn run(command: Command, authoring: &'static Authoring) -> CommandResult {
                 Mode::Write
             };
             let files = handout::tasks::generated_files(root, authoring.handed_out)?;
+            let files = handout::gallery::with_pictures(root, authoring, files)?;
             generate(&files, mode, "handout")?;
             book::handout(root, authoring, book, students)
         }
+        Command::Gallery(check) => handout::gallery::write_or_check(root, authoring, check.mode()),
         Command::Bundle(args) => archives::bundle(root, authoring, &args),
         Command::Package(args) => archives::package(root, authoring, &args),
         Command::Mistakes(args) => proofs::mistakes(root, authoring, &args),
@@ -106,7 +108,7 @@ fn report(problems: &[String], line: &str) -> CommandResult {
     }
 }
 
-/// Writes the result of a run into the table of long runs if `wanted` says so.
+/// Writes the result of a run into the table of long runs if `--record` was given.
 fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> CommandResult {
     if wanted.record {
         long_runs::record(Path::new(ROOT), run, exams, line)?;
@@ -114,7 +116,7 @@ fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> Comm
     Ok(())
 }
 
-/// Formats seeds as on the command line.
+/// Formats seeds the way they are written on the command line.
 fn written(seeds: &Range<u64>) -> String {
     format!("{}..{}", seeds.start, seeds.end)
 }

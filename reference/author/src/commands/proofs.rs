@@ -22,7 +22,7 @@ use crate::proof::{self, failures, matrix};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
 
-/// Writes or checks the lists of items each mistake fails and the table of the practice exam.
+/// Writes or checks the lists of the items each mistake fails, and the table for the practice exam.
 pub(super) fn mistakes(
     root: &Path,
     authoring: &'static Authoring,
@@ -39,11 +39,12 @@ pub(super) fn mistakes(
         Mode::Check => failures::FEW_SEEDS,
     };
     let seeds = args.seeds.map_or(default, SeedCounts::of);
-    let (failed, catches) = failures::failed_items(&solutions, &practice, seeds)?;
-    let thin = catches.problems();
+    let (failed, detections) = failures::failed_items(&solutions, &practice, seeds)?;
+    let thin = detections.problems();
     let caught = failed.fails.len() - thin.len();
     let line = format!(
-        "mistakes {}, clearly caught {caught}, seeds {}; the thinnest {THINNEST}, seeds {}",
+        "{caught} of {} mistakes clearly caught, with {} seeds each, and {} for the {THINNEST} with \
+         the thinnest margins",
         failed.fails.len(),
         seeds.all,
         seeds.thinnest
@@ -53,8 +54,8 @@ pub(super) fn mistakes(
     let committed = FailedItems::load(root, handed_out)?;
     if mode == Mode::Check {
         let mut problems = failures::problems(&committed, &failed);
-        problems.extend(catches.problems());
-        let line = format!("seeds {}, mistakes {}", failed.seeds, failed.fails.len());
+        problems.extend(detections.problems());
+        let line = format!("{} seeds, {} mistakes", failed.seeds, failed.fails.len());
         report(&problems, &line)?;
     }
     // A check with the same number of seeds must find the same lists.
@@ -62,14 +63,14 @@ pub(super) fn mistakes(
         generate(&[failed.generated_file(handed_out)?], mode, "mistakes")?;
     }
     if mode == Mode::Write {
-        generate(&[catches.generated_file(handed_out)], mode, "mistakes")?;
+        generate(&[detections.generated_file(handed_out)], mode, "mistakes")?;
         solutions.set_failed_items(&failed);
     }
     write_table_of_mistakes(&solutions, &practice, mode)?;
     report(&thin, &line)
 }
 
-/// Writes or checks the table of the practice exam.
+/// Writes or checks the table for the practice exam.
 fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -> CommandResult {
     let table = matrix::generated_file(solutions, practice)?;
     generate(&[table], mode, "mistakes")
@@ -87,16 +88,16 @@ pub(super) fn mutants(
     let findings = mutants::run(authoring, &tasks, if fast { SAMPLE_STEP } else { 1 })?;
     let of_task = task.map_or(String::new(), |task| format!(" of {task}"));
     if fast {
-        println!("selected: one in {SAMPLE_STEP}{of_task}, in the order of their names");
+        println!("selected: one in {SAMPLE_STEP} mutants{of_task}, sorted by name");
     } else {
-        println!("selected: all{of_task}");
+        println!("selected: all mutants{of_task}");
     }
     let line = format!("mutants: {}", findings.summary_line());
     record_result(record, "mutants of the reference", PRACTICE, &line)?;
     report(&findings.problems(), &line)
 }
 
-/// Grades the variants with the exams of all seeds, and the mistakes with those of the first few
+/// Grades the variants with the exams for all seeds, and the mistakes with those for the first few
 /// seeds.
 pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandResult {
     let all = solutions(authoring)?;
@@ -135,7 +136,7 @@ pub(super) fn calibrate(
     report(&calibration.margins.problems(), &line)
 }
 
-/// Measures how mistakes are recognised, prints the result and, if requested, records it.
+/// Measures how well mistakes are recognised, prints the result and, if requested, records it.
 pub(super) fn hints(root: &Path, authoring: &'static Authoring, args: HintsArgs) -> CommandResult {
     let solutions = solutions(authoring)?;
     let practice = exams::load_practice(root, authoring)?;

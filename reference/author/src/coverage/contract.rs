@@ -4,20 +4,25 @@ use judging::assignment::TaskInfo;
 
 /// Returns the sentences that document a task's method, given the text of its file.
 pub(super) fn sentences(file: &str, task: &TaskInfo) -> Vec<String> {
-    split(&documentation(file, task.method))
+    split(&paragraphs(&documentation(file, task.method)))
 }
 
-/// Returns the documentation of a method as paragraphs and list items, one per line.
-fn documentation(file: &str, method: &str) -> Vec<String> {
+/// Returns the lines that document a method, without their slashes.
+pub fn documentation<'a>(file: &'a str, method: &str) -> Vec<&'a str> {
     let declaration = format!("pub fn {method}(");
     let lines: Vec<&str> = file.lines().map(str::trim).collect();
     let end = lines.iter().position(|line| line.starts_with(&declaration));
-    let above = &lines[..end.unwrap_or(0)];
-    let is_code = |line: &&str| !line.starts_with("///");
-    let begin = above.iter().rposition(is_code).map_or(0, |at| at + 1);
+    let above = lines[..end.unwrap_or(0)].iter().rev();
+    let documentation = above.map_while(|line| line.strip_prefix("///"));
+    let mut documentation: Vec<&str> = documentation.collect();
+    documentation.reverse();
+    documentation
+}
+
+/// Joins the lines of each paragraph and list item.
+fn paragraphs(documentation: &[&str]) -> Vec<String> {
     let mut paragraphs = vec![String::new()];
-    for line in &above[begin..] {
-        let text = line.trim_start_matches("///").trim();
+    for text in documentation.iter().map(|line| line.trim()) {
         let item = text.strip_prefix("- ");
         if text.is_empty() || item.is_some() {
             paragraphs.push(String::new());

@@ -2,7 +2,7 @@
 //! documentation, and how often the exam tests each class of each function's domain. Anything
 //! untested needs a reason, which is declared next to the task's items or the function's domain.
 
-mod contract;
+pub mod contract;
 
 use std::path::Path;
 
@@ -25,8 +25,8 @@ const TABLE: &str = "coverage.md";
 pub struct Coverage {
     /// The table as a file.
     pub table: GeneratedFile,
-    /// Sentences without items, items without sentences, and classes without questions and reasons,
-    /// one line each.
+    /// Sentences without items, items without sentences, and classes with neither questions nor a
+    /// reason, one line each.
     pub problems: Vec<String>,
     sentences: usize,
     asked: usize,
@@ -37,7 +37,7 @@ impl Coverage {
     /// Returns a one-line summary.
     pub fn summary_line(&self) -> String {
         format!(
-            "sentences {}, classes asked {}, with a reason {}, missing {}",
+            "{} sentences; classes: {} tested, {} not tested for a reason, {} missing",
             self.sentences,
             self.asked,
             self.excused,
@@ -46,17 +46,17 @@ impl Coverage {
     }
 }
 
-/// Determines the coverage of the contract by an exam.
+/// Determines how an exam covers the contract.
 pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Coverage> {
     let handed_out = authoring.handed_out;
     let folder = handed_out.solutions();
     let text = format!(
         "# Coverage of the contract\n\n\
-         Written by `cargo author coverage` for the {} exam. First, the sentences of the documentation \
-         of the methods that students write, with the items that ask them. Then, for each function, how \
-         many answers ask each class of its domain: those that are something, those that are `None`, \
-         and those of which a quantity is judged. At least {FEWEST} must. A letter is the reason why \
-         fewer do, below the table.\n",
+         Written by `cargo author coverage` for the {} exam. First come the sentences that \
+         document the methods students write, with the items that test them. Then, for each \
+         function, the number of answers that test each class of its domain: those with a result, \
+         those that are `None`, and those where a quantity is judged. Each class needs at least \
+         {FEWEST}. A letter refers to the reason for fewer, below the table.\n",
         exam.id
     );
     let mut coverage = Coverage {
@@ -83,7 +83,7 @@ fn authored_task(id: &str, tasks: &[&'static AuthoredTask]) -> Result<&'static A
     let mut tasks = tasks.iter().copied();
     let found = tasks.find(|task| task.items.iter().any(is_of_task));
     found.with_context(|| {
-        format!("no item is of the task `{id}`; add one whose id begins with `{id}.`")
+        format!("the task `{id}` has no items: add one whose id begins with `{id}.`")
     })
 }
 
@@ -100,12 +100,15 @@ impl Coverage {
 
         for (text, asked) in tested.iter().chain(&untested) {
             if sentences.iter().filter(|it| is_meant(text, it)).count() != 1 {
-                let problem = format!("{}: {asked} names no sentence with {text:?}", task.id);
+                let problem = format!(
+                    "{}: {asked} must refer to exactly one sentence, not to {text:?}",
+                    task.id
+                );
                 self.problems.push(problem);
             }
         }
         let without = authored.items.iter().filter(|item| item.tests.is_empty());
-        let without = without.map(|item| format!("no sentence is asked by {}", item.id));
+        let without = without.map(|item| format!("{} doesn't test any sentence", item.id));
         self.problems.extend(without);
 
         self.table.contents += &format!("\n## {}\n\n| sentence | items |\n|---|---|\n", task.title);
@@ -142,7 +145,7 @@ impl Coverage {
             let [(first, class), (second, other)] = pair.classes;
             if pair.is_missing() {
                 self.problems.push(format!(
-                    "{function} is never asked at {first} {class:?} with {second} {other:?}"
+                    "{function} is never tested at {first} {class:?} with {second} {other:?}"
                 ));
             } else if pair.count > 0 {
                 self.asked += 1;
@@ -160,7 +163,7 @@ impl Coverage {
         }
     }
 
-    /// Formats a count, or the letter of the reason for a small count. A small count without a
+    /// Formats a count, or the letter of the reason if the count is small. A small count without a
     /// reason is a problem.
     fn shown(&mut self, function: &str, cell: &Cell, reasons: &mut Vec<&'static str>) -> String {
         let count = cell.count;
@@ -170,7 +173,7 @@ impl Coverage {
         }
         let Some(why) = cell.reason else {
             self.problems.push(format!(
-                "{function} is asked {count} times at {} {:?} for {}",
+                "{function} is tested {count} times at {} {:?} for {}",
                 cell.aspect, cell.class, cell.column
             ));
             return format!("**{count}**");
@@ -184,7 +187,7 @@ impl Coverage {
     }
 }
 
-/// Returns whether a text equals a sentence, or its beginning followed by an ellipsis.
+/// Returns whether `text` is this sentence, or its beginning followed by an ellipsis.
 fn is_meant(text: &str, sentence: &str) -> bool {
     match text.strip_suffix('…') {
         Some(beginning) => sentence.starts_with(beginning),
@@ -204,7 +207,7 @@ mod tests {
     use crate::authoring::RAYS;
     use crate::items;
 
-    /// Returns the coverage problems of an exam with some of the items about boxes.
+    /// Returns the coverage problems of an exam that contains only some of the items about boxes.
     fn problems(keep: impl Fn(&Item) -> bool) -> Vec<String> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let exam = items::exam_of_boxes().filter_items(keep);
@@ -219,7 +222,7 @@ mod tests {
         let asked: Vec<String> = problems(|_| true);
         let mut new = problems(|item| item.id != "bbox.flat");
         new.retain(|line| !asked.contains(line));
-        let not_asked = "BBox::hit is asked 0 times at form \"flat along x\" for some";
+        let not_asked = "BBox::hit is tested 0 times at form \"flat along x\" for some";
         assert!(new.iter().any(|line| line == not_asked), "{new:?}");
     }
 
@@ -229,7 +232,7 @@ mod tests {
         let found = authored_task("bbox", &reversed).expect("boxes have items");
         assert!(found.items[0].id.starts_with("bbox."));
         let error = authored_task("box", &reversed).expect_err("no task has this id");
-        let expected = "no item is of the task `box`; add one whose id begins with `box.`";
+        let expected = "the task `box` has no items: add one whose id begins with `box.`";
         assert_eq!(error.to_string(), expected);
     }
 
@@ -256,7 +259,7 @@ mod tests {
         let sentences = ["A flat box can be hit.", "Use `times`."].map(str::to_owned);
         coverage.add_task(task, &sentences, &authored);
         let expected = [
-            "bbox: `flat` names no sentence with \"Another sentence.\"",
+            "bbox: `flat` must refer to exactly one sentence, not to \"Another sentence.\"",
             "bbox: \"A flat box can be hit.\" needs either items or a reason",
             "bbox: \"Use `times`.\" needs either items or a reason",
         ];

@@ -1,13 +1,14 @@
-//! Draws calls so that all classes occur about equally often, the rarely drawn ones a little more.
+//! Draws calls so that all classes occur about equally often, and the rarely drawn ones a little
+//! more often.
 
 use std::collections::BTreeMap;
 
 use super::Aspect;
 use crate::seed::Rng;
 
-/// The number of suitable calls that are compared.
+/// The number of suitable calls to compare.
 const CANDIDATES: usize = 48;
-/// The maximum number of calls drawn to find them.
+/// The maximum number of calls drawn to find that many suitable ones.
 const ATTEMPTS: usize = 1000;
 
 /// Counts how often each class has been chosen.
@@ -16,7 +17,7 @@ pub struct Balance<C: 'static> {
     aspects: &'static [Aspect<C>],
     /// For each aspect, how often each of its classes has been chosen.
     counts: Vec<Vec<u32>>,
-    /// The same within each group of calls.
+    /// For each group of calls, the same counts within that group.
     of_groups: BTreeMap<usize, Vec<Vec<u32>>>,
     /// The group of the next call.
     group: usize,
@@ -33,13 +34,13 @@ impl<C> Balance<C> {
         }
     }
 
-    /// Starts a group for the next calls. Each class should also occur in each group.
+    /// Starts a group for the next calls. Each class should occur in every group, too.
     pub fn begin(&mut self, group: usize) {
         self.group = group;
     }
 
-    /// Draws some calls and chooses the one whose classes have been chosen least often. Returns `None`
-    /// if `draw` never returns a call.
+    /// Draws some calls and chooses the one whose classes have been chosen least often. Returns
+    /// `None` if `draw` never returns a call.
     pub fn choose(
         &mut self,
         rng: &mut Rng,

@@ -1,4 +1,4 @@
-//! How often the classes of a function's domain are tested.
+//! Counts how often the classes in a function's domain are tested.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,9 +9,9 @@ use super::Domain;
 /// The minimum number of answers per class, so that no mistake passes by luck.
 pub const FEWEST: usize = 2;
 
-/// The column of calls whose answer is not `None`.
+/// The column for calls whose answer is not `None`.
 const PRESENT: &str = "some";
-/// The column of calls whose answer is `None`.
+/// The column for calls whose answer is `None`.
 const ABSENT: &str = "`None`";
 
 /// How often each class of each aspect is tested, for hits, misses and each quantity of a hit.
@@ -25,7 +25,7 @@ pub struct Classes {
 }
 
 impl Classes {
-    /// Counts the calls of a function in an exam's items.
+    /// Counts the calls to a function in an exam's items.
     pub fn count<'a>(domain: &dyn Domain, items: impl IntoIterator<Item = &'a Item>) -> Self {
         let mut counted = Classes {
             columns: Vec::new(),
@@ -34,11 +34,18 @@ impl Classes {
         };
         let pairs = pairs_of_aspects(domain);
         let mut judged_anywhere = BTreeSet::new();
-        for asked in items.into_iter().flat_map(|item| &item.questions) {
+        let questions = items.into_iter().flat_map(|item| {
+            let before = item.questions.iter().map(|asked| Some(&asked.question));
+            item.questions
+                .iter()
+                .zip(std::iter::once(None).chain(before))
+        });
+        for (asked, before) in questions {
+            let calls = domain.classes(&asked.question, before);
             let Key::Table { judged, rows, .. } = &asked.key else {
                 let judged = judged_of_tree(&asked.key);
                 judged_anywhere.extend(judged.iter().map(|&name| name.to_owned()));
-                counted.add_all(&pairs, &domain.classes(&asked.question), |_| {
+                counted.add_all(&pairs, &calls, |_| {
                     std::iter::once(PRESENT)
                         .chain(judged.iter().copied())
                         .collect()
@@ -46,7 +53,7 @@ impl Classes {
                 continue;
             };
             judged_anywhere.extend(judged.iter().cloned());
-            counted.add_all(&pairs, &domain.classes(&asked.question), |row| {
+            counted.add_all(&pairs, &calls, |row| {
                 if rows.is_present(row) {
                     let quantities = judged.iter().map(String::as_str);
                     std::iter::once(PRESENT).chain(quantities).collect()
@@ -87,8 +94,8 @@ impl Classes {
         }
     }
 
-    /// Returns how often each class is tested: class by class, each with the columns in their
-    /// order.
+    /// Returns a cell for each class in each column: all cells for the first class, then those for
+    /// the second, and so on.
     pub fn cells(&self, domain: &dyn Domain) -> Vec<Cell> {
         let mut cells = Vec::new();
         for (aspect, (name, classes)) in domain.aspects().into_iter().enumerate() {
@@ -108,8 +115,7 @@ impl Classes {
         cells
     }
 
-    /// Returns how often each pair of classes is tested, for all pairs that should be tested
-    /// together.
+    /// Returns a count for each pair of classes that should be tested together.
     pub fn pairs(&self, domain: &dyn Domain) -> Vec<Pair> {
         /// The name that a domain's reasons use for the column of pairs.
         const COLUMN: &str = "pairs";
@@ -142,14 +148,14 @@ pub struct Cell {
     pub class: &'static str,
     /// The name of the column, such as a quantity that is judged.
     pub column: String,
-    /// How many answers there are.
+    /// The number of answers.
     pub count: usize,
-    /// Why an exam need not ask it.
+    /// The reason an exam need not test it, if there is one.
     pub reason: Option<&'static str>,
 }
 
 impl Cell {
-    /// Returns whether it should be tested more often.
+    /// Returns whether the class should be tested more often.
     pub fn is_missing(&self) -> bool {
         self.count < FEWEST && self.reason.is_none()
     }
@@ -160,21 +166,21 @@ impl Cell {
 pub struct Pair {
     /// The aspects, each with its class.
     pub classes: [(&'static str, &'static str); 2],
-    /// How many answers there are.
+    /// The number of answers.
     pub count: usize,
-    /// Why an exam need not ask it.
+    /// The reason an exam need not test it, if there is one.
     pub reason: Option<&'static str>,
 }
 
 impl Pair {
-    /// Returns whether it should be tested.
+    /// Returns whether the pair still has to be tested.
     pub fn is_missing(&self) -> bool {
         self.count == 0 && self.reason.is_none()
     }
 }
 
-/// Returns the indices of the aspects in each pair of a domain. Panics if the domain doesn't contain an
-/// aspect of a pair.
+/// Returns the indices of the two aspects in each of a domain's pairs. Panics if the domain doesn't
+/// contain one of these aspects.
 fn pairs_of_aspects(domain: &dyn Domain) -> Vec<[usize; 2]> {
     let aspects = domain.aspects();
     let place = |name: &str| {
@@ -185,7 +191,7 @@ fn pairs_of_aspects(domain: &dyn Domain) -> Vec<[usize; 2]> {
     pairs.map(|names| names.map(place)).collect()
 }
 
-/// Returns why an exam need not test a class in a column, if the domain states a reason.
+/// Returns the reason an exam need not test a class in a column, if the domain states one.
 fn reason(domain: &dyn Domain, aspect: &str, class: &str, column: &str) -> Option<&'static str> {
     let mut reasons = domain.not_asked().iter();
     let found = reasons.find(|reason| reason.is_about(aspect, class, column));

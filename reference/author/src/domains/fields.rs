@@ -10,14 +10,14 @@ use crate::seed::Rng;
 /// The largest coordinate of a scene.
 pub const FURTHEST: f64 = 1000.0;
 
-/// The largest distance between a shape and its viewer, in sizes of the shape: half of its longest side,
-/// or its radius.
+/// The largest distance between a shape and its viewer, as a multiple of the shape's size. The size
+/// is half of the longest side, or the radius.
 pub const FURTHEST_SIZES: f64 = 30.0;
 
 /// The relative error of one operation in single precision.
 pub const EPSILON: f64 = 6e-8;
 
-/// The classes of lengths: decades, named by their beginnings.
+/// The classes of lengths: decades, named after their lower limits.
 pub const SIZES: &[&str] = &[
     "below 1e-4",
     "1e-4",
@@ -30,7 +30,8 @@ pub const SIZES: &[&str] = &[
     "500",
 ];
 
-/// All classes of lengths. Lengths of about one come first, since a report shows the first wrong answer.
+/// All classes of lengths. Lengths of about one come first, since a report shows the first wrong
+/// answer.
 pub const EVERY_SIZE: &[usize] = &[5, 4, 6, 3, 7, 2, 8, 1, 0];
 /// The classes of most lengths. Others are tested where an absolute threshold could matter.
 pub const USUAL: &[usize] = &[5, 4, 6, 7, 8];
@@ -49,7 +50,7 @@ pub fn size_class(size: f64) -> usize {
     decade.clamp(0, SIZES.len() as i32 - 2) as usize
 }
 
-/// Draws a length of one class, often exactly a power of ten, or almost one.
+/// Draws a length in this class. It is often exactly or almost a power of ten.
 pub fn size(rng: &mut Rng, class: usize) -> f64 {
     let (least, most) = match class {
         0 => (2e-7, 1e-4),
@@ -106,7 +107,7 @@ pub fn distance_class(distance: f64) -> usize {
     }
 }
 
-/// The classes of positions, by the largest coordinate in sizes of the shape there.
+/// The classes of positions, by the largest coordinate as a multiple of the shape's size.
 pub const PLACES: &[&str] = &[
     "around the origin",
     "1 size away",
@@ -126,11 +127,12 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
     }
 }
 
-/// Draws a position for a shape of this size that is entirely within a scene's largest coordinate and at
-/// most 5,000 sizes away.
+/// Draws a position for a shape of this size. No coordinate of the shape exceeds the largest
+/// coordinate of a scene, and the shape is at most 5,000 times its size away. Some positions are on
+/// an axis.
 pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
     let furthest = (FURTHEST - size).min(5000.0 * size);
-    let position = match rng.index(PLACES.len()) {
+    let mut position = match rng.index(PLACES.len()) {
         0 if rng.coin() => DVec3::ZERO,
         0 => rng.point(0.9 * size),
         class => {
@@ -139,19 +141,27 @@ pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
             (size * sizes).min(furthest) * rng.vector(0.3, 1.0) * signs
         }
     };
+    if rng.index(12) == 0 {
+        // Half of these positions are straight ahead of a camera.
+        position = if rng.coin() {
+            -position.abs() * DVec3::Z
+        } else {
+            position * DVec3::AXES[rng.index(3)]
+        };
+    }
     position.clamp(DVec3::splat(-furthest), DVec3::splat(furthest))
 }
 
 /// The octants, by the signs of x, y and z.
 pub const OCTANTS: &[&str] = &["+++", "-++", "+-+", "--+", "++-", "-+-", "+--", "---"];
 
-/// Returns the octant of a vector without a component that is 0.
+/// Returns the octant of a vector, or `None` if one of its components is 0.
 pub fn octant(vector: DVec3) -> Option<usize> {
     let is_inside = vector.abs().min_element() > 0.0;
     is_inside.then_some(vector.is_negative_bitmask() as usize)
 }
 
-/// The classes of directions: along an axis, in a plane of two axes, and the octants.
+/// The classes of directions: along an axis, in a coordinate plane, or in an octant.
 pub const DIRECTIONS: &[&str] = &[
     "along +x",
     "along +y",
@@ -174,7 +184,7 @@ pub const DIRECTIONS: &[&str] = &[
     "almost in a plane",
 ];
 
-/// The largest component of a direction that is almost 0.
+/// Direction components below this limit count as almost 0.
 const ALMOST_ZERO: f32 = 0.01;
 
 /// Returns the class of a direction.
@@ -197,8 +207,8 @@ pub fn direction_class(dir: Vec3) -> Option<usize> {
     }
 }
 
-/// Draws a direction: along an axis, in a plane of two axes, close to one of these, or any other. Zeros
-/// can have either sign.
+/// Draws a direction: along an axis, in a coordinate plane, close to one of these, or any other.
+/// Zeros can have either sign.
 pub fn direction(rng: &mut Rng) -> DVec3 {
     let dir = rng.retry(|rng| {
         let dir = rng.direction();
@@ -222,7 +232,7 @@ pub fn direction(rng: &mut Rng) -> DVec3 {
     dir.normalize()
 }
 
-/// The classes of directions along a diagonal, with components that are exactly of the same size.
+/// The classes of directions along a diagonal, with components of exactly the same size.
 pub const DIAGONALS: &[&str] = &[
     "in the yz-plane",
     "in the zx-plane",
@@ -252,8 +262,8 @@ pub fn diagonal(rng: &mut Rng) -> DVec3 {
     (signs * dir).normalize()
 }
 
-/// Returns the start and the direction of a ray toward a target at this distance. Some rays start far
-/// away or at the origin instead. Returns `None` if the ray would start outside the scene.
+/// Returns the start and the direction of a ray toward a target at this distance. Some rays start
+/// far away or at the origin instead. Returns `None` if the ray would start outside the scene.
 pub fn ray_toward(
     rng: &mut Rng,
     target: DVec3,
@@ -270,7 +280,7 @@ pub fn ray_toward(
     (start.abs().max_element() <= FURTHEST).then_some((start, dir))
 }
 
-/// Draws the start of a ray toward a target, up to 30 sizes away.
+/// Draws the start of a ray toward a target. The start is up to 30 times this size away.
 fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
     let start = rng.vector(0.5, 1.0) * FURTHEST * -target.signum();
     (start.distance(target) < 29.0 * size).then_some(start)
@@ -281,7 +291,8 @@ pub fn is_same_line(a: &Ray, b: &Ray) -> bool {
     a.origin == b.origin && a.dir == b.dir
 }
 
-/// Returns whether two rays differ, but no number by more than a five-thousandth of its value.
+/// Returns whether two rays differ, but no number differs by more than a five-thousandth of its
+/// value.
 pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
     const MOST: f32 = 2e-4;
     let is_near = |a: Vec3, b: Vec3| (a - b).abs().cmple(MOST * a.abs()).all();
@@ -291,8 +302,8 @@ pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
         && is_near(a.dir, b.dir)
 }
 
-/// Returns the ray with one coordinate of the start or one component of the direction changed by at most a
-/// ten-thousandth of its value.
+/// Returns the ray with one coordinate of the start or one component of the direction changed by at
+/// most a ten-thousandth of its value.
 pub fn almost_the_same_ray(rng: &mut Rng, ray: &Ray) -> Ray {
     const MOST: f64 = 1e-4;
     let (axis, nudge) = (rng.index(3), 1.0 + rng.uniform(-MOST, MOST));
@@ -353,7 +364,7 @@ pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
     Interval::new(min as f32, max as f32)
 }
 
-/// The classes of the numbers of shapes.
+/// The classes of shape numbers.
 pub const NUMBERS: &[&str] = &[
     "0",
     "1 to 255",
@@ -362,7 +373,7 @@ pub const NUMBERS: &[&str] = &[
     "the largest",
 ];
 
-/// Returns the class of a shape's number.
+/// Returns the class that a shape number belongs to.
 pub fn number_class(number: u32) -> usize {
     match number {
         0 => 0,
@@ -373,7 +384,7 @@ pub fn number_class(number: u32) -> usize {
     }
 }
 
-/// Draws the number of a shape.
+/// Draws a shape number.
 pub fn number(rng: &mut Rng) -> u32 {
     match rng.index(NUMBERS.len()) {
         0 => 0,
@@ -403,7 +414,7 @@ pub fn without_repetition<T: Ord>(values: impl IntoIterator<Item = T>) -> bool {
     values.into_iter().all(|value| known.insert(value))
 }
 
-/// Draws distinct numbers of shapes.
+/// Draws distinct shape numbers.
 pub fn numbers(rng: &mut Rng, count: usize) -> Vec<u32> {
     let mut known = BTreeSet::new();
     let mut fresh = || {

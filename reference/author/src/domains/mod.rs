@@ -1,10 +1,11 @@
-//! Domains: what the contract allows for the subject and the arguments of each function, divided into
-//! classes. Items draw everything that is not part of their idea from a domain, and the coverage of the
-//! contract is counted in classes.
+//! Domains: the subjects and arguments that the contract allows for each function, divided into
+//! classes. Items draw everything that is not part of their idea from a domain, and the coverage of
+//! the contract is counted per class.
 //!
-//! A correct method treats all classes alike. A wrong one often fails for a single class: small
-//! shapes, rays along an axis, or rays from inside.
+//! A correct method treats all classes alike. A wrong one often fails for a single class, such as
+//! small shapes, rays along an axis, or rays that start inside.
 
+mod aimed;
 mod balance;
 pub mod bbox;
 pub mod build;
@@ -24,9 +25,10 @@ use protocol::Question;
 
 use crate::seed::Rng;
 
+pub use aimed::Aimed;
 pub use balance::Balance;
 pub use placed::Placed;
-pub use tables::{Change, Drawn, Generator};
+pub use tables::{Change, Generator, SubjectCalls};
 
 /// A property that differs between calls, divided into classes.
 #[derive(Debug)]
@@ -39,14 +41,14 @@ pub struct Aspect<C: 'static> {
     pub class: fn(&C) -> Option<usize>,
 }
 
-/// A call of a function that may return nothing.
+/// A call to a function that may return nothing.
 pub trait Call: Copy + 'static {
     /// The value that the function is called on.
     type Subject: Copy;
     /// The arguments.
     type Input: Copy;
 
-    /// Creates a call without a previous call.
+    /// Creates a call that isn't preceded by another call.
     fn new(subject: Self::Subject, input: Self::Input) -> Self;
 
     /// Returns the value that the function is called on.
@@ -58,7 +60,7 @@ pub trait Call: Copy + 'static {
     /// Returns whether the correct answer is not `None`.
     fn is_hit(&self) -> bool;
 
-    /// Returns a hit with a different range of distances, which may turn it into a miss.
+    /// Returns this hit with a different range of distances, which may turn it into a miss.
     fn with_other_range(&self, rng: &mut Rng) -> Option<Self>;
 }
 
@@ -73,46 +75,50 @@ pub struct FunctionDomain<C: 'static> {
     pub aspects: &'static [Aspect<C>],
     /// The pairs of aspects whose classes are tested in all combinations.
     pub pairs: &'static [[&'static str; 2]],
-    /// Returns the calls of a question about the function.
+    /// Returns the calls in a question about the function.
     pub calls: fn(&Question) -> Vec<C>,
     /// The classes that the exam need not test.
-    pub not_asked: &'static [NotAsked],
+    pub not_asked: &'static [UntestedClasses],
 }
 
-/// Classes that the exam need not test, with the reason.
+/// Classes that the exam need not test, and the reason.
 #[derive(Debug)]
-pub struct NotAsked {
-    aspect: &'static str,
+pub struct UntestedClasses {
+    aspects: &'static [&'static str],
     classes: &'static [&'static str],
     columns: &'static [&'static str],
     /// The reason.
     pub why: &'static str,
 }
 
-/// States why an exam need not test classes of an aspect in some columns of the coverage. An empty
-/// name or list stands for all.
+/// Declares that an exam need not test these classes of these aspects, and states the reason.
+/// Applies only to these columns of the coverage. An empty list stands for all aspects, classes or
+/// columns.
 pub const fn not_asked(
-    aspect: &'static str,
+    aspects: &'static [&'static str],
     classes: &'static [&'static str],
     columns: &'static [&'static str],
     why: &'static str,
-) -> NotAsked {
-    NotAsked {
-        aspect,
+) -> UntestedClasses {
+    UntestedClasses {
+        aspects,
         classes,
         columns,
         why,
     }
 }
 
-impl NotAsked {
-    /// Returns whether this applies to a class of an aspect in a column.
+impl UntestedClasses {
+    /// Returns whether this declaration says that `class` of `aspect` need not be tested in
+    /// `column`.
     pub fn is_about(&self, aspect: &str, class: &str, column: &str) -> bool {
         let has = |list: &[&str], name: &str| list.is_empty() || list.contains(&name);
-        let is_aspect = self.aspect.is_empty() || self.aspect == aspect;
-        is_aspect && has(self.classes, class) && has(self.columns, column)
+        has(self.aspects, aspect) && has(self.classes, class) && has(self.columns, column)
     }
 }
+
+/// An aspect of the first call on a subject that follows another subject.
+const SUBJECT_BEFORE: (&str, &[&str]) = ("first call", &["after another subject"]);
 
 /// The domain of any function.
 pub trait Domain: Debug + Sync {
@@ -126,11 +132,11 @@ pub trait Domain: Debug + Sync {
     fn pairs(&self) -> &'static [[&'static str; 2]];
 
     /// Returns the classes that the exam need not test.
-    fn not_asked(&self) -> &'static [NotAsked];
+    fn not_asked(&self) -> &'static [UntestedClasses];
 
-    /// For each call of a question about the function, returns its class in each aspect that
-    /// applies.
-    fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>>;
+    /// For each call in a question about the function, returns its class for each aspect that
+    /// applies. `before` is the item's previous question, if any.
+    fn classes(&self, question: &Question, before: Option<&Question>) -> Vec<Vec<Option<usize>>>;
 }
 
 impl<C> FunctionDomain<C> {
@@ -146,30 +152,36 @@ impl<C: Debug> Domain for FunctionDomain<C> {
 
     fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])> {
         let aspects = self.all_aspects();
-        aspects
-            .map(|aspect| (aspect.name, aspect.classes))
-            .collect()
+        let aspects = aspects.map(|aspect| (aspect.name, aspect.classes));
+        aspects.chain([SUBJECT_BEFORE]).collect()
     }
 
     fn pairs(&self) -> &'static [[&'static str; 2]] {
         self.pairs
     }
 
-    fn not_asked(&self) -> &'static [NotAsked] {
+    fn not_asked(&self) -> &'static [UntestedClasses] {
         self.not_asked
     }
 
-    fn classes(&self, question: &Question) -> Vec<Vec<Option<usize>>> {
-        let classes = |call: &C| {
-            let aspects = self.all_aspects();
-            aspects.map(|aspect| (aspect.class)(call)).collect()
+    fn classes(&self, question: &Question, before: Option<&Question>) -> Vec<Vec<Option<usize>>> {
+        let calls_of = |question: &Question| {
+            let table = question.table();
+            let is_other = table.is_some_and(|table| table.name() != self.function);
+            if is_other {
+                Vec::new()
+            } else {
+                (self.calls)(question)
+            }
         };
-        if question
-            .table()
-            .is_some_and(|table| table.name() != self.function)
-        {
-            return Vec::new();
-        }
-        (self.calls)(question).iter().map(classes).collect()
+        let is_after_another = before.is_some_and(|before| !calls_of(before).is_empty());
+        let calls = calls_of(question);
+        let classes = calls.iter().enumerate().map(|(index, call)| {
+            let aspects = self.all_aspects();
+            let classes = aspects.map(|aspect| (aspect.class)(call));
+            let of_first = (index == 0 && is_after_another).then_some(0);
+            classes.chain([of_first]).collect()
+        });
+        classes.collect()
     }
 }

@@ -1,4 +1,4 @@
-//! Aspects of calls about anything with a size and a position.
+//! Aspects that all calls on something with a size and a position have in common.
 
 use super::Aspect;
 use super::fields::{OCTANTS, PLACES, ROUND, SIZES, octant, place_class, round_class, size_class};
@@ -6,7 +6,7 @@ use crate::oracle::bbox::Bounds;
 
 /// A call about something in space.
 pub trait Placed {
-    /// Returns the box around it, or `None` if there is nothing.
+    /// Returns the box around everything that the call is about, or `None` if it is about nothing.
     fn bounds(&self) -> Option<Bounds>;
 }
 

@@ -1,29 +1,29 @@
-//! Draws the rows of a table: calls of one subject. Every other call is a hit.
+//! Draws the rows of a table: calls on one subject. Half of the calls are hits.
 
 use glam::DVec3;
 
 use super::{Balance, Call, FunctionDomain};
 use crate::seed::Rng;
 
-/// A subject, and the arguments of its calls.
-pub type Drawn<C> = (<C as Call>::Subject, Vec<<C as Call>::Input>);
+/// A subject, and the arguments of the calls on it.
+pub type SubjectCalls<C> = (<C as Call>::Subject, Vec<<C as Call>::Input>);
 
 /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
 type DrawInput<'a, C> = &'a dyn Fn(&mut Rng, &<C as Call>::Subject) -> Option<<C as Call>::Input>;
 
-/// Returns the call of a subject that differs from the given one in a single property. The vector
-/// has random components from −1 to 1, which are the same for all calls of a table.
+/// Returns the same call on a subject that differs in a single property. The vector has random
+/// components from −1 to 1, which are the same for all calls in a table.
 pub type Change<C> = fn(&C, DVec3) -> C;
 
-/// Returns calls that are almost the same as the given one, to follow it. Returns `None` if no such
-/// calls exist.
+/// Returns calls that are almost the same as this call and can come right after it. Returns `None`
+/// if no such calls exist.
 pub type Follow<C> = fn(&mut Rng, &C) -> Option<Vec<C>>;
 
-/// A generator for calls of a function.
+/// A generator for calls to a function.
 pub struct Generator<'a, C: Call> {
     /// The domain of the function.
     pub domain: &'static FunctionDomain<C>,
-    /// Draws a subject of a size.
+    /// Draws a subject of this size.
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
     pub input: DrawInput<'a, C>,
@@ -31,7 +31,7 @@ pub struct Generator<'a, C: Call> {
     pub changes: &'a [Change<C>],
     /// The maximum number of these changes in an item.
     pub most_changes: usize,
-    /// The ways a call can follow another call of the same subject.
+    /// The ways a call can follow another call on the same subject.
     pub follow: &'a [Follow<C>],
     /// Returns whether a call fits the item's idea and all correct formulas agree on its answer.
     pub fits: &'a dyn Fn(&C) -> bool,
@@ -39,18 +39,19 @@ pub struct Generator<'a, C: Call> {
     pub differ: &'a dyn Fn(&C, &C) -> bool,
 }
 
-/// The number of pairs of a hit and a miss in a table.
+/// The number of pairs in a table. Each pair consists of a hit and a miss.
 const PAIRS: usize = 10;
 
 /// The maximum number of hits, and of misses, for a subject that differs from the previous one.
 const AGAIN: usize = 5;
 
 impl<C: Call> Generator<'_, C> {
-    /// Draws a subject of each of these sizes, each with pairs of a hit and a miss, so that each class of
-    /// each aspect occurs. Some pairs only differ in the range, if the range decides, and some are
-    /// followed by a call that is almost the same. The last tables repeat earlier calls, each with a
-    /// subject that differs from the previous one in a single property.
-    pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<Drawn<C>> {
+    /// For each of these sizes, draws a subject and pairs of calls, one a hit and one a miss, so
+    /// that each class of each aspect occurs. In some pairs, only the range makes one call a hit
+    /// and the other a miss. Some pairs are followed by a call that is almost the same as the one
+    /// before it. The last tables repeat earlier calls, each with a subject that differs from the
+    /// previous one in a single property.
+    pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<SubjectCalls<C>> {
         let FunctionDomain {
             subject_aspects,
             aspects,
@@ -62,12 +63,12 @@ impl<C: Call> Generator<'_, C> {
             balances.1.begin(index);
             rng.retry(|rng| self.table(rng, size, &mut balances))
         };
-        let mut tables: Vec<Drawn<C>> = sizes.iter().enumerate().map(table).collect();
+        let mut tables: Vec<SubjectCalls<C>> = sizes.iter().enumerate().map(table).collect();
         let Some(last) = tables.pop() else {
             return tables;
         };
-        // The last call hits, so that an answer kept from it becomes visible in the first call of the
-        // next table.
+        // The last call hits, so that an answer kept from it becomes visible in the first call of
+        // the next table.
         let ends_with = |row: usize| {
             let (subject, mut inputs) = last.clone();
             let end = inputs.remove(row);
@@ -85,7 +86,11 @@ impl<C: Call> Generator<'_, C> {
     }
 
     /// Returns tables whose subjects each differ from the previous one in a single property.
-    fn changed_tables(&self, rng: &mut Rng, (subject, inputs): &Drawn<C>) -> Vec<Drawn<C>> {
+    fn changed_tables(
+        &self,
+        rng: &mut Rng,
+        (subject, inputs): &SubjectCalls<C>,
+    ) -> Vec<SubjectCalls<C>> {
         let calls = inputs.iter().map(|&input| C::new(*subject, input));
         let mut calls: Vec<C> = calls.collect();
         let mut tables = Vec::new();
@@ -107,9 +112,9 @@ impl<C: Call> Generator<'_, C> {
         tables
     }
 
-    /// Returns the calls of a subject that differs from the previous one: the few calls for the table,
-    /// and all of them. The first repeats the previous table's last call, which now has a different
-    /// answer. The last is a hit.
+    /// Returns two lists of calls on a subject that differs from the previous one: a few calls for
+    /// the table, and all calls. The first call in the table repeats the previous table's last
+    /// call, which now has a different answer. The table's last call is a hit.
     fn changed(&self, rng: &mut Rng, before: &[C], change: Change<C>) -> Option<(Vec<C>, Vec<C>)> {
         const ATTEMPTS: usize = 60;
         let last = before.last()?;
@@ -132,13 +137,13 @@ impl<C: Call> Generator<'_, C> {
         })
     }
 
-    /// Draws a subject and its calls. Returns `None` if too few calls of the subject fit.
+    /// Draws a subject and its calls. Returns `None` if too few calls on the subject fit.
     fn table(
         &self,
         rng: &mut Rng,
         size: usize,
         (of_subject, of_row): &mut (Balance<C>, Balance<C>),
-    ) -> Option<Drawn<C>> {
+    ) -> Option<SubjectCalls<C>> {
         /// The maximum number of calls drawn to find one that fits a subject.
         const ATTEMPTS: usize = 20;
         // Subjects that turn out not to fit are counted too, so that the next one is of a different
@@ -164,8 +169,8 @@ impl<C: Call> Generator<'_, C> {
         Some((subject, calls.iter().map(C::input).collect()))
     }
 
-    /// Returns the pairs in random order. Some are followed by calls that are almost the same as the
-    /// previous one but have a different answer.
+    /// Returns the pairs in random order. Some are followed by calls that are almost the same as
+    /// the call before them but have a different answer.
     fn with_followers(&self, rng: &mut Rng, pairs: Vec<Vec<C>>) -> Vec<Vec<C>> {
         const ATTEMPTS: usize = 12;
         let mut pairs = rng.shuffled(pairs);

@@ -11,13 +11,13 @@ use super::SourceFile;
 use super::pages::{Page, Snippet};
 use crate::cli::Cli;
 
-/// The files that define the options of `cargo render` and `cargo view`, each as a field. They are
-/// read as text, because the crates aren't linked here.
+/// The files that define the options of `cargo render` and `cargo view`. Each option is a field of
+/// a struct. The files are read as text, because the crates aren't linked here.
 const OPTIONS: [&str; 2] = [
     "student/framework/src/harness/cli/options.rs",
     "grader/view/src/cli.rs",
 ];
-/// The flags of `cargo examples`, whose command line isn't linked here.
+/// The flags of `cargo examples`. The code that parses them isn't linked here.
 const EXAMPLES_FLAGS: [&str; 1] = ["--nocapture"];
 /// Commands of other programs that the handout uses.
 pub(super) const OTHER_COMMANDS: [&str; 10] = [
@@ -33,8 +33,8 @@ pub(super) const OTHER_COMMANDS: [&str; 10] = [
     "explorer.exe",
 ];
 
-/// Returns the unknown commands, flags and arguments of a page, each with its line. `aliases` are
-/// the cargo aliases of this repository.
+/// Returns the unknown commands, flags and arguments on a page, each with its line number.
+/// `aliases` are the cargo aliases of this repository.
 pub fn unknown_commands(
     page: &Page,
     sources: &[SourceFile],

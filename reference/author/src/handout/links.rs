@@ -1,4 +1,4 @@
-//! Checks that every link, anchor and figure of the handout exists and that every figure is used.
+//! Checks that every link, anchor and figure in the handout exists and that every figure is used.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use judging::section::Section;
 use super::pages::{Page, anchor};
 
 /// Returns the broken links in the chapters and the files that no chapter links to. `figures` are
-/// the names of the figures' files in the chapters' folder.
+/// the file names of the figures in the chapters' folder.
 pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
     let anchors = anchors(pages);
     let mut problems = Vec::new();
@@ -41,23 +41,28 @@ fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
         .filter(|name| *name != SUMMARY)
         .chain(figures.iter().map(String::as_str));
     all.filter(|file| !reached.contains(file))
-        .map(|file| format!("{file}: no chapter links to it"))
+        .map(|file| format!("{file}: no chapter contains a link to it"))
         .collect()
 }
 
 /// The file with the table of contents.
 pub const SUMMARY: &str = "SUMMARY.md";
 
-/// Returns the items without a section, and the sections that an exam or the assignment's challenge
-/// refers to but that don't exist.
-pub fn missing_sections(pages: &[Page], exam: &Exam, challenge: Option<&str>) -> Vec<String> {
+/// Returns a problem for each item without a section, and for each section that the exam or
+/// `others` refer to but that doesn't exist. Each element of `others` consists of a section and a
+/// name for the thing that refers to it.
+pub fn missing_sections(
+    pages: &[Page],
+    exam: &Exam,
+    others: impl IntoIterator<Item = (String, Section)>,
+) -> Vec<String> {
     let problem = |section: &Section| {
         let chapter = pages.iter().find(|page| page.name == section.chapter());
         let mut headings = chapter.into_iter().flat_map(|page| &page.headings);
         match headings.find(|heading| anchor(&heading.text) == section.anchor()) {
             None => Some(format!("the handout has no section {section}")),
             Some(heading) if heading.text != section.heading() => Some(format!(
-                "{section} would be shown as \"{}\", but its heading is \"{}\"",
+                "{section} would be shown as \"{}\", but the heading is \"{}\"",
                 section.heading(),
                 heading.text
             )),
@@ -73,11 +78,11 @@ pub fn missing_sections(pages: &[Page], exam: &Exam, challenge: Option<&str>) ->
         let problem = mistake.section.as_ref().and_then(problem);
         problem.map(|problem| format!("{}: {problem}", mistake.id))
     });
-    let challenge = challenge.into_iter().map(|section| {
-        let problem = problem(&Section::new(section));
-        problem.map(|problem| format!("the assignment's challenge: {problem}"))
+    let others = others.into_iter().map(|(whose, section)| {
+        let problem = problem(&section);
+        problem.map(|problem| format!("{whose}: {problem}"))
     });
-    items.chain(mistakes).chain(challenge).flatten().collect()
+    items.chain(mistakes).chain(others).flatten().collect()
 }
 
 fn anchors(pages: &[Page]) -> BTreeMap<&str, BTreeSet<String>> {
@@ -99,18 +104,19 @@ mod tests {
         exam.items.truncate(3);
         exam.items[1].section = Some(Section::new("boxes.md#flat-boxes"));
         exam.items[2].section = None;
+        let other = [("the challenge".to_owned(), Section::new("boxes.md#more"))];
         let page = "# Boxes\n## From the last entry to the first exit\n## Flat, boxes\n";
         assert_eq!(
-            missing_sections(&[Page::new("boxes.md", page)], &exam, Some("boxes.md#more")),
+            missing_sections(&[Page::new("boxes.md", page)], &exam, other),
             [
                 "bbox.slab_after_slab: boxes.md#flat-boxes would be shown as \"Flat boxes\", but \
-                 its heading is \"Flat, boxes\"",
+                 the heading is \"Flat, boxes\"",
                 "bbox.octants: the item has no section: its declaration must name one",
-                "the assignment's challenge: the handout has no section boxes.md#more",
+                "the challenge: the handout has no section boxes.md#more",
             ]
         );
         assert_eq!(
-            missing_sections(&[], &exam, None)[0],
+            missing_sections(&[], &exam, [])[0],
             "bbox.through: the handout has no section \
              boxes.md#from-the-last-entry-to-the-first-exit"
         );
@@ -147,8 +153,8 @@ mod tests {
                 "a.md:3: there is no c.md",
                 "a.md:4: a.md has no heading for #b",
                 "b.md:2: there is no figures/b.svg",
-                "b.md: no chapter links to it",
-                "figures/a.svg: no chapter links to it",
+                "b.md: no chapter contains a link to it",
+                "figures/a.svg: no chapter contains a link to it",
             ]
         );
     }

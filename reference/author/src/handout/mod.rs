@@ -1,9 +1,10 @@
-//! The handout: writes its lists of tasks, checks its links, names and commands against the code
+//! Writes the handout's lists of tasks, checks its links, names and commands against the code
 //! and builds it as a book.
 
 #[cfg(feature = "book")]
 pub mod book;
 pub mod commands;
+pub mod gallery;
 pub mod links;
 pub mod names;
 pub mod pages;
@@ -12,16 +13,17 @@ pub mod tasks;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use grader::build::compiler_help;
 use grader::files::{self, PathError};
 use judging::assignment::Assignment;
 use judging::exam::Exam;
-use judging::section::CHAPTERS;
+use judging::section::{CHAPTERS, Section};
 
 use crate::handout::names::KnownNames;
 use crate::handout::pages::{Page, pages};
 
-/// The folders to search for names used in the handout: the code students see, and the code that
-/// writes files students see.
+/// The folders to search for names used in the handout. They contain the code students see, and the
+/// code that writes files students see.
 const SOURCES: [&str; 10] = [
     "student/src",
     "student/protocol/src",
@@ -69,13 +71,33 @@ pub fn problems(
     };
 
     let mut all = links::broken_links(&pages, &figures(&files));
-    all.extend(links::missing_sections(&pages, exam, assignment.challenge));
+    all.extend(links::missing_sections(
+        &pages,
+        exam,
+        other_sections(assignment),
+    ));
     all.extend(pages.iter().flat_map(|page: &Page| {
         let mut problems = names::unknown_names(page, &known);
         problems.extend(commands::unknown_commands(page, &sources, &aliases));
         problems
     }));
     Ok(all)
+}
+
+/// Returns the sections that something outside an exam refers to. Each comes with a description of
+/// the thing that refers to it, for use in messages.
+fn other_sections(assignment: &Assignment) -> impl Iterator<Item = (String, Section)> {
+    let challenge = assignment.challenge.into_iter();
+    let challenge = challenge.map(|section| ("the challenge".to_owned(), Section::new(section)));
+    let clues = assignment.tasks.iter().flat_map(|task| {
+        let clues = task.clues.by_symptom.iter();
+        clues.map(|clue| {
+            let whose = format!("a clue of {} ({})", task.id, clue.symptoms[0].what);
+            (whose, Section::new(clue.section))
+        })
+    });
+    let errors = compiler_help::sections().map(|section| ("a compiler error".to_owned(), section));
+    challenge.chain(clues).chain(errors)
 }
 
 /// Returns the paths of the figures, relative to the chapters.

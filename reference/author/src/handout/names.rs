@@ -11,7 +11,7 @@ use judging::exam::Exam;
 use super::pages::{Page, Snippet};
 use super::{SourceFile, commands};
 
-/// Identifiers in the handout that Rust or another crate defines, rather than the course.
+/// Identifiers in the handout that come from Rust or another crate rather than from the course.
 const RUST_NAMES: [&str; 13] = [
     "Option",
     "Some",
@@ -27,21 +27,21 @@ const RUST_NAMES: [&str; 13] = [
     "sh",
     "split_at_mut",
 ];
-/// C++ identifiers from the language and the slides that the handout translates to Rust.
+/// C++ identifiers, from the language or the slides, that the handout translates to Rust.
 const CPP_NAMES: [&str; 6] = ["float", "norm", "norm_squared", "hmin", "hmax", "push_back"];
 
-/// The sources, files and items names can refer to.
+/// The sources, files and items that names can refer to.
 #[derive(Debug)]
 pub struct KnownNames<'a> {
     /// The code students see, and the code that writes files students see.
     pub sources: &'a [SourceFile],
     /// The paths of all files of the repository, relative to its root.
     pub files: &'a BTreeSet<String>,
-    /// The exam, for the ids of its items.
+    /// The exam, whose item ids are known names.
     pub exam: &'a Exam,
 }
 
-/// Returns the unknown names of a page, each with its line.
+/// Returns the unknown names on a page, each with its line number.
 pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
     let words: BTreeSet<&str> = known
         .sources
@@ -75,7 +75,8 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
             && is_identifier(member)
             && !RUST_NAMES.contains(&owner)
         {
-            return (!has_member(owner, member, known)).then(|| format!("{owner} has no {member}"));
+            return (!has_member(owner, member, known))
+                .then(|| format!("{owner} doesn't have a {member}"));
         }
         let is_known = |word: &str| {
             let is_foreign = RUST_NAMES.contains(&word) || CPP_NAMES.contains(&word);
@@ -92,7 +93,7 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
         .collect()
 }
 
-/// Returns the item id of a text such as `sphere.from_inside` or `sphere.from_inside#7`.
+/// Returns the item id in a string such as `sphere.from_inside` or `sphere.from_inside#7`.
 fn item_id<'a>(text: &'a str, exam: &Exam) -> Option<&'a str> {
     let id = text.split('#').next()?;
     let (task, name) = id.split_once('.')?;
@@ -100,15 +101,15 @@ fn item_id<'a>(text: &'a str, exam: &Exam) -> Option<&'a str> {
     (is_task && is_identifier(name) && name != "rs").then_some(id)
 }
 
-/// Returns whether a text looks like a file or folder name.
+/// Returns whether a string looks like a file or folder name.
 fn is_path(text: &str) -> bool {
     let endings = [".rs", ".md", ".json", ".toml", ".obj", ".html", "/"];
     let plain = |letter: char| letter.is_alphanumeric() || "._-/".contains(letter);
     text.chars().all(plain) && (endings.iter().any(|ending| text.ends_with(ending)))
 }
 
-/// Returns whether a path exists: relative to the root, as the end of any file's path, or as a name
-/// that occurs in the sources because a program writes it.
+/// Returns whether a path exists. It can be relative to the root or be the end of any file's path.
+/// A path that occurs in the sources also counts, because a program may write the file.
 fn path_exists(path: &str, known: &KnownNames) -> bool {
     let folder = path.strip_suffix('/');
     let named = |file: &String| match folder {
@@ -143,7 +144,7 @@ fn pascal_case(word: &str) -> String {
     parts.collect()
 }
 
-/// Returns the words of a text that could be Rust identifiers.
+/// Returns the words of `text` that could be Rust identifiers.
 fn identifiers(text: &str) -> impl Iterator<Item = &str> {
     let separates = |letter: char| !letter.is_alphanumeric() && letter != '_';
     let words = text.split(separates);
@@ -184,7 +185,7 @@ mod tests {
         assert_eq!(
             problems(text),
             [
-                "a.md:1: Bvh has no grow",
+                "a.md:1: Bvh doesn't have a grow",
                 "a.md:2: unknown name max_leaf",
                 "a.md:3: the exam has no item bbox.fat",
                 "a.md:4: there is no file tree.rs",

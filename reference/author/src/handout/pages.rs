@@ -30,7 +30,8 @@ pub struct Page {
     pub commands: Vec<Snippet>,
     /// All other code blocks: pseudo-code and program output.
     pub blocks: Vec<Snippet>,
-    /// The formulas, each with its byte range, its LaTeX source, and whether it is a display formula.
+    /// The formulas, each with its byte range, its LaTeX source, and whether it is a display
+    /// formula.
     pub formulas: Vec<(Range<usize>, String, bool)>,
 }
 
@@ -59,7 +60,8 @@ impl Page {
         self.headings.iter().map(|heading| anchor(&heading.text))
     }
 
-    /// Returns a message about a snippet of this chapter, with the file name and the line.
+    /// Returns a message about a snippet of this chapter. It begins with the file name and the line
+    /// number.
     pub fn problem(&self, snippet: &Snippet, message: &str) -> String {
         format!("{}:{}: {message}", self.name, snippet.line)
     }

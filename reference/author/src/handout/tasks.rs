@@ -1,4 +1,4 @@
-//! The handout's lists of tasks, generated from the assignment.
+//! The parts of the handout that are generated: its lists of tasks, and each task's contract.
 
 use std::path::Path;
 
@@ -8,6 +8,7 @@ use grader::handed_out::HandedOut;
 use judging::assignment::TaskInfo;
 use judging::section::CHAPTERS;
 
+use crate::coverage::contract;
 use crate::generated_file::GeneratedFile;
 use crate::handout::pages::Page;
 
@@ -25,11 +26,14 @@ const GRADING: (&str, &str) = (
 );
 /// The beginning of a chapter's last line, which links to the next chapter.
 const NEXT: &str = "Next: ";
+/// The line below a task's contract.
+const END_OF_CONTRACT: &str = "<!-- end of the contract -->";
 
-/// Generates the pages that list an assignment's tasks in the workspace at `root`. Only the list in
-/// each page is replaced. A chapter also ends with a link to the next chapter.
+/// Generates the chapters and the pages that list an assignment's tasks, for the workspace at
+/// `root`. On each page, only the list is replaced. In each chapter, the contract, which is the
+/// documentation of the method to write, and the link to the next chapter are replaced.
 pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<GeneratedFile>> {
-    let mut chapters: Vec<&str> = Vec::new();
+    let mut chapters: Vec<(&str, String)> = Vec::new();
     let (mut links, mut chapter_rows, mut task_rows) = (Vec::new(), Vec::new(), Vec::new());
     let tasks = handed_out.assignment.tasks;
     for task in tasks {
@@ -42,22 +46,34 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
         let method = method.map_err(|why| anyhow!(why))?.name;
         chapter_rows.push(format!("| {link} | `{file}` | `{method}` | {points} |"));
         task_rows.push(format!("| `{id}` | `{file}` | `{method}` | {points} |"));
-        if !chapters.contains(&task.chapter) {
-            chapters.push(task.chapter);
+        let known = chapters.iter().position(|(name, _)| *name == task.chapter);
+        let index = known.unwrap_or(chapters.len());
+        if known.is_none() {
+            chapters.push((task.chapter, page(root, task.chapter)?));
             links.push(link);
         }
+        let documentation = contract::documentation(starter.starter, task.method);
+        let text = with_contract(&chapters[index].1, &method, &documentation);
+        chapters[index].1 = text.with_context(|| {
+            format!(
+                "{} needs the lines {:?} and {END_OF_CONTRACT:?}",
+                task.chapter,
+                contract_of(&method)
+            )
+        })?;
     }
     task_rows.push(format!("| | | | **{}** |", handed_out.assignment.points()));
 
-    let nexts = chapters.iter().zip(&links[1..]).map(|(chapter, next)| {
-        let text = page(root, chapter)?;
-        let (before, _) = text
-            .rsplit_once(NEXT)
-            .with_context(|| format!("{chapter} has no line that begins with {NEXT:?}"))?;
-        let text = format!("{before}{NEXT}{next}.\n");
-        Ok(GeneratedFile::new(format!("{CHAPTERS}/{chapter}"), text))
-    });
-    let mut generated = nexts.collect::<Result<Vec<_>>>()?;
+    let mut generated = Vec::new();
+    for (index, (chapter, mut text)) in chapters.into_iter().enumerate() {
+        if let Some(next) = links.get(index + 1) {
+            let (before, _) = text
+                .rsplit_once(NEXT)
+                .with_context(|| format!("{chapter} has no line that begins with {NEXT:?}"))?;
+            text = format!("{before}{NEXT}{next}.\n");
+        }
+        generated.push(GeneratedFile::new(format!("{CHAPTERS}/{chapter}"), text));
+    }
     let links = links.iter().map(|link| format!("- {link}")).collect();
     for ((name, above), lines) in [
         (CONTENTS, links),
@@ -88,4 +104,25 @@ fn with_lines(text: &str, above: &str, lines: &[String]) -> Option<String> {
     let (before, after) = text.split_once(above)?;
     let (_, after) = after.split_once("\n\n")?;
     Some(format!("{before}{above}{}\n\n{after}", lines.join("\n")))
+}
+
+/// Returns the line above a method's contract.
+fn contract_of(method: &str) -> String {
+    format!("<!-- generated from the documentation of {method} -->")
+}
+
+/// Replaces a method's contract in a chapter with the method's documentation, in which links to
+/// other items become plain names.
+fn with_contract(text: &str, method: &str, documentation: &[&str]) -> Option<String> {
+    let above = contract_of(method);
+    let (before, after) = text.split_once(&above)?;
+    let (_, after) = after.split_once(END_OF_CONTRACT)?;
+    let lines = documentation
+        .iter()
+        .map(|line| line.strip_prefix(' ').unwrap_or(line));
+    let contract = lines.collect::<Vec<_>>().join("\n");
+    let contract = contract.replace("[`", "`").replace("`]", "`");
+    Some(format!(
+        "{before}{above}\nThe documentation of `{method}` says:\n\n{contract}\n{END_OF_CONTRACT}{after}"
+    ))
 }

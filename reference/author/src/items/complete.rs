@@ -1,4 +1,4 @@
-//! Every exam tests every class of a task's domain. Items are drawn again until it does.
+//! Makes every exam test every class of a task's domain, by drawing items again until it does.
 
 use std::collections::BTreeMap;
 use std::mem;
@@ -11,10 +11,10 @@ use crate::domains::classes::Classes;
 use crate::seed::Seed;
 
 /// The maximum number of times each item is drawn again.
-const ATTEMPTS: usize = 24;
+const ATTEMPTS: usize = 96;
 
-/// Draws the items of a task. Those of a final exam differ from those of the practice exam in every
-/// question.
+/// Draws the items of a task. In a final exam, every question differs from those in the practice
+/// exam.
 pub(super) fn draw_items(
     seed: Seed,
     task: &AuthoredTask,
@@ -39,8 +39,8 @@ fn practice_items(task: &AuthoredTask, items: &[Declaration]) -> Arc<Vec<Declare
     Arc::clone(practice)
 }
 
-/// Draws the items of a task. As long as a class of the task's domain is missing, an item that could
-/// test it is drawn again. The new item is kept if that leaves fewer classes missing.
+/// Draws the items of a task. As long as a class of the task's domain is missing, an item that
+/// could test it is drawn again. The new item is kept if that leaves fewer classes missing.
 fn draw_complete(
     seed: Seed,
     task: &AuthoredTask,
@@ -79,7 +79,7 @@ fn draw_complete(
     finished
 }
 
-/// Returns the column of each class that is missing, or an empty name for a pair of classes.
+/// Returns the column of each missing class, and an empty name for each missing pair of classes.
 fn missing_columns(domain: &dyn Domain, drawn: &[DeclaredItem]) -> Vec<String> {
     let classes = Classes::count(domain, drawn.iter().map(DeclaredItem::item));
     let cells = classes.cells(domain).into_iter();

@@ -2,6 +2,7 @@
 
 use judging::exam::{ExamQuestion, Item};
 use judging::section::Section;
+use judging::symptom::Symptom;
 
 use crate::domains::Domain;
 use crate::items::complete;
@@ -12,7 +13,7 @@ use crate::seed::{Rng, Seed};
 pub struct AuthoredTask {
     /// The items, in the exam's order.
     pub items: &'static [Declaration],
-    /// The points of items whose declaration doesn't state them.
+    /// The points for items whose declarations don't state them.
     pub points: &'static [(&'static str, u32)],
     /// Changes the questions of all items when they are drawn.
     pub finish: fn(Seed, &mut [DeclaredItem]),
@@ -44,35 +45,38 @@ impl AuthoredTask {
     }
 }
 
-/// An item whose numbers are not drawn yet.
+/// An item whose numbers have not been drawn yet.
 #[derive(Clone, Copy, Debug)]
 pub struct Declaration {
     /// The task's id, a dot, and a name, such as `sphere.near_side`.
     pub id: &'static str,
-    /// The points for correct answers to all questions. Most items have one.
+    /// The points for correct answers to all questions. Most items are worth one point.
     pub points: u32,
     /// A sentence that states the requirement. Students see it as feedback.
     pub title: &'static str,
     /// A hint on where to look for the mistake.
     pub look: &'static str,
-    /// The section of the handout that teaches it.
+    /// The symptoms that `look` and `section` are about. Empty if they are about all symptoms. For
+    /// any other symptom, the report shows the task's clue for that symptom.
+    pub look_fits: &'static [Symptom],
+    /// The section of the handout that teaches the requirement.
     pub section: &'static str,
-    /// The sentences of the method's documentation that the item tests, either entire or up to an
+    /// The sentences of the method's documentation that the item tests, either in full or up to an
     /// ellipsis.
     pub tests: &'static [&'static str],
     /// Draws the item's questions.
     pub questions: fn(&mut Rng) -> Vec<ExamQuestion>,
-    /// The group that the item belongs to, if items of other tasks need that group.
+    /// The group that the item belongs to, if items in other tasks need that group.
     pub group: Option<Group>,
-    /// The groups of items of earlier tasks that the item depends on.
+    /// The groups of items in earlier tasks that the item depends on.
     pub needs: &'static [Group],
 }
 
-/// A group of items that items of later tasks need as a whole.
+/// A group of items that items in later tasks need as a whole.
 ///
-/// An item needs only groups whose mistakes could make it fail even if its own task is solved
-/// correctly. A student who fails an item and one of the items it needs is advised to fix the
-/// latter first.
+/// An item needs a group only if mistakes in that group could make the item fail even though its
+/// own task is solved correctly. A student who fails an item and one of the items it needs is
+/// advised to fix the latter first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group(pub &'static str);
 
@@ -97,12 +101,14 @@ impl DeclaredItem {
 }
 
 impl Declaration {
-    /// The default fields of an item with one point that doesn't belong to a group or need one.
+    /// The default fields of an item that is worth one point, belongs to no group and needs no
+    /// group.
     pub const ALONE: Declaration = Declaration {
         id: "",
         points: 1,
         title: "",
         look: "",
+        look_fits: &[],
         section: "",
         tests: &[],
         questions: |_| Vec::new(),
@@ -110,8 +116,8 @@ impl Declaration {
         needs: &[],
     };
 
-    /// Returns the default fields of an item with one point that belongs to a group but doesn't need
-    /// one.
+    /// Returns the default fields of an item that is worth one point and belongs to this group but
+    /// needs no group.
     pub const fn in_group(group: Group) -> Self {
         Declaration {
             group: Some(group),
@@ -125,6 +131,7 @@ impl Declaration {
         let item = Item {
             title: self.title.to_owned(),
             look: self.look.to_owned(),
+            look_fits: self.look_fits.to_vec(),
             section: Some(Section::new(self.section)),
             ..Item::new(self.id, self.points, questions)
         };

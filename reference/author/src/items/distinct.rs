@@ -1,5 +1,5 @@
 //! Final exams don't share any questions with the practice exam, whose answers are public. An item
-//! is drawn again as long as the practice exam's answers would earn points in it.
+//! is drawn again as long as the practice exam's answers would earn points for it.
 
 use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge, one_row_answers_all};
@@ -8,7 +8,7 @@ use protocol::Answer;
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
-/// Draws an item whose questions all differ from those of this practice exam's item.
+/// Draws an item whose questions all differ from those of this item in the practice exam.
 pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> DeclaredItem {
     const MAX_ATTEMPTS: usize = 1000;
     let is_distinct = |drawn: &DeclaredItem| !shares_a_question(drawn.item(), practice);
@@ -20,12 +20,12 @@ pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> 
 }
 
 /// Returns whether the correct answer to a question of one item earns points for a question of the
-/// other.
+/// other item.
 ///
-/// Some questions are left out. If all rows have the same answer, e.g. the length of a direction, or if
-/// no ray hits anything, only one answer exists. A tree only answers a question about its own
-/// primitives, and these depend on the seed. The same applies to the number that a picture to be
-/// recorded depends on.
+/// Some questions are left out. If all rows have the same answer, e.g. the length of a direction,
+/// or if no ray hits anything, only one answer exists. A tree answers only questions about its own
+/// primitives, and these depend on the seed. The same applies to the random number behind a picture
+/// that hasn't been recorded yet.
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     let answers = other.questions.iter();
     let answers: Vec<Answer> = answers.filter_map(|asked| asked.key.answer()).collect();

@@ -1,16 +1,16 @@
-//! The groups of items of the assignment `rays`.
+//! The groups of items in the assignment `rays`.
 
 use super::Group;
 
 /// The rays of a picture.
 pub(super) const CAMERA_RAYS: Group = Group("camera rays");
-/// The distance and the misses of triangles.
+/// Whether and at which distance a triangle is hit.
 pub(super) const TRIANGLE_HITS: Group = Group("triangle hits");
-/// The other quantities of a triangle's hit.
+/// The other quantities of a hit on a triangle.
 pub(super) const TRIANGLE_SURFACE: Group = Group("triangle surface");
-/// The distance and the misses of spheres.
+/// Whether and at which distance a sphere is hit.
 pub(super) const SPHERE_HITS: Group = Group("sphere hits");
-/// The other quantities of a sphere's hit.
+/// The other quantities of a hit on a sphere.
 pub(super) const SPHERE_SURFACE: Group = Group("sphere surface");
 /// Boxes, which decide which nodes are entered and in which order.
 pub(super) const BOXES: Group = Group("boxes");

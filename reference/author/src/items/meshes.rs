@@ -25,8 +25,8 @@ pub fn triangle(rng: &mut Rng, corners: [DVec3; 3]) -> Shape {
     Shape::Triangle { vertices, shape: 0 }
 }
 
-/// Returns such a triangle around `center` in a random orientation. It doesn't have sharp angles and
-/// fits in a ball of radius `size` around `center`.
+/// Returns a triangle around `center` in a random orientation, with random normals and texture
+/// coordinates. It doesn't have sharp angles and fits in a ball of radius `size` around `center`.
 pub fn random_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     let corners = random_corners(rng, size);
     triangle(rng, corners.map(|corner| center + corner))
@@ -68,7 +68,8 @@ pub fn random_flat_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     flat_triangle(corners.map(|corner| center + corner), 0)
 }
 
-/// Returns such a triangle whose bounding box has the given centre.
+/// Returns a triangle like those of [`random_flat_triangle`], except that `center` is the centre of
+/// its bounding box.
 pub fn random_triangle_with_box_around(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     let corners = random_corners(rng, size);
     let middle = Bounds::around(corners).center();
@@ -82,8 +83,8 @@ fn random_corners(rng: &mut Rng, size: f64) -> [DVec3; 3] {
     [corner(-0.8, -0.5), corner(0.8, -0.5), corner(0.0, 0.9)]
 }
 
-/// Returns `count` flat triangles of half to full `size` with random centres in the cube from
-/// −`half` to `half`.
+/// Returns `count` flat triangles with random sizes from half of `size` to `size`. Their centres
+/// are random points in the cube from −`half` to `half`.
 pub fn soup(rng: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
     let triangles = (0..count).map(|_| {
         let center = rng.point(half);
@@ -101,8 +102,8 @@ pub fn strand(rng: &mut Rng, center: DVec3, axis: usize, length: f64) -> Shape {
 }
 
 /// Returns long, thin triangles: along x in one region, along y in another, and along z in a third.
-/// Splitting along the strands' direction gains little, but it is the longest axis of a node in one
-/// region, so a builder that only splits the longest axis builds a poor tree.
+/// Splitting along the strands' direction gains little, but this is the longest axis of a node in
+/// one region, so a builder that only splits along the longest axis builds a poor tree.
 pub fn strands(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let strands = (0..count).map(|i| {
         let axis = i % 3;
@@ -131,8 +132,8 @@ pub fn sheets(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(sheets)
 }
 
-/// Returns spheres in three parallel lanes along an axis. Each lane is much longer than the space between
-/// them.
+/// Returns spheres in three parallel lanes along an axis. Each lane is much longer than the spaces
+/// between the lanes.
 pub fn lanes(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let axis = rng.index(3);
     let [x, y] = [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
@@ -166,8 +167,8 @@ pub fn clumps(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
-/// Returns pairs of triangles that form rectangles across the axes. Both triangles of a pair have the same
-/// box.
+/// Returns pairs of triangles that form rectangles across the axes. Both triangles of a pair have
+/// the same box.
 pub fn rectangles(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let rectangles = (0..count).flat_map(|index| {
         let [x, y] = [1, 2].map(|next| rng.uniform(0.4, 1.2) * DVec3::AXES[(index + next) % 3]);
@@ -178,15 +179,16 @@ pub fn rectangles(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(rectangles.map(|corners| flat_triangle(corners, 0)))
 }
 
-/// Returns spheres of one size in a cube. Their numbers have few digits, so that many of them take little
-/// space in an exam.
+/// Returns spheres of one size in a cube. Their coordinates have few digits, so that even many
+/// spheres take up little space in an exam.
 pub fn many_spheres(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spheres = (0..count).map(|_| sphere((16.0 * rng.point(9.0)).round() / 16.0, 0.25));
     number_shapes(spheres)
 }
 
-/// Returns spheres in a cube as large as a scene can be, half of them in a few crowded spots. Their numbers
-/// have few digits, so that many of them take little space in an exam.
+/// Returns spheres in a cube of the largest extent that a scene may have, half of them in a few
+/// clusters. Their coordinates have few digits, so that even many spheres take up little space in
+/// an exam.
 pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7).map(|_| rng.point(900.0)).collect();
     let spheres = (0..count).map(|i| {
@@ -200,7 +202,7 @@ pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
-/// Returns a few large triangles on the ground and many small primitives in a few crowded spots.
+/// Returns a few large triangles on the ground and several clusters of many small primitives.
 pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7)
         .map(|_| rng.point(10.0) * dvec3(1.0, 0.1, 1.0))
@@ -212,7 +214,7 @@ pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
         } else {
             let spot = spots[rng.index(spots.len())];
             let offset = rng.point(0.4);
-            // Spheres take less space in an exam.
+            // Spheres take up less space in an exam than triangles.
             match rng.index(3) {
                 0 => random_flat_triangle(rng, spot + offset, 0.05),
                 _ => sphere(spot + offset, 0.03),

@@ -13,9 +13,10 @@ mod declaration;
 mod distinct;
 mod groups;
 pub mod meshes;
+mod paper;
 pub mod picture;
-mod place;
 pub mod sphere;
+mod transform;
 pub mod traverse;
 pub mod triangle;
 
@@ -39,8 +40,8 @@ pub static TASKS: &[&AuthoredTask] = &[
     &traverse::TASK,
 ];
 
-/// The points of the items of `rays` that are worth more than one. The points of a task's items add up
-/// to the task's points.
+/// The items of `rays` that are worth more than one point, with their points. The points of a
+/// task's items add up to the task's points.
 const POINTS: &[(&str, u32)] = &[
     ("camera.field_of_view", 2),
     ("camera.offset", 2),
@@ -64,11 +65,14 @@ pub fn items(tasks: &[&AuthoredTask], seed: Seed) -> Vec<Item> {
     resolve(all.collect())
 }
 
-/// Returns an exam of the items about boxes, for tests.
+/// Returns an exam with the items about boxes, for tests.
 #[cfg(test)]
 pub(crate) fn exam_of_boxes() -> judging::exam::Exam {
-    let items = resolve(bbox::TASK.draw(Seed(1)));
-    judging::exam::Exam::new(&judging::assignment::RAYS, "test", items)
+    static EXAM: std::sync::LazyLock<judging::exam::Exam> = std::sync::LazyLock::new(|| {
+        let items = resolve(bbox::TASK.draw(Seed(1)));
+        judging::exam::Exam::new(&judging::assignment::RAYS, "test", items)
+    });
+    EXAM.clone()
 }
 
 /// Returns the ray from one point toward another, in single precision.
@@ -76,7 +80,7 @@ pub fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// Creates a question that asks for the hit of each ray with a shape, without a tree.
+/// Creates a question that asks where each ray hits a shape, without a tree.
 fn shape_question(
     judged: &[&str],
     shape: Shape,

@@ -1,10 +1,10 @@
 //! Pictures of first hits.
 //!
 //! At an edge, correct submissions whose rays differ only in the last bit see different surfaces.
-//! The key of a position is therefore a set of surfaces: those seen at the position itself, at four
-//! neighbours that are closer to it than any mistake would move an edge, and at positions in
-//! between. The latter are needed because the depth changes so steeply near a sphere's silhouette
-//! that a correct depth may be between those at two neighbours.
+//! The key for a position is therefore a set of surfaces: those seen at the position itself, at
+//! four neighbours that are closer to it than any mistake would move an edge, and at positions in
+//! between. The surfaces in between are needed because the depth changes so steeply near a sphere's
+//! silhouette that a correct depth may be between the depths at two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use judging::exam::{ExamQuestion, Key, Surface};
@@ -50,7 +50,7 @@ pub fn picture_question(camera: ExamCamera, shapes: Vec<Shape>) -> ExamQuestion 
     ExamQuestion::new(Question::Hit(table), key)
 }
 
-/// Returns the key of a picture. `sees` returns the first intersection of a ray.
+/// Returns the key for a picture. `sees` returns the first intersection of a ray.
 pub fn first_hits_key(camera: &ExamCamera, sees: impl Fn(&Ray64) -> Option<Intersection>) -> Key {
     let surface_at = |sample: Sample, shift: Vec2| {
         let offset = sample.offset + shift;

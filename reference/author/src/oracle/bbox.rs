@@ -1,4 +1,4 @@
-//! Intersections of rays and boxes, by clipping the ray to each pair of planes in turn.
+//! Intersects rays and boxes by clipping the ray to each pair of planes in turn.
 
 use glam::{DVec3, Vec3};
 
@@ -93,7 +93,8 @@ impl Bounds {
         }
     }
 
-    /// Returns the part of the ray's range that is inside the box, or `None` if it misses the box.
+    /// Returns the part of the ray's range that is inside the box, or `None` if the ray misses the
+    /// box.
     pub fn span(&self, ray: &Ray64) -> Option<(f64, f64)> {
         let mut inside = (ray.min, ray.max);
         for axis in 0..3 {

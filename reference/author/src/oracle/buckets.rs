@@ -39,8 +39,8 @@ pub fn cost(boxes: &[Bounds], max_leaf_size: usize, builder: BucketedBuilder) ->
     cost_with_halves(boxes, max_leaf_size, builder, &|_| false)
 }
 
-/// Returns the cost of this builder's tree if it halves some nodes by count along the longest axis
-/// instead. `is_halved` selects these nodes by their number of primitives.
+/// Returns the cost of this builder's tree if the builder instead halves some nodes by primitive
+/// count along the longest axis. `is_halved` selects these nodes by their number of primitives.
 pub fn cost_with_halves(
     boxes: &[Bounds],
     max_leaf_size: usize,
@@ -125,8 +125,8 @@ impl BucketContents {
         }
     }
 
-    /// Returns the area times the count, or 0 without primitives, because the area of an empty box
-    /// is undefined.
+    /// Returns the area times the count, or 0 if there are no primitives, because the area of an
+    /// empty box is undefined.
     fn cost(self) -> f64 {
         match self.count {
             0 => 0.0,

@@ -1,11 +1,11 @@
-//! Directions of camera rays, by interpolating between the four corners of the sensor.
+//! Computes the directions of camera rays by interpolating between the four corners of the sensor.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3, dvec3};
 use protocol::{PinholeCamera, Sample};
 
-/// Returns the direction, of length one, through a position on the film.
+/// Returns the direction of the ray through a position on the film. Its length is one.
 pub fn direction(camera: &PinholeCamera, sample: Sample) -> DVec3 {
     // Half of the sensor's height, from a right triangle whose base has length 1.
     let top = libm::tan(f64::from(camera.vertical_fov) * PI / 360.0);
@@ -28,7 +28,7 @@ mod tests {
 
     #[test]
     fn corner_and_middle_directions_match_hand_computed_values() {
-        // tan 45° = 1: a sensor 2 high and 4 wide.
+        // tan 45° = 1, so the sensor is 2 high and 4 wide.
         let camera = PinholeCamera {
             vertical_fov: 90.0,
             aspect_ratio: 2.0,

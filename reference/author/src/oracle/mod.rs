@@ -91,7 +91,7 @@ impl Intersection {
         }
     }
 
-    /// Converts the intersection to a surface in the key of a picture.
+    /// Converts the intersection to the [`Surface`] that a picture's key stores.
     pub fn to_surface(&self) -> Surface {
         Surface {
             depth: self.distance as f32,

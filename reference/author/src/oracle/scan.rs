@@ -65,8 +65,8 @@ pub fn bounds(shape: &Shape) -> Bounds {
     }
 }
 
-/// Returns the box around a subject's shapes and points, enlarged by its lengths, such as a radius.
-/// Returns `None` if the subject contains no shapes or points.
+/// Returns the box around a subject's shapes and points, enlarged by the subject's largest length,
+/// such as a radius. Returns `None` if the subject contains no shapes or points.
 pub fn extent(subject: &dyn Record) -> Option<Bounds> {
     let (mut boxes, mut margin) = (Vec::new(), 0.0_f64);
     for value in subject.values() {
@@ -85,14 +85,16 @@ pub fn extent(subject: &dyn Record) -> Option<Bounds> {
     })
 }
 
-/// Returns whether all correct formulas in single precision agree on the ray's hit or miss of this
-/// shape, because it isn't close to an edge, a tangent or an end of the range.
+/// Returns whether all correct formulas in single precision agree on whether the ray hits this
+/// shape, because the ray isn't close to an edge, a tangent or an end of the range.
 pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
-    /// The minimum difference between a distance and the ends of the range, in sizes of the shape.
+    /// The minimum difference between a distance and the ends of the range, as a multiple of the
+    /// shape's size.
     const END_MARGIN: f64 = 1e-2;
     /// The minimum absolute value of the smallest weight.
     const EDGE_MARGIN: f64 = 2e-2;
-    /// The minimum difference between the closest approach and the radius, in radii.
+    /// The minimum difference between the closest approach and the radius, as a multiple of the
+    /// radius.
     const TANGENT_MARGIN: f64 = 3e-2;
 
     let bounds = bounds(shape);

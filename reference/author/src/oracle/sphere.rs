@@ -1,5 +1,5 @@
-//! Intersections of rays and spheres: the closest approach to the centre, plus or minus half the
-//! chord.
+//! Intersects rays and spheres: the hits are half a chord before and after the closest approach to
+//! the centre.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,8 +19,8 @@ pub struct Sphere {
 /// The relation of a ray's whole line to a sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct LineIntersection {
-    /// The smallest distance from the centre to the line, in radii. The line hits the sphere if
-    /// this distance is below 1.
+    /// The smallest distance from the centre to the line, as a multiple of the radius. The line
+    /// hits the sphere if this distance is below 1.
     pub closest_approach: f64,
     /// The distances where the line enters and leaves the sphere, or NaN if it misses.
     pub roots: [f64; 2],
@@ -55,8 +55,8 @@ impl Sphere {
     }
 }
 
-/// Returns the texture coordinates in this direction from the centre. u goes once around the
-/// y-axis, from +x toward +z. v is proportional to the angle, from 0 at −y to 1 at +y.
+/// Returns the texture coordinates at the point in this direction from the centre. u goes once
+/// around the y-axis, from +x toward +z. v is proportional to the angle, from 0 at −y to 1 at +y.
 pub fn uv(dir: DVec3) -> DVec2 {
     let u = libm::atan2(dir.z, dir.x) / TAU;
     let v = libm::acos(-dir.y.clamp(-1.0, 1.0)) / PI;

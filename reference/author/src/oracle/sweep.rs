@@ -1,6 +1,7 @@
-//! The exact surface area heuristic (SAH): at each node, the best of all partitions by a plane.
+//! The exact surface area heuristic (SAH), which takes the best of all partitions by a plane at
+//! each node.
 
-use judging::drawing_data::{LevelNode, Sweep};
+use judging::drawing_data::{LevelNode, UpperLevels};
 
 use super::bbox::Bounds;
 
@@ -18,12 +19,12 @@ pub fn cost(boxes: &[Bounds], max_leaf_size: usize) -> f64 {
 
 /// Returns the upper levels of the tree whose cost [`cost`] returns, and the plane that splits its
 /// root.
-pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> Sweep {
+pub fn upper_levels(boxes: &[Bounds], max_leaf_size: usize) -> UpperLevels {
     let mut indices: Vec<usize> = (0..boxes.len()).collect();
     let mut builder = SweepBuilder::new(boxes, max_leaf_size);
     builder.node_cost(&mut indices, 0, 0);
     let root = (boxes.len() > max_leaf_size).then(|| cheapest_partition(boxes, &indices));
-    Sweep {
+    UpperLevels {
         nodes: builder.upper_nodes,
         plane: root.flatten().map(|partition| {
             let centers = sorted_centers(boxes, partition.axis);
@@ -39,8 +40,8 @@ pub fn best_axis(boxes: &[Bounds]) -> Option<usize> {
     Some(cheapest_partition(boxes, &indices)?.axis)
 }
 
-/// Returns the number of boxes on the smaller side of their cheapest partition, or `None` if all centres
-/// coincide.
+/// Returns the number of boxes on the smaller side of their cheapest partition, or `None` if all
+/// centres coincide.
 pub fn smaller_side(boxes: &[Bounds]) -> Option<usize> {
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let left = cheapest_partition(boxes, &indices)?.left;
@@ -97,8 +98,8 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
 /// The minimum cost of the second-best partition, relative to the best.
 const MIN_RATIO: f64 = 1.05;
 
-/// Returns whether it is clear despite rounding whether a plane across this axis gives these sides
-/// too: the sides' centres are clearly separated, clearly mixed, or all equal.
+/// Returns whether it is clear, despite rounding, if a plane across this axis also gives these
+/// sides. It is clear if the sides' centres are clearly separated, clearly mixed, or all equal.
 fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) -> bool {
     /// The maximum error of a centre, relative to the largest coordinate.
     const ERROR: f64 = 5e-7;
@@ -116,18 +117,19 @@ fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) ->
     are_equal || gaps.iter().all(|gap| gap.abs() > error)
 }
 
-/// Returns whether splitting the primitives in their given order is worse. A builder keeps this
-/// order along an axis where all centres coincide.
+/// Returns whether splitting the primitives in their given order is clearly worse than `cost`. A
+/// builder keeps this order along an axis where all centres coincide.
 fn given_order_is_worse(boxes: &[Bounds], cost: f64) -> bool {
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let costs = partition_costs(boxes, &indices);
     costs.into_iter().all(|other| other >= MIN_RATIO * cost)
 }
 
-/// Returns whether every way to divide a few primitives costs at least as much, with a plane or
-/// without. Such divisions are possible because rounding may sort coinciding centres in any order.
+/// Returns whether every way to divide a few primitives costs at least `cost`, whether or not a
+/// plane separates the sides. Such divisions are possible because rounding may sort coinciding
+/// centres in any order.
 fn no_sides_are_cheaper(boxes: &[Bounds], cost: f64) -> bool {
-    /// All ways are tried for at most this many primitives.
+    /// All ways are tried only if there are at most this many primitives.
     const FEW: usize = 10;
     if boxes.len() > FEW {
         return true;
@@ -180,7 +182,7 @@ impl SweepBuilder<'_> {
         } else {
             relative_area
         };
-        if level < Sweep::LEVELS {
+        if level < UpperLevels::LEVELS {
             self.upper_nodes.push(LevelNode {
                 level,
                 start: start as u32,
@@ -205,7 +207,8 @@ impl SweepBuilder<'_> {
     }
 }
 
-/// A partition that puts the first `left` primitives, sorted along `axis`, on the left side.
+/// A partition that sorts the primitives along `axis` and puts the first `left` of them on the left
+/// side.
 struct Partition {
     axis: usize,
     left: usize,
@@ -232,9 +235,9 @@ fn partitions(boxes: &[Bounds], indices: &[usize], axis: usize) -> Vec<Partition
         .collect()
 }
 
-/// Returns the cost of splitting a row of primitives after the first, after the second and so on.
+/// Returns the costs of splitting a row of primitives after the first, after the second and so on.
 fn partition_costs(boxes: &[Bounds], row: &[usize]) -> Vec<f64> {
-    // The areas of the boxes around all primitives up to and including each one.
+    // For each primitive, the area of the box around all primitives up to and including it.
     let accumulated_areas = |order: &mut dyn Iterator<Item = &usize>| -> Vec<f64> {
         let mut bounds = Bounds::around([]);
         order
@@ -280,7 +283,7 @@ mod tests {
 
     #[test]
     fn cost_of_two_cubes_matches_a_hand_computed_value() {
-        // Root: 3 × 1 × 1, area 14. Each leaf: area 6.
+        // The root's box is 3 × 1 × 1 and has an area of 14. Each leaf has an area of 6.
         assert_eq!(
             cost(&[cube(0.0), cube(2.0)], 1),
             1.0 + 6.0 / 14.0 + 6.0 / 14.0
@@ -317,7 +320,7 @@ mod tests {
         assert_eq!(sweep.nodes, expected);
         let point = Bounds::around([DVec3::ZERO]);
         assert_eq!(upper_levels(&[point], 1).nodes, [node(0, 0, 1, true, 1.0)]);
-        // Halfway between the first and the second centre.
+        // The plane is halfway between the first and the second centre.
         assert_eq!(sweep.plane, Some((0, 10.5)));
         assert_eq!(upper_levels(&cubes, 4).plane, None);
     }
@@ -340,7 +343,7 @@ mod tests {
                     Bounds::around([at, at + DVec3::splat(rng.uniform(0.1, 1.0))])
                 })
                 .collect();
-            // Leaves may contain 5 of the 6 primitives, so there is one split: find the best by
+            // Leaves may contain 5 of the 6 primitives, so there is one split: find the best one by
             // brute force.
             let all: Vec<usize> = (0..6).collect();
             let root = bounds_of(&boxes, &all).area();

@@ -1,5 +1,4 @@
-//! Intersections of rays and triangles, by intersecting the triangle's plane and then comparing
-//! areas.
+//! Intersects rays and triangles by intersecting the triangle's plane and then comparing areas.
 
 use glam::{DVec2, DVec3};
 use protocol::Vertex;

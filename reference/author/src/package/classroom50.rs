@@ -1,4 +1,4 @@
-//! The package for classroom50: a folder with two files: the entry-point script and an archive of
+//! The package for classroom50: a folder with two files, the entry-point script and an archive of
 //! the grader. Students can read all of it, so it uses the practice exam.
 
 use std::path::Path;

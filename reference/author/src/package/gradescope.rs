@@ -37,7 +37,7 @@ pub(super) fn package(
     for (path, contents) in grader_files(&students) {
         package.insert(package_path(path), contents.clone());
     }
-    // The grader takes substituted parts from here.
+    // The grader takes substituted parts from these folders.
     let substitution = format!("{}/substitution", handed_out.solutions());
     for part in [handed_out.reference, &substitution] {
         copy_tree(&root.join(part), &package_path(part), &mut package)?;

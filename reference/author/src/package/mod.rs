@@ -31,18 +31,18 @@ pub enum Platform {
     Github,
 }
 
-/// The choices of a course: its final exam and its policy.
+/// The course's own files: its final exam and its policy.
 #[derive(Clone, Debug)]
-pub struct Course {
+pub struct CourseFiles {
     /// The text of the final exam. `None` for a platform that cannot hide it from students.
     pub exam: Option<String>,
     /// The text of the policy file.
     pub policy: String,
 }
 
-impl Course {
-    /// Generates the exam from a seed or reads its file, if either is given. Reads the policy file,
-    /// or uses the default policy.
+impl CourseFiles {
+    /// Generates the exam from a seed or reads it from a file, if either is given. Reads the policy
+    /// file, or uses the default policy.
     pub fn new(
         authoring: &'static Authoring,
         seed: Option<u64>,
@@ -64,16 +64,17 @@ impl Course {
             }
             None => policy::DEFAULT.to_owned(),
         };
-        Ok(Course { exam, policy })
+        Ok(CourseFiles { exam, policy })
     }
 }
 
-/// Collects the files of an assignment's package for a platform from the workspace at `root`.
+/// Collects the files that make up an assignment's package for a platform. They come from the
+/// workspace at `root`.
 pub fn collect(
     root: &Path,
     handed_out: &HandedOut,
     platform: Platform,
-    course: Course,
+    course: CourseFiles,
 ) -> Result<Bundle> {
     const NOT_SECRET: &str = "only a package for gradescope can contain a final exam";
     match (platform, course.exam) {

@@ -10,7 +10,7 @@ use anyhow::Result;
 use judging::exam::{Exam, Item};
 use rayon::prelude::*;
 
-use crate::proof::catches::{Catch, Catches};
+use crate::proof::detections::{Detection, Detections};
 use crate::proof::run::{exam_of, for_seeds, run};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::{self, FailedItems};
@@ -24,10 +24,10 @@ pub const FEW_SEEDS: SeedCounts = SeedCounts {
     all: 1,
     thinnest: 2,
 };
-/// The number of least clearly caught mistakes to grade with more seeds.
+/// The number of mistakes to grade with more seeds. They are the least clearly caught ones.
 pub const THINNEST: usize = 50;
 
-/// How many seeds, counted from 0, are used to grade the mistakes.
+/// The numbers of seeds that the mistakes are graded with. The first seed is 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SeedCounts {
     /// The number of seeds for each mistake.
@@ -46,13 +46,14 @@ impl SeedCounts {
     }
 }
 
-/// Determines the items each mistake fails in the practice exam and in the exams of the seeds, and
-/// how clearly they catch it. The least clearly caught mistakes are graded with more seeds.
+/// Determines which items each mistake fails in the practice exam and in the exams for the seeds,
+/// and how clearly these exams catch it. The least clearly caught mistakes are graded with more
+/// seeds.
 pub fn failed_items(
     solutions: &Solutions,
     practice: &Exam,
     seeds: SeedCounts,
-) -> Result<(FailedItems, Catches)> {
+) -> Result<(FailedItems, Detections)> {
     let (workbench, mistakes) = (&solutions.workbench, &solutions.mistakes);
     let built = run(workbench, mistakes, "mistakes built", |mistake, built| {
         Ok((mistake, built))
@@ -60,15 +61,15 @@ pub fn failed_items(
     let all: Vec<&(&Solution, BuiltSolution)> = built.iter().collect();
     let mut of_exams = caught_with_seeds(solutions, &all, 0..seeds.all)?;
     of_exams.push(caught_in(&all, practice)?);
-    let mut catches = Catches::default();
-    catches.add_all(&all, &of_exams);
-    let thinnest = catches.by_clarity().into_iter().take(THINNEST);
+    let mut detections = Detections::default();
+    detections.add_all(&all, &of_exams);
+    let thinnest = detections.by_clarity().into_iter().take(THINNEST);
     let thinnest: BTreeSet<&str> = thinnest.map(|(id, ..)| id).collect();
     let again = all.into_iter();
     let again = again.filter(|(mistake, _)| thinnest.contains(mistake.id.as_str()));
     let again: Vec<_> = again.collect();
     let more = caught_with_seeds(solutions, &again, seeds.all..seeds.thinnest)?;
-    catches.add_all(&again, &more);
+    detections.add_all(&again, &more);
 
     let with_every_seed = |index: usize| -> Vec<String> {
         let items = practice.items.iter().map(|item| &item.id);
@@ -85,41 +86,42 @@ pub fn failed_items(
             .map(|(index, (mistake, _))| (mistake.id.clone(), with_every_seed(index)))
             .collect(),
     };
-    Ok((failed, catches))
+    Ok((failed, detections))
 }
 
-/// Returns the catches of each mistake in the exam of each seed.
+/// Returns the detections of each mistake in the exam for each seed.
 fn caught_with_seeds(
     solutions: &Solutions,
     built: &[&(&Solution, BuiltSolution)],
     seeds: Range<u64>,
-) -> Result<Vec<Vec<Vec<Catch>>>> {
+) -> Result<Vec<Vec<Vec<Detection>>>> {
     for_seeds(seeds, |seed| caught_in(built, &exam_of(solutions, seed)?))
 }
 
-/// Returns the catches of each mistake in one exam.
-fn caught_in(built: &[&(&Solution, BuiltSolution)], exam: &Exam) -> Result<Vec<Vec<Catch>>> {
+/// Returns the detections of each mistake in one exam.
+fn caught_in(built: &[&(&Solution, BuiltSolution)], exam: &Exam) -> Result<Vec<Vec<Detection>>> {
     let caught = built
         .par_iter()
-        .map(|(mistake, solution)| catches(mistake, solution, exam));
+        .map(|(mistake, solution)| detections(mistake, solution, exam));
     caught.collect()
 }
 
-/// Returns the catches of a mistake by the items of its tasks, without substituted parts.
-fn catches(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<Vec<Catch>> {
+/// Returns a mistake's detections by the items for its tasks. No parts of the solution are
+/// substituted.
+fn detections(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<Vec<Detection>> {
     let mut caught = Vec::new();
     for task in &mistake.expected.tasks {
         let items = exam.items.iter().filter(|item| item.task == *task);
         let items: Vec<&Item> = items.collect();
         let answers = solution.answers_to_each(&items)?;
         let answered = items.into_iter().zip(&answers);
-        caught.extend(answered.filter_map(|(item, answers)| Catch::of_item(item, answers)));
+        caught.extend(answered.filter_map(|(item, answers)| Detection::of_item(item, answers)));
     }
     Ok(caught)
 }
 
-/// Returns the differences between the committed lists and a check's, one line each. A check with
-/// fewer seeds finds longer lists, so only items that a mistake passes are reported.
+/// Returns the differences between the committed lists and those from a check, one line each. A
+/// check with fewer seeds finds longer lists, so only items that a mistake passes are reported.
 pub fn problems(committed: &FailedItems, found: &FailedItems) -> Vec<String> {
     let command = "run `cargo author mistakes`";
     let path = failed_items::FILE;

@@ -16,7 +16,7 @@ pub fn variant_losses(
 ) -> Result<Vec<String>> {
     let exam = tasks_and_dependents(exam, &variant.expected.tasks);
     let built = workbench.build(&variant.sources, &variant.id)?;
-    let graded = Graded::new(variant, &built, &exam)?;
+    let graded = GradedSolution::new(variant, &built, &exam)?;
     let lost = graded.lost_items();
     let lost = lost.filter(|item| !variant.expected.may_lose.contains(&item.id));
     Ok(lost
@@ -32,18 +32,18 @@ pub fn tasks_and_dependents(exam: &Exam, tasks: &[Task]) -> Exam {
 
 /// A solution and its score in an exam.
 #[derive(Debug)]
-pub struct Graded<'a> {
+pub struct GradedSolution<'a> {
     /// The solution.
     pub solution: &'a Solution,
     /// Its score.
     pub score: Score,
 }
 
-impl<'a> Graded<'a> {
+impl<'a> GradedSolution<'a> {
     /// Grades a solution.
     pub fn new(solution: &'a Solution, built: &BuiltSolution, exam: &Exam) -> Result<Self> {
         let score = built.score(exam)?;
-        Ok(Graded { solution, score })
+        Ok(GradedSolution { solution, score })
     }
 
     /// Returns the differences between a mistake's expected and actual loss of points.
@@ -69,7 +69,7 @@ impl<'a> Graded<'a> {
         let own = self.solution.task();
         let mut problems = Vec::new();
         if !self.lost_items().any(|item| is_of(item, &own)) {
-            problems.push(format!("{id} costs nothing in its own task"));
+            problems.push(format!("{id} costs no points in its own task"));
         }
         for item in self.lost_items() {
             if !expected.tasks.iter().any(|task| is_of(item, task)) {

@@ -9,7 +9,7 @@ use judging::assignment::{Assignment, TaskInfo};
 use judging::exam::{Exam, Item};
 
 use crate::generated_file::GeneratedFile;
-use crate::proof::grade::Graded;
+use crate::proof::grade::GradedSolution;
 use crate::proof::run::run;
 use crate::solutions::Solutions;
 use crate::solutions::solution::Solution;
@@ -22,9 +22,9 @@ const FILE: &str = "mistakes/matrix.md";
 pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFile> {
     let (workbench, mistakes) = (&solutions.workbench, &solutions.mistakes);
     let graded = run(workbench, mistakes, "mistakes", |mistake, built| {
-        Graded::new(mistake, &built, exam)
+        GradedSolution::new(mistake, &built, exam)
     })?;
-    let problems: Vec<String> = graded.iter().flat_map(Graded::problems).collect();
+    let problems: Vec<String> = graded.iter().flat_map(GradedSolution::problems).collect();
     if !problems.is_empty() {
         bail!(
             "the practice exam and the mistakes do not agree; fix the items or the mistakes:\n{}",
@@ -38,7 +38,7 @@ pub fn generated_file(solutions: &Solutions, exam: &Exam) -> Result<GeneratedFil
 }
 
 /// Builds the table for one exam.
-fn table(assignment: &Assignment, exam: &Exam, graded: &[Graded]) -> String {
+fn table(assignment: &Assignment, exam: &Exam, graded: &[GradedSolution]) -> String {
     let mut text = format!(
         "# Which mistake fails which item\n\n\
          Written by `cargo author mistakes` for {} known mistakes, each a change to the reference, \
@@ -51,7 +51,7 @@ fn table(assignment: &Assignment, exam: &Exam, graded: &[Graded]) -> String {
     );
     for task in assignment.tasks() {
         let items: Vec<&Item> = exam.items.iter().filter(|item| item.task == task).collect();
-        let of_task = |graded: &&Graded| graded.solution.task() == task;
+        let of_task = |graded: &&GradedSolution| graded.solution.task() == task;
         let graded = graded.iter().filter(of_task);
         task_table(&mut text, assignment.info(task), &items, graded)
             .expect("writing to a String cannot fail");
@@ -63,7 +63,7 @@ fn task_table<'a>(
     out: &mut String,
     task: &TaskInfo,
     items: &[&Item],
-    graded: impl Iterator<Item = &'a Graded<'a>>,
+    graded: impl Iterator<Item = &'a GradedSolution<'a>>,
 ) -> std::fmt::Result {
     writeln!(out, "\n## {}\n", task.title)?;
     for (number, item) in (1..).zip(items) {
@@ -74,7 +74,7 @@ fn task_table<'a>(
         .collect();
     writeln!(out, "\n| mistake | what the code does | lost |{numbers}")?;
     writeln!(out, "|---|---|--:|{}", ":-:|".repeat(items.len()))?;
-    for Graded { solution, score } in graded {
+    for GradedSolution { solution, score } in graded {
         let of_task = |line: &&ItemScore| items.iter().any(|item| item.id == line.id);
         let lines: Vec<&ItemScore> = score.items().filter(of_task).collect();
         let lost: u32 = lines.iter().map(|line| line.max_points - line.points).sum();

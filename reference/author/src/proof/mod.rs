@@ -2,7 +2,7 @@
 //! grading many [solutions](crate::solutions).
 
 pub mod calibrate;
-pub mod catches;
+pub mod detections;
 pub mod failures;
 pub mod grade;
 pub mod matrix;

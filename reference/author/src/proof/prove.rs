@@ -12,16 +12,16 @@ use anyhow::Result;
 use grader::files::{self, AtPath, PathError};
 use judging::content_hash::ContentHash;
 
-use crate::proof::grade::{Graded, variant_losses};
+use crate::proof::grade::{GradedSolution, variant_losses};
 use crate::proof::run::{exam_of, for_seeds};
 use crate::proof::summary::{ProofSummary, SeedResult};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
 
-/// Grades all solutions with the exam of one seed. With a seed that the lists of failed items were
-/// made from, a mistake must fail all of its items. With any other seed, it can pass one of them by
-/// luck: an item that fails to catch it in one exam out of 200 is likely to be in a list made from
-/// 20 seeds.
+/// Grades all solutions with the exam for one seed. If the lists of failed items were made with
+/// this seed, a mistake must fail all items in its list. With any other seed, it can pass one of
+/// them by luck: an item that fails to catch it in one exam out of 200 is likely to be in a list
+/// made with 20 seeds.
 fn prove_seed(
     solutions: &Solutions,
     seed: u64,
@@ -43,7 +43,7 @@ fn prove_seed(
     }
     for mistake in solutions.mistakes.iter().filter(|_| with_mistakes) {
         let built = workbench.build(&mistake.sources, &mistake.id)?;
-        let graded = Graded::new(mistake, &built, &exam)?;
+        let graded = GradedSolution::new(mistake, &built, &exam)?;
         let passed = graded.passed_items();
         let problems = if is_listed {
             graded.problems()

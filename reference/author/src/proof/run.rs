@@ -1,5 +1,5 @@
-//! Builds all solutions and runs them on exams. Also generates the exams of many seeds. Both take a
-//! long time, so they show progress bars.
+//! Builds all solutions and runs them on exams. Also generates the exams for many seeds. Both take
+//! a long time, so they show progress bars.
 
 use std::ops::Range;
 
@@ -14,8 +14,8 @@ use crate::solutions::Solutions;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{BuiltSolution, NotCompiledError, Workbench};
 
-/// Builds solutions and returns what `ask` returns for each. A solution that doesn't compile is an
-/// error. `unit` is shown with the progress.
+/// Builds solutions, calls `ask` with each and returns the results. A solution that doesn't compile
+/// is an error. `unit` is shown with the progress.
 pub(super) fn run<'a, R: Send>(
     workbench: &Workbench,
     solutions: impl IntoIterator<Item = &'a Solution>,
@@ -53,7 +53,7 @@ fn in_parallel<'a, R: Send>(
     solutions.map(ask).collect()
 }
 
-/// Returns what `ask` returns for each seed.
+/// Calls `ask` with each seed and returns the results.
 pub(super) fn for_seeds<R: Send>(
     seeds: Range<u64>,
     ask: impl Fn(u64) -> Result<R> + Sync + Send,
@@ -62,7 +62,7 @@ pub(super) fn for_seeds<R: Send>(
     seeds.into_par_iter().progress_with(bar).map(ask).collect()
 }
 
-/// Generates the exam of a seed without hints.
+/// Generates the exam for a seed, without hints.
 pub(super) fn exam_of(solutions: &Solutions, seed: u64) -> Result<Exam> {
     exams::generate("proof", Seed(seed), solutions)
 }

@@ -18,8 +18,8 @@ pub struct SeedResult {
     pub false_fails: BTreeMap<String, Vec<String>>,
     /// The mistakes that didn't lose the points they must lose, each with the problems found.
     pub uncaught: BTreeMap<String, Vec<String>>,
-    /// The mistakes that passed items they fail with all seeds of `fails.toml`, each with these
-    /// items. Other items still caught them.
+    /// The mistakes that passed items they fail with all seeds used for `fails.toml`, each with
+    /// these items. Other items still caught them.
     #[serde(default)]
     pub passed: BTreeMap<String, Vec<String>>,
 }
@@ -75,14 +75,14 @@ impl ProofSummary {
         lines
     }
 
-    /// Returns notes that are worth knowing but aren't problems, one line each.
+    /// Returns facts that are worth knowing but aren't problems, one line each.
     pub fn notes(&self) -> Vec<String> {
         let results = self.results.iter();
         let notes = results.flat_map(|result| {
             let passed = result.passed.iter();
             passed.map(|(id, items)| {
                 format!(
-                    "note: seed {}: {id} does not fail {}, which it fails with every seed of {}",
+                    "note: seed {}: {id} does not fail {}, which it fails with every seed in {}",
                     result.seed,
                     items.join(", "),
                     failed_items::FILE
@@ -123,8 +123,8 @@ mod tests {
         assert_eq!(
             summary.notes(),
             [
-                "note: seed 5000: bbox.a does not fail bbox.flat, which it fails with every seed of \
-                 mistakes/fails.toml"
+                "note: seed 5000: bbox.a does not fail bbox.flat, which it fails with every seed \
+                 in mistakes/fails.toml"
             ]
         );
     }

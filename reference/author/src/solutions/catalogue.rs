@@ -1,11 +1,11 @@
-//! The catalogues of mistakes, which are small changes to the reference or to a variant, in the folder
-//! `mistakes` of an assignment's solutions:
+//! The catalogues of mistakes. Mistakes are small changes to the reference or to a variant. The
+//! folder `mistakes` of an assignment's solutions contains:
 //!
 //! - Known mistakes in `TASK/*.toml`, with hints for students.
 //! - Independent mistakes in `independent/*.toml`: known mistakes in a variant's code, where they
 //!   look as they would in the solution of a student who never saw the reference.
-//! - Other code with the answers of known mistakes in `same_answers/*.toml`. The hints must be true
-//!   of it too.
+//! - Code in `same_answers/*.toml` that gives the same answers as known mistakes, but for other
+//!   reasons. The hints must be true of it too.
 //! - Unknown mistakes in `unknown/*.toml`. No hint is written for them, so they show whether wrong
 //!   code gets false hints.
 //!
@@ -32,11 +32,11 @@ use crate::solutions::sources::Sources;
 pub struct Mistake {
     /// The task's id, a dot, and a name, such as `sphere.far_first`.
     pub id: String,
-    /// A description of what the wrong code does. An independent mistake uses its known mistake's
-    /// description.
+    /// A description of what the wrong code does. An independent mistake takes its description from
+    /// the known mistake.
     #[serde(default)]
     pub title: String,
-    /// The id of the variant that an independent mistake is in.
+    /// The id of the variant that contains an independent mistake.
     #[serde(default)]
     pub variant: Option<String>,
     /// The sources where the mistake was seen, by their numbers in `reference/mistakes/README.md`.
@@ -45,7 +45,7 @@ pub struct Mistake {
     /// A question for students that helps them find the mistake.
     #[serde(default)]
     pub nudge: String,
-    /// An explanation for students of what is wrong.
+    /// An explanation of the mistake for students.
     #[serde(default)]
     pub hint: String,
     /// The mistake whose nudge and hint this mistake shares, because the exam cannot tell them
@@ -59,22 +59,23 @@ pub struct Mistake {
     /// that makes both.
     #[serde(default)]
     pub true_of_pairs: Vec<[String; 2]>,
-    /// The section of the handout about the mistake, if it differs from the section of the items
-    /// that fail.
+    /// The handout section about the mistake, if it isn't the section that the failed items refer
+    /// to.
     #[serde(default)]
     pub section: Option<Section>,
-    /// Additional tasks that may lose points, for two combined mistakes that hide each other.
+    /// Additional tasks that may lose points. Only used for two combined mistakes that hide each
+    /// other.
     #[serde(default)]
     pub other_tasks: Vec<Task>,
     /// Additional known mistakes whose hints are true for an independent or unknown mistake.
     #[serde(default)]
     pub true_hints: Vec<String>,
-    /// The changes to the reference or the variant. Nearly always a single change.
+    /// The changes to the reference or the variant. There is nearly always only one.
     #[serde(rename = "change")]
     pub changes: Vec<Change>,
 }
 
-/// The replacement of a text that occurs exactly once in a file.
+/// The replacement of a string that occurs exactly once in a file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
@@ -130,8 +131,8 @@ fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
         let mut others = others.chain(mistake.true_of_pairs.iter().flatten());
         if !is_complete || !others.all(|other| find(other).is_some()) {
             bail!(
-                "{}: give it a `nudge` and a `hint`, or name in `same_hint_as` another mistake of its \
-                 task that has them; `also_true_of` and `true_of_pairs` name other mistakes",
+                "{}: add a `nudge` and a `hint`, or set `same_hint_as` to a different mistake of the same \
+                 task that has them; `also_true_of` and `true_of_pairs` must name other mistakes",
                 mistake.id
             );
         }
@@ -139,8 +140,8 @@ fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
     Ok(())
 }
 
-/// Reads the `[[mistake]]` entries of the TOML files in a folder of the catalogue, in the order of the
-/// files.
+/// Reads the `[[mistake]]` entries of the TOML files in a folder of the catalogue, in the order of
+/// the files.
 fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Vec<Mistake>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -152,7 +153,8 @@ fn read_mistakes(root: &Path, handed_out: &HandedOut, folder: &str) -> Result<Ve
     Ok(files.into_iter().flat_map(|file| file.mistake).collect())
 }
 
-/// Reads the TOML files in a folder of the catalogue. Returns none if the folder doesn't exist.
+/// Reads the TOML files in a folder of the catalogue. Returns an empty list if the folder doesn't
+/// exist.
 pub(super) fn read_folder<T: DeserializeOwned>(
     root: &Path,
     handed_out: &HandedOut,
@@ -173,14 +175,14 @@ pub fn independent_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
     all.map(|mistake| mistake.in_variant(solutions)).collect()
 }
 
-/// Reads other code with the answers of known mistakes. It is the reference with changes that have
-/// another cause.
+/// Reads the code that gives the same answers as known mistakes, but for other reasons. Each
+/// solution is the reference with a few changes.
 pub fn other_causes(solutions: &Solutions) -> Result<Vec<Solution>> {
     let all = solutions.read_catalogue("same_answers")?.into_iter();
     all.map(|mistake| {
         if solutions.mistake(&mistake.id).is_none() {
             bail!(
-                "{} in mistakes/same_answers is no known mistake",
+                "{} in mistakes/same_answers is not a known mistake",
                 mistake.id
             );
         }
@@ -221,8 +223,8 @@ impl Solutions {
         let task = Task::in_id(id).filter(|_| !is_known(id) && are_known);
         task.ok_or_else(|| {
             anyhow!(
-                "{id} in mistakes/{folder}: its id must begin with a task and a dot, and be no known \
-                 mistake's; `true_hints` names known mistakes"
+                "{id} in mistakes/{folder}: its id must begin with the name of a task and a dot, \
+                 and must not be the id of a known mistake; `true_hints` must name known mistakes"
             )
         })
     }
@@ -264,8 +266,8 @@ impl Mistake {
         });
         let Some((known, variant)) = found else {
             bail!(
-                "{id}: the catalogue of mistakes must have all ids, and variants.toml the variant, which \
-                 must solve the mistake's task"
+                "{id}: the catalogue of mistakes must contain all these ids, and variants.toml \
+                 must contain the variant, which must solve the mistake's task"
             );
         };
         let mut expected = known.expected.clone();
@@ -276,8 +278,8 @@ impl Mistake {
             title: known.title.clone(),
             sources: sources.map_err(|(file, count)| {
                 anyhow!(
-                    "{id} no longer applies: its `was` occurs {count} times in {file} with its given \
-                     code, instead of once; adapt it in mistakes/independent"
+                    "{id} no longer applies: its `was` occurs {count} times in {file} with its \
+                     given code, instead of once; update `was` in mistakes/independent"
                 )
             })?,
             expected,
@@ -291,8 +293,8 @@ impl Mistake {
         let own_file = handed_out.assignment.info(self.task()).file;
         apply_changes(reference, &self.changes, own_file).map_err(|(file, count)| {
             anyhow!(
-                "{} no longer applies: its `was` occurs {count} times in {}/{file} instead of once; \
-                 adapt it in the catalogue of mistakes",
+                "{} no longer applies: its `was` occurs {count} times in {}/{file} instead of \
+                 once; update `was` in the catalogue of mistakes",
                 self.id,
                 handed_out.reference
             )
@@ -300,8 +302,8 @@ impl Mistake {
     }
 }
 
-/// Applies changes to a solution: to the files they name, or else to `own_file`. If a text doesn't
-/// occur exactly once, returns the file and the number of occurrences.
+/// Applies changes to a solution. A change that names no file applies to `own_file`. If a text
+/// doesn't occur exactly once, returns the file and the number of occurrences.
 fn apply_changes(
     base: &Sources,
     changes: &[Change],

@@ -1,6 +1,6 @@
 //! The items that each known mistake fails with every seed: `fails.toml` in the folder of the
-//! mistakes. The file is generated because it isn't obvious which items only fail by luck of the
-//! seed.
+//! mistakes. The file is generated because it isn't obvious which items a mistake fails only with
+//! some seeds.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,16 +19,16 @@ pub const FILE: &str = "mistakes/fails.toml";
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FailedItems {
-    /// The number of seeds, counted from 0, that the lists were made from, in addition to the
-    /// practice exam.
+    /// The number of seeds that the lists were made with, starting at seed 0. The practice exam was
+    /// used as well.
     pub seeds: u64,
     /// For each mistake's id, the ids of the failed items in exam order.
     pub fails: BTreeMap<String, Vec<String>>,
 }
 
 impl FailedItems {
-    /// Reads the file of an assignment in the workspace at `root`. A missing file lists no items, so
-    /// that it can be generated again.
+    /// Reads the file of an assignment in the workspace at `root`. If the file is missing, returns
+    /// empty lists, so that it can be generated again.
     pub fn load(root: &Path, handed_out: &HandedOut) -> Result<Self> {
         let path = root.join(path(handed_out));
         if !path.exists() {

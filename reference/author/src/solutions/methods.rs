@@ -1,6 +1,6 @@
 //! Wrong methods, in the folder `methods` of an assignment's mistakes. Like unknown mistakes, they
-//! have no hints of their own. Each is something a student might write instead of the reference's
-//! method, with its own helpers.
+//! have no hints of their own. Each is a method, together with its helpers, that a student might
+//! write instead of the reference's.
 
 use anyhow::{Result, anyhow};
 use judging::assignment::Task;
@@ -11,7 +11,7 @@ use crate::solutions::Solutions;
 use crate::solutions::catalogue::read_folder;
 use crate::solutions::solution::{Expected, Solution};
 
-/// The methods of one file.
+/// The methods in one file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -41,7 +41,7 @@ struct Method {
     code: String,
 }
 
-/// Reads the wrong methods and inserts each into its file.
+/// Reads the wrong methods. Each is inserted into its file to form a wrong solution.
 pub fn wrong_methods(solutions: &Solutions) -> Result<Vec<Solution>> {
     let files: Vec<File> = read_folder(
         solutions.workbench.root(),

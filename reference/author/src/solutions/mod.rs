@@ -1,10 +1,10 @@
-//! The solutions in this repository: the reference, known mistakes, known correct variants and
-//! mutants. Reads, builds and runs them.
+//! Reads, builds and runs the solutions in this repository: the reference, known mistakes, known
+//! correct variants and mutants.
 //!
 //! `reference/mistakes` contains mistakes, which are small changes to the reference or to a
 //! variant. `reference/variants` contains other correct solutions, and [`mutants`] makes mechanical
-//! changes. Each solution is built and run like any submission. The exams get their recorded keys
-//! and their hints from solutions, and the proof grades them.
+//! changes. Each solution is built and run like any submission. The exams' recorded keys and hints
+//! come from solutions, and the proof grades the solutions.
 
 pub mod catalogue;
 pub mod failed_items;
@@ -40,7 +40,7 @@ pub struct Solutions {
     pub variants: Vec<Solution>,
     /// The workbench that builds the solutions.
     pub workbench: Workbench,
-    /// The recorder of the exams' pictures.
+    /// The recorder for the exams' pictures.
     pub recorder: Recorder,
 }
 
@@ -67,7 +67,7 @@ impl Solutions {
         Ok(solutions)
     }
 
-    /// Replaces the lists of the items each mistake fails with every seed.
+    /// Updates the lists of the items that each mistake fails with every seed.
     pub fn set_failed_items(&mut self, failed: &FailedItems) {
         for mistake in &mut self.mistakes {
             mistake.expected.fails = failed.of_mistake(&mistake.id).to_vec();
@@ -110,7 +110,7 @@ impl Solutions {
             })
     }
 
-    /// Keeps one variant and drops all others and the mistakes.
+    /// Keeps one variant and drops all other variants and all mistakes.
     pub fn only_variant(mut self, id: &str) -> Result<Self> {
         self.mistakes.clear();
         self.variants.retain(|variant| variant.id == id);

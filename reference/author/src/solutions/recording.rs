@@ -37,7 +37,7 @@ impl Recorder {
         &self.sources
     }
 
-    /// Completes the exam's keys of path-traced pictures with the reference's answers.
+    /// Sets the exam's keys for rendered pictures to the reference's answers.
     pub fn record(&self, mut exam: Exam) -> Result<Exam> {
         for asked in exam.items.iter_mut().flat_map(|item| &mut item.questions) {
             if let Key::Radiance { pixels, .. } = &mut asked.key {
@@ -47,8 +47,8 @@ impl Recorder {
         Ok(exam)
     }
 
-    /// Returns the reference's answer to a question about a picture: linear red, green and blue of
-    /// each pixel, row by row from the bottom.
+    /// Returns the reference's answer to a question about a picture: the linear red, green and blue
+    /// of each pixel, row by row from the bottom.
     fn picture(&self, question: &Question) -> Result<Vec<Vec3>> {
         let probe = self.reference.launcher().start(LIMITS.cpu);
         let answers = probe

@@ -6,7 +6,7 @@ use grader::files::{self, PathError};
 use grader::handed_out::{HandedOut, TaskFile};
 use grader::submission::Submission;
 
-/// The task files of a solution of an assignment, in lecture order.
+/// The task files of a solution to an assignment, in lecture order.
 #[derive(Clone, Debug)]
 pub struct Sources {
     handed_out: &'static HandedOut,
@@ -57,7 +57,7 @@ impl Sources {
         files.try_for_each(|(file, text)| std::fs::write(folder.join(file.name), text))
     }
 
-    /// Allows these crates beyond those that submissions may use.
+    /// Allows these crates in addition to those that submissions may use.
     pub fn with_crates(self, crates: &[String]) -> Self {
         let crates = crates.to_vec();
         Sources { crates, ..self }

@@ -1,6 +1,6 @@
-//! Variants: known correct solutions that differ from the reference. A variant's files in the
-//! folder `variants/STEM` of an assignment's solutions, together with the given code of the
-//! reference's `STEM.rs`, replace that file.
+//! Variants: known correct solutions that differ from the reference. A variant's files are in the
+//! folder `variants/STEM` of an assignment's solutions. Together with the given code in the
+//! reference's `STEM.rs`, they replace that file.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ use crate::solutions::sources::Sources;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// The stem of the replaced file (or one of them), a dot and a name, such as
+    /// The stem of the replaced file (or of one of them), a dot and a name, such as
     /// `sphere.stable_quadratic`.
     pub id: String,
     /// A description of its method.
@@ -26,8 +26,8 @@ pub struct Variant {
     /// A publication that describes the method.
     #[serde(default)]
     pub source: Option<String>,
-    /// The only items where it may lose points: the items about tree cost, for a builder that
-    /// doesn't use the surface area heuristic.
+    /// The only items where it may lose points. For a builder that doesn't use the surface area
+    /// heuristic, they are the items about tree cost.
     #[serde(default)]
     pub may_lose: Vec<String>,
     /// The paths of its parts, relative to the folder of variants and without `.rs`. Their first
@@ -35,7 +35,7 @@ pub struct Variant {
     /// its id.
     #[serde(default)]
     pub parts: Vec<String>,
-    /// The crates it uses although submissions may not.
+    /// The crates it uses that submissions may not use.
     #[serde(default)]
     pub crates: Vec<String>,
 }
@@ -45,7 +45,7 @@ pub fn folder(root: &Path, handed_out: &HandedOut) -> PathBuf {
     root.join(handed_out.solutions()).join("variants")
 }
 
-/// Reads the list of all variants of an assignment in the workspace at `root`.
+/// Reads the list of an assignment's variants from the workspace at `root`.
 pub fn variants(root: &Path, handed_out: &HandedOut) -> Result<Vec<Variant>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]

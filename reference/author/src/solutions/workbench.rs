@@ -20,13 +20,13 @@ use protocol::Answer;
 use crate::authoring::Authoring;
 use crate::solutions::sources::Sources;
 
-/// The time limits of an item. A correct solution takes milliseconds. The limit is for mistakes
-/// that never terminate.
+/// The time limits for an item. A correct solution takes milliseconds. The limits are for wrong
+/// solutions that never terminate.
 const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(2));
-/// The CPU time limit of a process, which answers all items of a task.
+/// The CPU time limit for a process, which answers all items of a task.
 const PROCESS_CPU: Duration = Duration::from_secs(120);
 
-/// The answers to an item's questions, or why there are none.
+/// The answers to an item's questions, or the reason there are none.
 pub type Answers = Result<Vec<Answer>, Fault>;
 
 /// Builds solutions of an assignment in a workspace.
@@ -37,7 +37,7 @@ pub struct Workbench {
     builder: Builder,
 }
 
-/// A solution doesn't compile.
+/// The error for a solution that doesn't compile.
 #[derive(Debug, thiserror::Error)]
 #[error("{id} does not compile:\n{message}")]
 pub struct NotCompiledError {
@@ -49,7 +49,7 @@ pub struct NotCompiledError {
 
 impl Workbench {
     /// Opens the workspace. Solutions are built as on an instructor's machine: if there is a
-    /// reference, its parts substitute for wrong ones.
+    /// reference, its parts replace wrong ones.
     pub fn open(authoring: &'static Authoring) -> Result<Self> {
         let handed_out = authoring.handed_out;
         let workspace = Workspace::find()?;
@@ -134,7 +134,7 @@ impl BuiltSolution {
 
     /// Runs the solution. Returns its answers to each item. As in grading, one process answers all
     /// items of a task, and a new one is started only after a fault, because mistakes that keep
-    /// state from one call to the next only show in later items.
+    /// state from one call to the next only show up in later items.
     pub fn answers_to_each(&self, items: &[&Item]) -> Result<Vec<Answers>> {
         let mut running = None;
         let mut all = Vec::new();
@@ -161,9 +161,14 @@ impl BuiltSolution {
             hash: String::new(),
         };
         let mut score = pending_score(exam, name, &self.id, self.handed_out);
-        run_exam(exam, &self.build, Budget::default(), &mut score, |_, _| {
-            Ok::<(), anyhow::Error>(())
-        })?;
+        run_exam(
+            exam,
+            &self.build,
+            Budget::default(),
+            1,
+            &mut score,
+            |_, _| Ok::<(), anyhow::Error>(()),
+        )?;
         Ok(score)
     }
 }

@@ -14,8 +14,8 @@ pub fn median_split(shapes: Vec<Shape>, max_leaf_size: usize) -> Tree {
     tree
 }
 
-/// Builds a degenerate tree: the left child of each interior node is a leaf with one shape, in the
-/// order of the shapes.
+/// Builds a degenerate tree: the left child of each interior node is a leaf with one shape. The
+/// leaves are in the order of the shapes.
 pub fn chain(shapes: Vec<Shape>) -> Tree {
     let mut tree = Tree::default();
     // Build from the deepest node upward.
@@ -51,7 +51,7 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// Refits the boxes of all nodes below `tops`, whose primitives have been moved.
+    /// Refits the boxes of all nodes below `tops` after the primitives in them have been moved.
     pub fn refit_below(&mut self, tops: &[usize]) {
         for &top in tops {
             // Children come before their parents.
@@ -96,8 +96,9 @@ fn corners_around(shapes: &[Shape]) -> (Vec3, Vec3) {
     (min, max)
 }
 
-/// Rounds a corner of a box to single precision, outward if it isn't exact. The corners of flat
-/// triangles are exact, so flat boxes stay flat. The extents of a sphere may be inexact.
+/// Rounds a corner of a box to single precision. Coordinates that aren't exact are rounded outward.
+/// The corners of flat triangles are exact, so flat boxes stay flat. The extents of a sphere may be
+/// inexact.
 fn round_outward(exact: DVec3, outward: fn(f32) -> f32) -> Vec3 {
     let component = |axis: usize| {
         let nearest = exact[axis] as f32;

@@ -13,20 +13,20 @@ use crate::seed::Rng;
 pub enum SkipReason {
     /// The ray misses the leaf's own box.
     Missed,
-    /// The leaf is below a node that begins beyond the closest hit, and the leaf of that hit is
-    /// below the node's sibling.
+    /// The leaf is below a node whose box begins beyond the closest hit, and the leaf that contains
+    /// that hit is below the node's sibling.
     SubtreePruned,
-    /// The leaf itself begins beyond the closest hit, and the leaf of that hit is entered before
-    /// the subtree that leads to this leaf.
+    /// The leaf's own box begins beyond the closest hit, and the leaf that contains that hit is
+    /// entered before the subtree that leads to this leaf.
     LeafPruned,
 }
 
 /// Returns one of the two children of a node.
 pub type Child = fn(&TreeNode) -> u32;
 
-/// Returns whether the leaf is this child of a node that every correct traversal enters, and the
-/// ray clearly misses the leaf's box. If so, only the boxes of the two children decide whether the
-/// leaf is entered.
+/// Returns whether the leaf is the given child of a node that every correct traversal enters, and
+/// whether the ray clearly misses the leaf's box. If so, only the boxes of the two children decide
+/// whether the leaf is entered.
 pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, child: Child) -> bool {
     let path = tree.path(leaf);
     let [.., parent, _] = path[..] else {
@@ -58,8 +58,8 @@ pub fn hits_below_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     primitives.any(|primitive| scan::intersect(ray64, &tree.shapes[primitive]).is_some())
 }
 
-/// Returns why no correct traversal with this ray enters the leaf, or `None` if one may enter it.
-/// The reason must apply by a clear margin: [`MARGIN`] times the diagonal of a box.
+/// Returns the reason no correct traversal with this ray enters the leaf, or `None` if one may
+/// enter it. The reason must apply by a clear margin: [`MARGIN`] times the diagonal of a box.
 pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason> {
     let bounds = tree.bounds(leaf);
     let grown = bounds.grown(MARGIN * bounds.diagonal());
@@ -78,8 +78,8 @@ pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason
         return Some(SkipReason::SubtreePruned);
     }
     // A traversal that opens several levels at once, or always takes the nearest open node, may
-    // enter the side of `leaf` before it has finished the side of the hit. It still enters the leaf
-    // of the hit first if that leaf begins first.
+    // enter the side with `leaf` before it has finished the side with the hit. It still enters the
+    // leaf with the hit first if that leaf's box begins first.
     (entry(fork.hit_leaf)? + margin <= entry(fork.toward_leaf)? && is_beyond(leaf))
         .then_some(SkipReason::LeafPruned)
 }
@@ -133,8 +133,8 @@ fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
 }
 
 /// Returns whether, on the path from the fork down to the leaf, the ray misses the sibling of every
-/// node that begins beyond the closest hit. Such a node is the only child to enter, so the slides'
-/// pseudo-code, taken literally, enters it without comparing distances.
+/// node that begins beyond the closest hit. Such a node is the only child that the ray hits, so the
+/// slides' pseudo-code, taken literally, enters it without comparing distances.
 pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let Some(fork) = find_fork(tree, leaf, ray64) else {
         return false;
@@ -153,7 +153,7 @@ pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bo
 }
 
 /// Returns whether every correct traversal gives the correct answer for every ray: decoys are out
-/// of reach, a traversal by every [`TraversalRule`] is correct, and no answer depends on rounding.
+/// of reach, traversals by all [`TraversalRule`]s are correct, and no answer depends on rounding.
 pub fn is_fair(tree: &Tree, rays: &[Ray]) -> bool {
     rays.iter().all(|ray| {
         let ray64 = Ray64::from(ray);
@@ -165,8 +165,8 @@ pub fn is_fair(tree: &Tree, rays: &[Ray]) -> bool {
 
 /// Returns whether every decoy that would change the answer for this ray is out of reach.
 fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
-    /// The minimum distance for a decoy behind the hit that cannot be mistaken for it, in sizes of
-    /// the decoy.
+    /// The minimum distance behind the hit at which a decoy cannot be mistaken for it, as a
+    /// multiple of the decoy's size.
     const BEHIND: f64 = 0.03;
     let hit = tree.expected_hit(ray64);
     let expected = hit.map_or(ray64.max, |hit| hit.distance);
@@ -182,7 +182,7 @@ fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
     })
 }
 
-/// Returns whether traversal by every rule finds the expected hit.
+/// Returns whether the traversal finds the expected hit under every rule.
 fn every_traversal_is_correct(tree: &Tree, ray64: &Ray64) -> bool {
     let expected = tree.expected_hit(ray64);
     TraversalRule::all()
@@ -193,9 +193,10 @@ fn every_traversal_is_correct(tree: &Tree, ray64: &Ray64) -> bool {
 /// Returns whether the expected hit doesn't depend on rounding: all ordinary primitives up to the
 /// closest hit are clearly hit or clearly missed, and no two are hit at the same distance.
 fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
-    /// The minimum distance from the hit to a shape behind it, in sizes of the shape.
+    /// The minimum distance from the hit to a shape behind it, as a multiple of the shape's size.
     const BEHIND: f64 = 0.03;
-    /// The minimum distance from the ray to a shape that can be ignored, in sizes of the shape.
+    /// The minimum distance from the ray to a shape that can be ignored, as a multiple of the
+    /// shape's size.
     const BESIDE: f64 = 0.07;
     let ordinary = tree.ordinary_primitives();
     let expected = tree.expected_hit(ray64);
@@ -264,8 +265,8 @@ mod tests {
     use super::*;
     use crate::items::meshes;
 
-    /// Returns a slanted triangle that a ray along the x-axis hits in the middle of its box, or
-    /// misses.
+    /// Returns a slanted triangle. If `is_hit`, a ray along the x-axis hits it in the middle of its
+    /// box. Otherwise, the ray misses it.
     fn slanted_triangle(from: f64, to: f64, is_hit: bool, shape: u32) -> Shape {
         let y = if is_hit { 0.0 } else { 2.0 };
         let corner = |x: f64, up: f64, z: f64| dvec3(x, y + up, z);
@@ -279,8 +280,8 @@ mod tests {
         )
     }
 
-    /// Returns the skip reason of the last leaf in a tree of three leaves: the root's left child is
-    /// a leaf, and its right child has two leaves.
+    /// Returns the skip reason for the last leaf in a tree of three leaves: the root's left child
+    /// is a leaf, and its right child has two leaves.
     fn skip_reason_of_last(hit: [f64; 2], middle: [f64; 2], last: [f64; 2]) -> Option<SkipReason> {
         let mut tree = Tree::default();
         let left = tree.add_leaf(vec![slanted_triangle(hit[0], hit[1], true, 0)]);

@@ -10,7 +10,7 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Rng;
 
-/// A tree of an exam question.
+/// A tree from an exam question.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
     /// The primitives, in the order the leaves refer to. Some may not be in any leaf.
@@ -126,7 +126,8 @@ impl Tree {
 
     /// Returns whether a primitive is in one of these leaves and inside that leaf's box.
     fn is_ordinary(&self, index: usize, leaves: &[usize]) -> bool {
-        /// Allows for the rounding of boxes to single precision, relative to their coordinates.
+        /// The tolerance for the rounding of boxes to single precision, relative to their
+        /// coordinates.
         const ROUNDING: f64 = 2e-6;
         let enlarged = |leaf: usize| {
             let bounds = self.bounds(leaf);
@@ -140,7 +141,7 @@ impl Tree {
         holders.any(|&leaf| enlarged(leaf).contains(&bounds))
     }
 
-    /// Returns the correct answer: the closest hit with an ordinary primitive.
+    /// Returns the correct answer: the closest hit on an ordinary primitive.
     pub fn expected_hit(&self, ray64: &Ray64) -> Option<Intersection> {
         let indexed = (0..).zip(&self.shapes);
         let mut hits: Vec<(usize, Intersection)> = indexed
@@ -199,7 +200,7 @@ impl Tree {
 
     /// Returns the same tree with its root first, followed by a copy of the entire tree with its
     /// root last. A traversal that starts at the first or the last node instead of `root` is still
-    /// correct there.
+    /// correct on such a tree.
     ///
     /// The copy has its own nodes. If only the root were copied, its children would have two
     /// parents. That would confuse code that computes parents or depths in one pass over all nodes.

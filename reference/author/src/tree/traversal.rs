@@ -8,11 +8,12 @@ use crate::oracle::{Intersection, Ray64, scan};
 /// single precision.
 #[derive(Clone, Copy, Debug)]
 pub struct TraversalRule {
-    /// Whether the left child goes first if the ray enters both at nearly the same distance.
+    /// Whether the left child goes first if the ray enters both children at nearly the same
+    /// distance.
     pub left_first: bool,
     /// Whether a node's box is tested when the node is entered, instead of by its parent.
     pub tests_on_entry: bool,
-    /// Whether to enter every node that cannot be skipped by a clear margin.
+    /// Whether to enter every node unless it can be skipped by a clear margin.
     pub conservative: bool,
 }
 
@@ -27,7 +28,7 @@ impl TraversalRule {
     }
 }
 
-/// The minimum distance of a decoy beyond reach, as a fraction of a box's diagonal.
+/// The minimum distance by which a decoy is out of reach, as a fraction of a box's diagonal.
 pub const MARGIN: f64 = 0.01;
 
 /// The result and the log of a traversal.
@@ -39,7 +40,7 @@ pub struct Traversal<'a> {
     pub closest: Option<Intersection>,
     /// The indices of all tested primitives.
     pub tested_primitives: Vec<usize>,
-    /// The indices of all reached nodes, in order, and whether they were entered.
+    /// The indices of all reached nodes, in order, each with whether the node was entered.
     pub reached_nodes: Vec<(usize, bool)>,
 }
 
@@ -54,8 +55,8 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// Traverses the tree correctly. It doesn't enter nodes that the ray misses or that begin
-    /// beyond the closest hit, and visits the nearer child first.
+    /// Traverses the tree correctly: skips nodes that the ray misses or that begin beyond the
+    /// closest hit, and visits the nearer child first.
     pub fn correct(tree: &'a Tree, ray64: &Ray64, rule: TraversalRule) -> Self {
         let mut traversal = Traversal::new(tree, ray64);
         if !tree.nodes.is_empty() {

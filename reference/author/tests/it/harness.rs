@@ -1,4 +1,4 @@
-//! Runs `cargo author` and reads files of the workspace.
+//! Runs `cargo author`, reads files of the workspace, and generates the exams for a few seeds.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -6,12 +6,16 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
+use author::authoring;
 use author::bundle::Bundle;
+use author::exams::assemble;
+use author::seed::Seed;
 use grader::handed_out::RAYS;
+use judging::exam::Exam;
 
 /// Held while solutions are built. Two commands that build the same solutions at the same time
-/// would compile each of them twice. One after the other, the second command reuses the first
-/// command's programs.
+/// would compile each of them twice. If they run one after the other, the second command reuses the
+/// first command's programs.
 static BUILDS: Mutex<()> = Mutex::new(());
 /// The commands that build solutions.
 const BUILDING: [&str; 4] = ["calibrate", "mistakes", "mutants", "prove"];
@@ -59,4 +63,21 @@ pub fn author_fails(arguments: &[impl AsRef<OsStr>]) -> String {
     let output = author(arguments);
     assert!(!output.status.success(), "{output:?}");
     String::from_utf8(output.stderr).unwrap()
+}
+
+/// The seeds that the tests use.
+pub const SEEDS: [u64; 2] = [2025, 77];
+
+/// The exam for each seed, without its recorded picture.
+static EXAMS: LazyLock<Vec<Exam>> = LazyLock::new(|| SEEDS.map(make_exam).into());
+
+/// Returns the exam for one of the [`SEEDS`].
+pub fn exam_of(seed: u64) -> &'static Exam {
+    let index = SEEDS.iter().position(|other| *other == seed);
+    &EXAMS[index.expect("the seed is in SEEDS")]
+}
+
+/// Generates an exam without recording its rendered picture.
+fn make_exam(seed: u64) -> Exam {
+    assemble(&authoring::RAYS, "test", Seed(seed))
 }

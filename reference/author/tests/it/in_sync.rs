@@ -46,14 +46,14 @@ fn the_handout_has_the_limits_of_the_grader() {
     assert_eq!((MAX_TIMEOUTS, MAX_CRASHES), (1, 2));
     for sentence in [
         format!(
-            "An item may use {} seconds of processor time, or {} times as much as your slowest item \
-             that passed, but at most {} seconds.",
+            "An item may use {} seconds of processor time, or {} times as much as the slowest \
+             item of its task that passed, but at most {} seconds.",
             limits.cpu.as_secs(),
             Budget::SLOWER_THAN_PASSED,
             limits.cpu_if_printing.as_secs()
         ),
-        "once one item of a task has run out of time, or two have crashed or run out of memory, the \
-         rest of the task is not run"
+        "after one item of a task has run out of time, or two have crashed or run out of memory, the \
+         rest of that task isn't run"
             .to_owned(),
     ] {
         assert!(page.contains(&sentence), "the handout lacks: {sentence}");

@@ -6,11 +6,12 @@ use author::items::shares_a_question;
 use author::seed::Seed;
 use glam::Vec3;
 use judging::assignment::RAYS;
-use judging::exam::{ExpectedRows, Item, Key};
+use judging::exam::{ExpectedRows, Item, Key, TreeCheck};
 use judging::scene::{self, QuestionScene};
+use judging::symptom::Symptom;
 use protocol::{Question, Ray, Shape};
 
-use crate::sample_exams::{SEEDS, exam_of};
+use crate::harness::{SEEDS, exam_of};
 
 fn rays(question: &Question) -> impl Iterator<Item = Ray> {
     (0..question.count()).filter_map(|row| scene::ray(question, row))
@@ -60,6 +61,74 @@ fn titles_and_advice_are_sentences_without_code() {
         assert!(look.ends_with(['.', '?']) && !look.contains("  "), "{look}");
         assert!((40..=240).contains(&look.chars().count()), "{look}");
         assert!(!look.contains(';') || !look.contains("()"), "{look}");
+    }
+}
+
+/// Returns the symptoms that an answer to a question can show.
+fn possible_symptoms(key: &Key) -> Vec<Symptom> {
+    let quantity = |judged: &String| match judged.strip_prefix("unit_") {
+        Some(direction) => format!("length of the {direction}"),
+        None => judged.clone(),
+    };
+    let any = |what: &str| Symptom {
+        what: what.to_owned().into(),
+        side: None,
+    };
+    match key {
+        Key::Table { judged, rows, .. } => {
+            let presence = match rows {
+                ExpectedRows::Hits(_) | ExpectedRows::Spans(_) => vec![Symptom::MISS, Symptom::HIT],
+                ExpectedRows::Rays(_) | ExpectedRows::Directions(_) => Vec::new(),
+            };
+            let judged = judged.iter().map(|judged| any(&quantity(judged)));
+            presence.into_iter().chain(judged).collect()
+        }
+        Key::FirstHits { .. } => vec![
+            Symptom::MISS,
+            Symptom::HIT,
+            Symptom::less("depth"),
+            Symptom::more("depth"),
+            Symptom::of("normal"),
+            Symptom::of("uv"),
+        ],
+        Key::Tree { checks, sweep_cost } => {
+            let of_check = |check: &TreeCheck| match check {
+                TreeCheck::Partition => Vec::new(),
+                TreeCheck::Contains => vec![Symptom::of("box too small")],
+                TreeCheck::Tight => vec![Symptom::of("box too large")],
+                TreeCheck::Split => vec![Symptom::less("splits")],
+                TreeCheck::LeafSize => vec![Symptom::of("leaf size")],
+                TreeCheck::Stops => vec![Symptom::more("splits")],
+            };
+            let cost = sweep_cost.map(|_| Symptom::of("SAH cost"));
+            let always = ["nodes", "root", "l", "r", "leaves"].map(Symptom::of);
+            let checks = checks.iter().flat_map(of_check);
+            always.into_iter().chain(cost).chain(checks).collect()
+        }
+        Key::Radiance { .. } => vec![Symptom::of("radiance")],
+    }
+}
+
+#[test]
+fn there_is_advice_for_every_symptom() {
+    for item in &exam_of(SEEDS[0]).items {
+        let clues = &RAYS.info(item.task).clues;
+        let keys = item.questions.iter().map(|question| &question.key);
+        for symptom in keys.flat_map(possible_symptoms) {
+            let has_advice = item.has_look_for(&symptom) || clues.of_symptom(&symptom).is_some();
+            assert!(has_advice, "{}: {symptom:?}", item.id);
+        }
+        for fitting in &item.look_fits {
+            let keys = item.questions.iter().map(|question| &question.key);
+            let mut possible = keys.flat_map(possible_symptoms);
+            let is_possible = possible.any(|it| fitting.includes(&it) || it.includes(fitting));
+            assert!(is_possible, "{} never shows {fitting:?}", item.id);
+        }
+    }
+    for clue in RAYS.tasks.iter().flat_map(|task| task.clues.by_symptom) {
+        let text = clue.clue;
+        assert!(text.ends_with(['.', '?']) && !text.contains("  "), "{text}");
+        assert!((40..=240).contains(&text.chars().count()), "{text}");
     }
 }
 
@@ -153,7 +222,7 @@ fn a_final_exam_shares_no_question_with_the_practice_exam() {
     for exam in finals.map(exam_of) {
         for (item, other) in exam.items.iter().zip(&exam_of(practice).items) {
             assert_ne!(item.questions, other.questions, "{}", item.id);
-            // The path-traced picture is a placeholder here.
+            // The rendered picture is a placeholder here.
             let is_picture = item.id == "traverse.radiance";
             assert!(is_picture || !shares_a_question(item, other), "{}", item.id);
         }

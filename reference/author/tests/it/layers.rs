@@ -1,4 +1,4 @@
-//! The modules of a crate only use each other from top to bottom, in the order of the table in its
+//! Each module of a crate only uses modules that are further down in the table in the crate's
 //! `lib.rs`.
 
 use std::collections::{BTreeMap, BTreeSet};

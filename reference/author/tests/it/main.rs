@@ -2,16 +2,13 @@
 //! students.
 
 mod bundle;
-mod calibration;
 mod cost;
 mod harness;
 mod in_sync;
 mod items;
 mod layers;
-mod mutants;
 mod package;
 mod proof;
-mod sample_exams;
 mod toy;
 mod trees;
 mod workflow;

@@ -6,24 +6,24 @@ use std::sync::LazyLock;
 use author::authoring;
 use author::bundle::archive;
 use author::bundle::secrets::Secrets;
-use author::package::{Course, Platform, collect};
+use author::package::{CourseFiles, Platform, collect};
 use grader::doctor::package::problems;
 use grader::handed_out::RAYS;
 
 use crate::harness::{BUNDLE, author_succeeds, root, text};
 
-/// A course with a substitute for a final exam: the practice exam with a different id.
-static FINAL: LazyLock<Course> = LazyLock::new(|| {
+/// A course whose final exam is the practice exam with a different id.
+static FINAL: LazyLock<CourseFiles> = LazyLock::new(|| {
     let exam = RAYS.practice_exam.replacen("\"practice\"", "\"final\"", 1);
     let exam = Some(exam);
-    Course {
+    CourseFiles {
         exam,
         ..without_exam()
     }
 });
 
-fn without_exam() -> Course {
-    Course::new(&authoring::RAYS, None, None, None).unwrap()
+fn without_exam() -> CourseFiles {
+    CourseFiles::new(&authoring::RAYS, None, None, None).unwrap()
 }
 
 #[test]

@@ -1,5 +1,6 @@
-//! A second assignment works without changing a line of code. The toy goes through the starter, the
-//! exam, its coverage, mistakes and proof, grading, a replay, a class, the bundle and a package.
+//! A second assignment works without changing a line of code. The tests cover the toy's starter,
+//! its exam with coverage, mistakes and proof, grading, a replay, a class, the bundle and a
+//! package.
 //!
 //! `INSTA_UPDATE=always cargo test -p author --test it toy` writes the toy's generated files.
 
@@ -12,7 +13,7 @@ use author::cli::{CheckArgs, Command, MistakesArgs, ProveArgs, RecordArgs};
 use author::commands;
 use author::exams::{final_exam_text, load_practice};
 use author::items::shares_a_question;
-use author::package::{self, Course, Platform};
+use author::package::{self, CourseFiles, Platform};
 use author::starter;
 use class::cli::ClassArguments;
 use class::grade::{Completion, grade_class};
@@ -40,7 +41,7 @@ fn text(path: &str) -> String {
     harness::text(&format!("reference/author/tests/toy/{path}"))
 }
 
-/// Writes a submission with these texts in the folder `NAME/work`.
+/// Writes a submission's two files, with these texts, to the folder `NAME/work`.
 fn write_submission(class: &Path, name: &str, ball: &str, mirror: &str) {
     let work = class.join(name).join("work");
     fs::create_dir_all(&work).unwrap();
@@ -89,7 +90,7 @@ fn the_toy_is_graded_like_any_assignment() {
     );
     assert_eq!(starter.points, 0);
 
-    // A file that doesn't compile only costs its own tasks.
+    // If a file doesn't compile, only its own tasks lose points.
     let broken = grade_texts(
         &solved_ball,
         "struct Mirror; fn reflect() { fn nearest }",
@@ -98,7 +99,7 @@ fn the_toy_is_graded_like_any_assignment() {
     assert_eq!(points(&broken), [40, 0, 0]);
     assert_eq!(broken.build.not_compiled[0].file, "mirror.rs");
 
-    // A wrong ball only costs the first task, thanks to the reference's ball.
+    // With a wrong ball, only the first task loses points, thanks to the reference's ball.
     let far_side = solved_ball.replace("middle - half", "middle + half");
     let wrong_ball = grade_texts(&far_side, &solved_mirror, with_reference);
     assert_eq!(points(&wrong_ball), [0, 20, 40]);
@@ -236,7 +237,7 @@ fn the_bundle_and_the_package_of_the_toy_hold_its_starter_and_no_solution() {
     leaking.insert("handout/src/notes.md", text("solved/src/mirror.rs"));
     assert!(toy_leaks(&secrets, &leaking) > 1);
 
-    let course = Course::new(&TOY, None, None, None).unwrap();
+    let course = CourseFiles::new(&TOY, None, None, None).unwrap();
     let package = package::collect(&root(), TOY.handed_out, Platform::Classroom50, course).unwrap();
     let archive = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
     assert_eq!(

@@ -8,10 +8,9 @@ use judging::assignment::RAYS;
 use judging::exam::Exam;
 use protocol::{Ray, Rows};
 
-use crate::sample_exams::{SEEDS, exam_of};
+use crate::harness::{SEEDS, exam_of};
 
-/// Returns the prebuilt tree of every question with a list of rays: the item's id, the tree and the
-/// rays.
+/// Returns the item's id, the prebuilt tree and the rays of every question that has a list of rays.
 fn trees(exam: &Exam) -> Vec<(&str, Tree, Vec<Ray>)> {
     let questions = exam.items.iter().flat_map(|item| {
         let questions = item.questions.iter();

@@ -1,6 +1,6 @@
 //! The items of the toy. Correct answers are computed from the definitions, in double precision.
 
-use author::domains::{Aspect, FunctionDomain};
+use author::domains::{Aspect, FunctionDomain, not_asked};
 use author::items::{AuthoredTask, Declaration, Group, hits_key, ray};
 use author::oracle::{Ray64, scan};
 use author::seed::Rng;
@@ -12,7 +12,7 @@ use protocol::{Geometry, LocalDirection, Question, Ray, Shape, Table};
 /// The items about balls, where single balls and lists of balls are hit equally often.
 const BALLS: Group = Group("balls");
 
-/// The number of rays that hit and the number that miss.
+/// The number of rays that hit. The same number of rays miss.
 const OF_EACH: usize = 8;
 
 /// The task `ball`.
@@ -97,7 +97,12 @@ static DIRECTIONS: FunctionDomain<LocalDirection> = FunctionDomain {
         };
         table.rows.to_vec().into_owned()
     },
-    not_asked: &[],
+    not_asked: &[not_asked(
+        &["first call"],
+        &["after another subject"],
+        &[],
+        "`reflect` isn't called on a subject.",
+    )],
 };
 
 /// Returns a direction in single precision.

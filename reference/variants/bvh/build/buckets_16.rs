@@ -1,4 +1,4 @@
-// Builds the tree with sixteen buckets over the node's own box.
+// Builds the tree with sixteen buckets over the node's box.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {

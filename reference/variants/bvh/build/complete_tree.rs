@@ -43,8 +43,8 @@ fn fill(
     fill(nodes, r, right, start + left.len(), max_leaf_size);
 }
 
-/// Returns the number of leaves in the left subtree of a complete tree with this many leaves. Its
-/// last level is filled from the left.
+/// Returns the number of leaves in the left subtree of a complete tree with this many leaves. The
+/// tree's last level is filled from the left.
 fn left_leaves(leaves: usize) -> usize {
     let full = 1 << leaves.ilog2();
     full / 2 + (leaves - full).min(full / 2)

@@ -1,5 +1,5 @@
-// Builds the tree with up to 64 chunks of equal numbers of primitives, in the order of their
-// centres, instead of slices of equal width.
+// Builds the tree with up to 64 chunks of equally many primitives, sorted by centre, instead of
+// slices of equal width.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {

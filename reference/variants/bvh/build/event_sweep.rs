@@ -1,5 +1,5 @@
-// Sorts the primitives along each axis once, before building. A sweep over the sorted centres, the
-// events, finds the cheapest split of a node. The three lists are then divided without sorting them
+// Sorts the primitives along each axis once, before building. A sweep over the sorted centres (the
+// events) finds the cheapest split of a node. The three lists are then divided without sorting them
 // again. See Wald and Havran, "On building fast kd-Trees for Ray Tracing, and on doing that in O(N
 // log N)", IEEE Symposium on Interactive Ray Tracing, 2006.
 
@@ -39,8 +39,8 @@ struct Sweep {
 }
 
 impl Sweep {
-    /// Builds the node over some primitives, given by their indices and sorted along each axis.
-    /// Returns the node's index.
+    /// Builds the node over some primitives and returns its index. `events` contains the
+    /// primitives' indices, sorted along each axis.
     fn build_node(&mut self, events: [Vec<usize>; 3]) -> usize {
         let bbox = self.bounds(&events[0]);
         let index = self.nodes.len();

@@ -4,8 +4,8 @@
 impl Bvh {
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes: Vec<Node> = Vec::new();
-        // The primitives of each node that hasn't been created yet, and the parent to store its
-        // index in.
+        // The primitives of each node that hasn't been created yet, and the parent that the node's
+        // index will be stored in.
         let mut open = Vec::new();
         if !primitives.is_empty() {
             open.push((0..primitives.len(), None::<usize>));

@@ -8,7 +8,7 @@ impl Bvh {
         build_top_down(primitives, max_leaf_size, |primitives| {
             let over = bounds_of_centers(primitives);
             let factor = BINS as f32 * (1.0 - 1e-6) / (over.max - over.min);
-            // If all centres coincide along the axis, this is 0 · ∞, which is NaN and becomes bin 0.
+            // If all centres coincide along the axis, this is 0 · ∞: a NaN, which becomes bin 0.
             let bin = |primitive: &Primitive, axis: usize| {
                 ((primitive.bbox().center() - over.min) * factor)[axis] as usize
             };

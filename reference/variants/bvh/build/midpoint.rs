@@ -1,5 +1,5 @@
-// Splits at the midpoint of the axis along which the centres extend farthest. The distribution of
-// the primitives and their areas are ignored.
+// Splits the box of the centres in the middle of its longest axis. The distribution of the
+// primitives and their areas are ignored.
 
 impl Bvh {
     /// Builds the tree by splitting at midpoints.

@@ -1,5 +1,5 @@
-// Pads flat boxes by a small fraction of their diagonal, so that the box test doesn't need a special
-// case for them.
+// Pads flat boxes by a small fraction of their diagonal, so that the box test doesn't need a
+// special case for them.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {

@@ -1,5 +1,5 @@
-// Builds the two subtrees of a large node in two threads. Each returns its own list with the root
-// first. The parent appends the lists and shifts the indices.
+// Builds the two subtrees of a large node in two threads. Each thread returns a list of nodes that
+// begins with the root of its subtree. The parent appends the lists and shifts the indices.
 
 use std::panic::resume_unwind;
 use std::thread;
@@ -14,7 +14,7 @@ impl Bvh {
     }
 }
 
-/// The minimum number of primitives that is worth a thread.
+/// The minimum number of primitives for which starting a thread is worthwhile.
 const WORTH_A_THREAD: usize = 1024;
 
 /// Builds the subtree over `primitives`. The first one is at index `start` in the tree's list.

@@ -34,7 +34,7 @@ fn split(primitives: Vec<Primitive>) -> (Vec<Primitive>, Vec<Primitive>) {
     split_into(primitives, 12)
 }
 
-/// Does the same with this many bins along each axis.
+/// Splits primitives like [`split`], with this many bins along each axis.
 fn split_into(mut primitives: Vec<Primitive>, bins: usize) -> (Vec<Primitive>, Vec<Primitive>) {
     let mut centers = BBox::EMPTY;
     for primitive in &primitives {

@@ -48,8 +48,8 @@ impl Bvh {
     }
 }
 
-/// Returns up to four descendants of a node. While there are fewer, replaces the interior node with
-/// the largest box with its children.
+/// Returns up to four descendants of a node. While there are fewer than four, replaces the interior
+/// node that has the largest box with its children.
 fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     if node.is_leaf() {
         return Vec::new();

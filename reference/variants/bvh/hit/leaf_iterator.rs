@@ -1,5 +1,5 @@
-// Traverses the tree with an iterator over the leaves that the ray hits, from near to far, and takes
-// leaves while they begin before the closest hit.
+// Traverses the tree with an iterator over the leaves that the ray hits, from near to far, and
+// takes leaves as long as the ray enters them before the closest hit.
 
 use std::iter;
 
@@ -17,7 +17,7 @@ impl Bvh {
             .unwrap_or_else(|closest| closest)
     }
 
-    /// Returns the leaves whose boxes the ray hits with their entry distances, from near to far.
+    /// Returns the leaves whose boxes the ray hits, from near to far, with their entry distances.
     fn leaves<'a>(&'a self, ray: &'a Ray) -> impl Iterator<Item = (f32, &'a Node)> {
         let entered = |index: usize| {
             let node = self.nodes.get(index)?;

@@ -1,7 +1,8 @@
 // Never tests a primitive twice for one ray, even if it is in several leaves of a tree. A mailbox
-// contains the number of the last ray that tested its primitive. Every call has its own number, and
-// missing mailboxes are added, so that no answer depends on earlier rays or other trees. See
-// Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987.
+// contains the number of the last ray that was tested against its primitive. Every call has its own
+// number, and missing mailboxes are added, so that no answer depends on earlier rays or other
+// trees. See Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics
+// 1987.
 
 use std::cell::RefCell;
 
@@ -27,7 +28,8 @@ impl Mail {
         self.boxes.resize(count, 0);
     }
 
-    /// Returns whether the ray hasn't tested this primitive yet, and marks it as tested.
+    /// Returns whether the ray hasn't been tested against this primitive yet, and marks the
+    /// primitive as tested.
     fn is_new(&mut self, primitive: usize) -> bool {
         std::mem::replace(&mut self.boxes[primitive], self.ray) != self.ray
     }

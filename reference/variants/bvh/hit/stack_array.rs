@@ -1,5 +1,5 @@
-// Traverses the tree with a stack of fixed size in an array. The size is a const parameter of its
-// type.
+// Traverses the tree with a stack of fixed size in an array. The size is a const parameter of the
+// stack's type.
 
 impl Bvh {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,5 +1,5 @@
-/// Returns a function for the buckets of primitives: `count` buckets divide the box `over` along each
-/// axis.
+/// Returns a function that assigns a primitive to one of `count` equally large buckets, which
+/// divide the box `over` along an axis.
 fn bucket_in(over: BBox, count: usize) -> impl Fn(&Primitive, usize) -> usize {
     move |primitive, axis| {
         let offset = primitive.bbox().center()[axis] - over.min[axis];

@@ -1,4 +1,4 @@
-/// Returns the cost of each split of sorted primitives, with the size of its left side.
+/// Returns the size of the left side and the cost for each way to split the sorted primitives.
 fn sweep_costs(sorted: &[Primitive]) -> Vec<(usize, f32)> {
     let left = areas(sorted.iter());
     let mut right = areas(sorted.iter().rev());
@@ -11,7 +11,7 @@ fn sweep_costs(sorted: &[Primitive]) -> Vec<(usize, f32)> {
     sizes.map(|first| (first, cost(first))).collect()
 }
 
-/// Returns the area of the box around the first n primitives, for each n from 0.
+/// Returns the area of the box around the first n primitives for each n, starting at n = 0.
 fn areas<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Vec<f32> {
     let mut bbox = BBox::EMPTY;
     let boxes = primitives.map(|primitive| {

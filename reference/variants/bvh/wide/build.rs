@@ -42,7 +42,7 @@ impl Bounds {
         bounds
     }
 
-    /// Returns the box of the items' centres, with all coordinates doubled.
+    /// Returns the box around the items' centres, with all coordinates doubled.
     fn of_centers(items: &[Item]) -> Bounds {
         let mut centers = Bounds::empty();
         for item in items {
@@ -75,7 +75,7 @@ impl Bounds {
     }
 }
 
-/// The bounds of a primitive or of a piece of one, for building.
+/// The bounds of a primitive or of a piece of one, used during the build.
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
@@ -128,7 +128,7 @@ impl Bucket {
     }
 }
 
-/// A builder of binary trees by binned SAH over all three axes at once.
+/// A builder of binary trees that uses binned SAH over all three axes at once.
 struct Builder {
     items: Vec<Item>,
     nodes: Vec<Node>,
@@ -155,8 +155,8 @@ impl Builder {
 }
 
 /// Partitions the items in place by the cheapest split and returns the size of the left side.
-/// Larger nodes are divided into more slices. There, evaluating the splits takes little time
-/// compared to counting the items, and the choice of the split matters most.
+/// Larger nodes are divided into more slices. In these nodes, evaluating the splits takes little
+/// time compared to counting the items, and the choice of the split matters most.
 fn partition(items: &mut [Item], centers: Bounds) -> usize {
     match items.len() {
         0..512 => partition_in::<16>(items, centers),
@@ -165,7 +165,7 @@ fn partition(items: &mut [Item], centers: Bounds) -> usize {
     }
 }
 
-/// Partitions with `SLICES` slices of the centres along each axis.
+/// Partitions the items, dividing the box of the centres into `SLICES` slices along each axis.
 fn partition_in<const SLICES: usize>(items: &mut [Item], centers: Bounds) -> usize {
     let extent = (centers.upper - centers.lower).to_array();
     // Along an axis with little or no extent, all items are in the first slice.

@@ -19,7 +19,7 @@ struct Collapser<'a> {
 #[derive(Clone, Copy, Default)]
 struct Plan {
     /// `costs[n]` is the cost of this subtree when it is collapsed into at most n children of a
-    /// wide ancestor, for n from 1.
+    /// wide ancestor. n is at least 1.
     costs: [f32; 8],
     /// `sides[n]` contains the numbers of these children that come from the left and from the right
     /// subtree. Both are 0 if the whole subtree is one child.
@@ -149,7 +149,7 @@ impl<'a> Collapser<'a> {
         to_u32(start)
     }
 
-    /// Writes the pack of a leaf and returns its first line.
+    /// Writes the pack for a leaf and returns the pack's first line.
     fn write_leaf(&mut self, index: usize) -> u32 {
         let Node { start, size, .. } = self.nodes[index];
         // Takes each primitive once, even if the leaf contains several pieces of that primitive.

@@ -1,6 +1,6 @@
 // The contents of a pack: spheres, or triangles with at most eight distinct corners.
 
-/// Returns the registers for a pack of spheres, given their indices.
+/// Returns the registers for a pack of the spheres with these indices.
 fn sphere_registers(indices: impl Iterator<Item = u32>) -> [[u32; 8]; 4] {
     let (mut lanes, mut words) = ([NO_SPHERE; 8], [Word::default(); 8]);
     for (lane, index) in lanes.iter_mut().zip(indices) {

@@ -1,4 +1,4 @@
-// The wide nodes in memory, and testing a ray with eight boxes.
+// The wide nodes in memory, and the test of a ray against eight boxes.
 
 /// A ray, copied to all lanes.
 struct WideRay {
@@ -18,7 +18,7 @@ impl WideRay {
     const MIN_COMPONENT: f32 = 1e-30;
 
     /// A factor that makes up for the rounding error of exit distances so that no box is missed.
-    /// Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition), section 6.1.2.
+    /// See Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition), section 6.1.2.
     const EXIT_PADDING: f32 = 1.000_000_4;
 
     fn new(ray: &Ray) -> Self {
@@ -78,7 +78,7 @@ impl<'a> WideNode<'a> {
     }
 }
 
-/// Returns `N` lines from `start` on.
+/// Returns `N` lines, beginning at `start`.
 fn lines_at<const N: usize>(lines: &[CacheLine], start: u32) -> &[CacheLine; N] {
     lines[start as usize..][..N]
         .try_into()

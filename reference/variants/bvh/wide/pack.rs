@@ -1,4 +1,4 @@
-// The leaves in memory, and testing a ray with eight triangles.
+// The leaves in memory, and the test of a ray against eight triangles.
 
 /// A leaf with up to eight triangles, or with the indices of up to eight spheres.
 ///
@@ -8,8 +8,8 @@
 /// hits.
 struct Pack<'a>(&'a [CacheLine; Pack::LINES]);
 
-/// A packed word of a triangle: three times three bits for the lanes of its corners, 22 bits of
-/// extra data, and a flag.
+/// A word that describes a triangle. It packs the lanes of the three corners (three bits each), 22
+/// bits of extra data, and a flag.
 #[derive(Clone, Copy, Default)]
 struct Word(u32);
 
@@ -123,7 +123,7 @@ impl<'a> Pack<'a> {
         })
     }
 
-    /// Tests eight triangles by Möller and Trumbore's algorithm and returns the closest hit up to
+    /// Tests eight triangles with Möller and Trumbore's algorithm and returns the closest hit up to
     /// `max`.
     fn hit(&self, wide_ray: &WideRay, max: f32) -> Option<PackHit> {
         let [p0, p1, p2] = self.corners();
@@ -205,8 +205,8 @@ impl Surface {
         }
     }
 
-    /// Returns the normal, texture coordinates and number of the shape at a point, given the weights of two
-    /// corners.
+    /// Returns the normal, the texture coordinates and the shape's number at a point, given the
+    /// weights of two corners.
     fn interpolate(&self, u: f32, v: f32) -> (Vec3, Vec2, u32) {
         let w = 1.0 - u - v;
         let [n0, n1, n2] = self.normals;

@@ -21,7 +21,7 @@ impl StackEntry {
     }
 }
 
-/// The children to visit, the nearest last.
+/// The children to visit. The nearest comes last.
 struct Stack {
     entries: [StackEntry; Stack::SIZE],
     len: usize,
@@ -43,7 +43,7 @@ impl Stack {
         }
     }
 
-    /// Makes room for the children of one more node. Returns the index of the first of them.
+    /// Makes room for one more node's children. Returns the index of the first child.
     fn reserve_eight(&mut self) -> usize {
         if self.len > Stack::SIZE - 8 {
             self.overflow.extend_from_slice(&self.entries[..self.len]);
@@ -52,7 +52,7 @@ impl Stack {
         self.len
     }
 
-    /// Inserts an entry into the entries from `base` on, which are sorted.
+    /// Inserts an entry into the sorted entries that begin at `base`.
     fn insert(&mut self, base: usize, entry: StackEntry) {
         let mut index = self.len;
         while index > base && self.entries[(index - 1) % Stack::SIZE] < entry {

@@ -1,5 +1,5 @@
 // A wide BVH that tests eight boxes or eight triangles at a time. The binary tree, built here or
-// given by the caller, is collapsed into nodes with eight children, and the triangles of each leaf
+// passed by the caller, is collapsed into nodes with eight children, and the triangles of each leaf
 // are stored together in a pack. This follows Wald, Benthin and Boulos, "Getting Rid of Packets",
 // 2008, and Embree's `BVH8<Triangle4>`.
 //
@@ -14,8 +14,8 @@
 //   first, so only that plane is used to compute the entry distance.
 // - The shading data of a triangle is in one cache line. For a flat triangle, it is computed from
 //   the corners, so nothing else is read.
-// - For a tree built here, traversal uses a different tree than `nodes`, where large triangles may
-//   be split into pieces.
+// - When the tree is built here, traversal doesn't use `nodes` but a different tree, in which large
+//   triangles may be split into pieces.
 
 use glam::{Vec2, Vec3};
 use protocol::{Interval, Shape};
@@ -30,7 +30,7 @@ pub struct Bvh {
     pub primitives: Vec<Primitive>,
     pub nodes: Vec<Node>,
     pub root: usize,
-    /// The wide tree with its root first, or empty without primitives.
+    /// The wide tree with its root first. Empty if there are no primitives.
     lines: Vec<CacheLine>,
     /// Shading data of the triangles in each pack, unless all triangles of the pack are flat.
     surfaces: Vec<Surface>,
@@ -152,8 +152,8 @@ impl Bvh {
     }
 
     /// Prefetches a child and the memory behind it. The child is likely to be visited, though
-    /// perhaps not immediately, followed by that memory: the first packs of a node, or the
-    /// neighbours of a pack.
+    /// perhaps not immediately. The memory behind it is likely to be read after that: it contains
+    /// the first packs of a node, or the neighbours of a pack.
     fn prefetch(&self, child: u32) {
         const LINES: usize = WideNode::LINES + 2 * Pack::LINES;
         let start = (child & !LEAF) as usize;
@@ -205,12 +205,12 @@ struct ClosestHit {
 /// The primitive of the closest hit.
 enum HitPrimitive {
     None,
-    /// A sphere, given by its index in [`Bvh::primitives`].
+    /// A sphere, identified by its index in [`Bvh::primitives`].
     Sphere {
         index: u32,
     },
-    /// A triangle, given by the index of its pack's first cache line and by its lane in the pack.
-    /// `u` and `v` are the barycentric weights of its second and third corners.
+    /// A triangle, identified by the index of its pack's first cache line and by its lane in the
+    /// pack. `u` and `v` are the barycentric weights of its second and third corners.
     Triangle {
         pack: u32,
         lane: usize,

@@ -1,6 +1,6 @@
 impl Triangle {
-    /// Solves the three equations u·e1 + v·e2 − t·d = s by Cramer's rule. `det` returns the determinant
-    /// of the matrix with three columns.
+    /// Solves the three equations u·e1 + v·e2 − t·d = s by Cramer's rule. `det` returns the
+    /// determinant of the matrix with these three columns.
     fn cramer(
         &self,
         ray: &Ray,

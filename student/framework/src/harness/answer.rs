@@ -3,9 +3,10 @@
 use protocol::{Answer, ElementOutcome, Question};
 
 use crate::harness::attempt::{AttemptsAtTable, attempt};
-use crate::render::integrator::{RenderSettings, render};
+use crate::render::clay::Clay;
+use crate::render::renderer::render;
 use crate::scene::Scene;
-use crate::submission::Submission;
+use crate::submission::{Submission, World};
 
 /// Returns a submission's answer to a question.
 pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answer {
@@ -19,7 +20,8 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
                 let (primitives, max) = (shapes.len(), Question::max_nodes(shapes.len()));
                 assert!(
                     tree.nodes.len() <= max && tree.order.len() <= max,
-                    "the tree over {primitives} primitives has {} nodes and {} primitives: too many",
+                    "the tree is too large: it was built from {primitives} primitives, but has {} \
+                     nodes and stores {} primitives",
                     tree.nodes.len(),
                     tree.order.len(),
                 );
@@ -31,25 +33,21 @@ pub fn answer_question(submission: &dyn Submission, question: &Question) -> Answ
             scene,
             film,
             samples,
-            bounces,
             seed,
-        } => {
-            let settings = RenderSettings {
-                film: *film,
-                samples: *samples,
-                bounces: *bounces,
-                seed: *seed,
-            };
-            Answer::Picture(match Scene::from_text(scene) {
-                Ok(scene) => attempt(|| render(submission, &scene, &settings)).into(),
-                // This isn't the submission's fault, so it must not look like a wrong answer or a
-                // panic. The grader reports the missing answer.
-                Err(error) => {
-                    eprintln!("error in the exam's scene: {error}");
-                    ElementOutcome::Skipped
-                }
+        } => Answer::Picture(match Scene::from_text(scene) {
+            Ok(scene) => attempt(|| {
+                let scene = scene.on_film(*film);
+                let world = World::new(submission, &scene);
+                render(&Clay::new(&scene, &world, *seed), *film, *samples)
             })
-        }
+            .into(),
+            // This isn't the submission's fault, so it must not look like a wrong answer or a
+            // panic. The grader reports the missing answer.
+            Err(error) => {
+                eprintln!("error in the exam's scene: {error}");
+                ElementOutcome::Skipped
+            }
+        }),
         other => {
             let table = other.table().expect("every other question is a table");
             table.answer(submission, &mut AttemptsAtTable::default())

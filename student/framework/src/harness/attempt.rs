@@ -7,8 +7,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 use protocol::{Attempts, ElementOutcome, Panic};
 
 thread_local! {
-    /// The location of this thread's last panic. Only the panic hook learns the location, and only
-    /// [`attempt`] can report it.
+    /// The location of this thread's last panic. Only the panic hook receives the location, and
+    /// only [`attempt`] can report it.
     static LOCATION: RefCell<String> = const { RefCell::new(String::new()) };
     /// Whether this thread is inside an [`attempt`].
     static ATTEMPTING: Cell<bool> = const { Cell::new(false) };
@@ -40,7 +40,7 @@ pub fn attempt<T>(code: impl FnOnce() -> T) -> Result<T, Panic> {
     })
 }
 
-/// Attempts the calls of one table. After [`Panic::MAX_PER_QUESTION`] panics, the remaining calls
+/// Attempts the calls in one table. After [`Panic::MAX_PER_QUESTION`] panics, the remaining calls
 /// are skipped. Otherwise, a stub would panic twenty thousand times for one picture.
 #[derive(Debug, Default)]
 pub struct AttemptsAtTable {
@@ -67,7 +67,7 @@ fn panic_message(payload: &(dyn Any + Send)) -> &str {
         .unwrap_or("a panic without a message")
 }
 
-/// Truncates a text to [`Panic::MAX_TEXT_BYTES`], at a character boundary.
+/// Truncates text to [`Panic::MAX_TEXT_BYTES`], at a character boundary.
 fn truncate(text: &str) -> String {
     text[..text.floor_char_boundary(Panic::MAX_TEXT_BYTES)].to_owned()
 }

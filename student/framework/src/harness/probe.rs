@@ -26,9 +26,9 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     run(|questions, answers| serve(submission, questions, answers))
 }
 
-/// Runs `serve` with the pipe of questions and the pipe of answers, on a thread with a large stack.
-/// Returns the exit code of the process. Panics in an [`attempt`](crate::harness::attempt::attempt)
-/// print nothing.
+/// Runs `serve` with the pipes for questions and answers, on a thread with a large stack. Returns
+/// the exit code of the process. Panics in an [`attempt`](crate::harness::attempt::attempt) print
+/// nothing.
 pub fn run(serve: impl FnOnce(File, File) -> Result<(), WireError> + Send) -> ExitCode {
     end_with_the_grader();
     let (questions, answers) = match claim_standard_streams() {

@@ -20,8 +20,8 @@ pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     Ok((File::from(questions), File::from(answers)))
 }
 
-/// Does the same on Windows. The standard library looks up its streams at each use, so it uses the
-/// redirected streams.
+/// The same function for Windows. The standard library looks up its streams at each use, so it uses
+/// the redirected streams.
 #[cfg(windows)]
 pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     use filedescriptor::{FileDescriptor, Pipe, StdioDescriptor};
@@ -37,7 +37,7 @@ pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
 }
 
 /// Makes the operating system kill this process when the grader ends, however the grader ends.
-/// Otherwise, an endless loop would run on for minutes after a Ctrl-C. A sandbox may forbid this
+/// Otherwise, an infinite loop would run on for minutes after a Ctrl-C. A sandbox may forbid this
 /// call, but then the sandbox itself ends the process when the grader ends.
 #[cfg(target_os = "linux")]
 pub(crate) fn end_with_the_grader() {

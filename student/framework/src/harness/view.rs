@@ -8,6 +8,8 @@ use protocol::{Trace, Tree};
 pub enum ViewMode {
     /// The scene with its lighting.
     Shaded,
+    /// The shapes in clay, without materials and lights: dark where they are close to each other.
+    Clay,
     /// `Trace::normal`: x, y and z from −1 to 1 as red, green and blue.
     Normals,
     /// `Trace::distance`: the nearest hit is white, the farthest almost black.
@@ -28,8 +30,8 @@ const RELATIVE_TOLERANCE: f32 = 1e-4;
 const MAX_STEPS: usize = 4096;
 
 /// Computes the colour of each pixel from its first hit. Pixels without a hit, or with a value that
-/// isn't finite, are black. For `Shaded`, all pixels are black. `extent` is the largest coordinate
-/// in the scene.
+/// isn't finite, are black. For `Shaded` and `Clay`, all pixels are black. `extent` is the largest
+/// coordinate in the scene.
 pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32) -> Vec<Vec3> {
     let each = |colour: &dyn Fn(&Trace) -> Vec3| {
         let pixel = |hit: &Option<Trace>| hit.as_ref().map_or(Vec3::ZERO, colour);
@@ -38,7 +40,7 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32)
         pixels.map(finite).collect()
     };
     match view {
-        ViewMode::Shaded => vec![Vec3::ZERO; hits.len()],
+        ViewMode::Shaded | ViewMode::Clay => vec![Vec3::ZERO; hits.len()],
         ViewMode::Normals => each(&|hit| hit.normal.normalize() * 0.5 + 0.5),
         ViewMode::Uv => each(&|hit| (hit.uv - hit.uv.floor()).extend(0.0)),
         ViewMode::Depth => {
@@ -47,7 +49,7 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32)
             let (near, far) = finite.fold((f32::INFINITY, 0.0_f32), |(near, far), distance| {
                 (near.min(distance), far.max(distance))
             });
-            // Not zero: if all hits are at the same distance, they are all white.
+            // The span isn't zero: if all hits are at the same distance, they are all white.
             let span = (far - near).max(f32::MIN_POSITIVE);
             each(&|hit| Vec3::splat(1.0 - 0.95 * (hit.distance - near) / span))
         }
@@ -66,13 +68,13 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32)
 
 /// Returns the unchanged value of each pixel's first hit, for files that store numbers: normals,
 /// distances, or u and v. Without a hit, the distance is infinite and other values are zero.
-/// Returns `None` for `Shaded` and `Bvh`, which don't show a value of the hit.
+/// Returns `None` for the views that don't show a value of the hit.
 pub fn raw_values(view: ViewMode, hits: &[Option<Trace>]) -> Option<Vec<Vec3>> {
     let (miss, value): (Vec3, fn(&Trace) -> Vec3) = match view {
         ViewMode::Normals => (Vec3::ZERO, |hit| hit.normal),
         ViewMode::Depth => (Vec3::INFINITY, |hit| Vec3::splat(hit.distance)),
         ViewMode::Uv => (Vec3::ZERO, |hit| hit.uv.extend(0.0)),
-        ViewMode::Shaded | ViewMode::Bvh => return None,
+        ViewMode::Shaded | ViewMode::Clay | ViewMode::Bvh => return None,
     };
     let of_pixel = |hit: &Option<Trace>| hit.as_ref().map_or(miss, value);
     Some(hits.iter().map(of_pixel).collect())
@@ -87,7 +89,7 @@ struct TreeLocation {
     leaf: u32,
 }
 
-/// Finds the boxes that contain `point`, with this tolerance. This doesn't trace a ray, which is
+/// Finds the boxes that contain `point`, within this tolerance. This doesn't trace a ray, which is
 /// the submission's task. If the tree is invalid or very deep, the result only covers part of it.
 fn locate(tree: &Tree, point: Vec3, tolerance: f32) -> TreeLocation {
     let mut found = TreeLocation::default();

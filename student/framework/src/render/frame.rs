@@ -33,6 +33,11 @@ impl Frame {
     pub(crate) fn to_world(self, v: Vec3) -> Vec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
+
+    /// Converts a direction from world space to this frame.
+    pub(crate) fn to_local(self, v: Vec3) -> Vec3 {
+        Vec3::new(v.dot(self.x), v.dot(self.y), v.dot(self.z))
+    }
 }
 
 /// Samples a direction in the hemisphere around +z with the density cosine / π, from two random

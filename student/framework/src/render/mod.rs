@@ -1,7 +1,11 @@
-//! The path tracer: how a pixel gets its colour.
+//! Rendering: how a pixel gets its colour.
 
+pub mod clay;
 pub mod film;
 mod frame;
 pub mod integrator;
 pub mod light;
+mod offset;
+pub mod renderer;
 pub mod sampler;
+mod tracer;

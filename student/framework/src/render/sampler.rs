@@ -11,16 +11,33 @@ use glam::{UVec2, Vec2, vec2};
 /// The decision that a random number is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// To choose the position within the pixel.
+    /// The position within the pixel.
     Pixel,
-    /// To choose the light to sample.
+    /// The light to sample.
     Light,
-    /// To choose the point on that light.
+    /// The point on that light.
     PointOnLight,
-    /// To choose the direction a matte surface scatters the path in.
+    /// The direction in which a matte surface scatters the path.
     Direction,
-    /// To choose whether glass reflects or refracts.
+    /// Whether glass reflects or refracts.
     ReflectOrRefract,
+    /// Whether the path goes on.
+    Survival,
+}
+
+/// The random numbers of one bounce, each in `[0, 1)`. Each is used only once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RandomNumbers {
+    /// The light to sample.
+    pub(crate) light: f32,
+    /// The point on that light.
+    pub(crate) on_light: Vec2,
+    /// The direction in which a matte surface scatters the path.
+    pub(crate) scatter: Vec2,
+    /// Whether glass reflects or refracts.
+    pub(crate) reflect: f32,
+    /// Whether the path goes on.
+    pub(crate) survive: f32,
 }
 
 /// The random numbers of one path.
@@ -47,6 +64,17 @@ impl Sampler {
         let decision = u64::from(bounce) << 32 | purpose as u64;
         let bits = mix(self.key ^ decision);
         vec2(unit((bits >> 32) as u32), unit(bits as u32))
+    }
+
+    /// Returns the random numbers of a bounce.
+    pub(crate) fn numbers(&self, bounce: u32) -> RandomNumbers {
+        RandomNumbers {
+            light: self.one(bounce, Purpose::Light),
+            on_light: self.pair(bounce, Purpose::PointOnLight),
+            scatter: self.pair(bounce, Purpose::Direction),
+            reflect: self.one(bounce, Purpose::ReflectOrRefract),
+            survive: self.one(bounce, Purpose::Survival),
+        }
     }
 }
 

@@ -41,12 +41,13 @@ impl Camera {
             "up",
         ])?;
         let vertical_fov = keys.required("vertical_fov", |value| {
-            let expected = "a number of degrees above 0 and below 180";
+            let expected = "an angle in degrees, greater than 0 and less than 180";
             value.number(expected, |degrees| degrees > 0.0 && degrees < 180.0)
         })?;
         let film = keys.required("film", |value| {
-            let expected =
-                format!("two whole numbers from 1 to {MAX_FILM_SIDE}, the pixels across and up");
+            let expected = format!(
+                "two whole numbers from 1 to {MAX_FILM_SIDE}: the width and height in pixels"
+            );
             let is_valid = |side: &u32| (1..=MAX_FILM_SIDE).contains(side);
             value.parsed(&expected, |film: &[u32; 2]| film.iter().all(is_valid))
         })?;

@@ -23,7 +23,7 @@ pub struct SceneError {
     file: Option<PathBuf>,
     /// The position in the file, if known.
     pub(super) position: Option<TextPosition>,
-    /// Why the scene is invalid and how to fix it.
+    /// Says why the scene is invalid and how to fix it.
     pub(super) message: String,
 }
 
@@ -48,7 +48,7 @@ impl SceneError {
 }
 
 impl TextPosition {
-    /// Creates the position at a line and a column of a text, both starting at 1.
+    /// Creates the position at a line and a column of `text`, both starting at 1.
     pub(super) fn new(text: &str, line: usize, column: usize) -> Self {
         let text = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
         TextPosition {

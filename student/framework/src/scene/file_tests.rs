@@ -67,12 +67,12 @@ fn an_error_in_a_mesh_names_both_files() {
     let missing = "s.json:5:25: mesh: a.obj: cannot read the file: ";
     check(&scene, missing);
     folder.write("a.obj", SQUARE.replace("f 1 2 3 4", "f 1 2 9"));
-    let line = "s.json:5:25: mesh: a.obj:5: there is no position 9: the indices are 1 to 4\n    \
+    let line = "s.json:5:25: mesh: a.obj:5: there is no position 9: the indices go from 1 to 4\n    \
                 5 | f 1 2 9";
     check(&scene, line);
     folder.write("a.obj", SQUARE);
     let small = folder.write("small.json", scene_with(r#", "scale": 1e-30"#));
-    let no_area = "small.json:5:25: no triangle of the mesh has an area";
+    let no_area = "small.json:5:25: every triangle of the mesh has zero area";
     check(&small, no_area);
     folder.write("a.obj", SQUARE.replace("v 1 1 0", "v 1e5 1 0"));
     let large = folder.write("large.json", scene_with(r#", "scale": 1e6"#));
@@ -127,4 +127,45 @@ fn every_scene_in_the_scenes_folder_loads() {
     }
     let text = fs::read_to_string(scenes.join("cornell-box.json")).expect("the scene exists");
     Scene::from_text(&text).expect("the scene uses no other file");
+}
+
+#[test]
+fn an_environment_map_is_read_from_an_hdr_file_and_what_is_wrong_with_it_is_named() {
+    let with_map = |map: &str| {
+        let entry = format!(r#""environment": {{ "map": "{map}", "scale": 2 }}, "materials""#);
+        let text = scene_with("").replace("\"materials\"", &entry);
+        text.replace("a.obj", "b.obj")
+    };
+    // Two rows of four pixels: red, green, blue and an exponent, without compression.
+    let hdr = |pixels: [[u8; 4]; 8]| {
+        let header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+        [header.as_slice(), pixels.as_flattened()].concat()
+    };
+    let folder = Folder::new();
+    folder.write("b.obj", SQUARE);
+    let mut pixels = [[128, 128, 128, 129]; 8];
+    pixels[5] = [128, 0, 0, 131];
+    folder.write("sky.hdr", hdr(pixels));
+    let scene = Scene::load(&folder.write("s.json", with_map("sky.hdr")));
+    let scene = scene.expect("the scene is valid");
+    // +x is in the first column, and the second row is below the horizon.
+    let below = glam::vec3(0.0, -0.1, 1.0).normalize();
+    assert_eq!(
+        scene.environment.radiance(glam::Vec3::Y),
+        glam::Vec3::splat(2.0)
+    );
+    assert_eq!(scene.environment.radiance(below), glam::vec3(8.0, 0.0, 0.0));
+
+    folder.write("black.hdr", hdr([[0; 4]; 8]));
+    folder.write("short.hdr", &hdr(pixels)[..50]);
+    folder.write("sky.png", [0; 4]);
+    for (map, why) in [
+        ("black.hdr", "black.hdr: the map is black"),
+        ("short.hdr", "short.hdr: the file is damaged"),
+        ("sky.png", "sky.png: a map is an HDR or EXR file"),
+        ("none.hdr", "none.hdr: cannot read the file"),
+    ] {
+        let scene = folder.write("s.json", with_map(map));
+        check(&scene, &format!("s.json:3:27: {why}"));
+    }
 }

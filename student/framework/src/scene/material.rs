@@ -74,7 +74,7 @@ impl Material {
                     .required("radiance", Value::radiance)?,
             },
             name => {
-                let problem = "there is no kind of material";
+                let problem = "unknown kind of material";
                 return Err(kind.unknown(problem, name, ("the kinds are", &KINDS)));
             }
         })

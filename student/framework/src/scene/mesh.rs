@@ -11,12 +11,12 @@ use crate::math::sin_cos;
 pub(super) struct Face {
     pub(super) corners: [Vec3; 3],
     pub(super) uv: [Vec2; 3],
-    /// The normals at the corners. `None` if the file has no normals. The triangle is then flat.
+    /// The normals at the corners. `None` if the file contains no normals. The triangle is then flat.
     pub(super) normals: Option<[Vec3; 3]>,
 }
 
-/// The position of a mesh in the scene. It is scaled, rotated about the x-, y- and z-axes in this
-/// order, and then translated.
+/// The position of a mesh in the scene. It is scaled, then rotated about the x-axis, the y-axis and
+/// the z-axis, and finally translated.
 pub(super) struct Transform {
     pub(super) scale: f32,
     /// The angles about the x-, y- and z-axes, in degrees.
@@ -52,15 +52,16 @@ impl Transform {
             triangles.push([0, 1, 2].map(|i| Vertex::new(corners[i], normals[i], face.uv[i])));
         }
         if triangles.is_empty() {
-            let message = "no triangle of the mesh has an area, so no ray can hit it: use another \
-                           mesh or `scale`";
+            let message = "every triangle of the mesh has zero area, so no ray can hit it: use \
+                           a different mesh or a different `scale`";
             return Err(message.to_owned());
         }
         Ok(triangles)
     }
 }
 
-/// Returns the rotation about the x-, y- and z-axes, in this order, by angles in degrees.
+/// Returns the rotation about first the x-axis, then the y-axis and then the z-axis, by angles in
+/// degrees.
 fn rotation(degrees: Vec3) -> Mat3 {
     let [(sx, cx), (sy, cy), (sz, cz)] = degrees.to_array().map(|a| sin_cos(a.to_radians()));
     let x = Mat3::from_cols_array_2d(&[[1.0, 0.0, 0.0], [0.0, cx, sx], [0.0, -sx, cx]]);

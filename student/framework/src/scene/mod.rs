@@ -1,9 +1,10 @@
 //! Scenes: a camera, materials, shapes and the light of the environment.
 //!
-//! A scene is plain data, read from a JSON file by the module `read`. A submission converts it to its
-//! own types.
+//! A scene is plain data, read from a JSON file by the module `read`. A submission converts it to
+//! its own types.
 
 mod camera;
+mod environment;
 mod error;
 mod material;
 mod mesh;
@@ -23,6 +24,7 @@ use glam::{UVec2, Vec3};
 use protocol::Shape;
 
 pub use camera::{Camera, Placement};
+pub use environment::{Environment, EnvironmentMap};
 pub use error::SceneError;
 pub use material::Material;
 
@@ -41,8 +43,8 @@ pub struct Scene {
     pub about: String,
     /// The camera and its position in the scene.
     pub camera: Camera,
-    /// The radiance of the environment, which is visible where no shape is.
-    pub environment: Vec3,
+    /// The light of the environment, which is visible where no shape is.
+    pub environment: Environment,
     /// The materials, indexed by `shape_materials`.
     pub materials: Vec<Material>,
     /// All shapes, in world space. Meshes are converted to triangles. Each shape's number is its
@@ -58,11 +60,18 @@ impl Scene {
     /// Parses a scene from the text of a scene file that uses no other files.
     ///
     /// # Errors
-    /// Fails if the text isn't a valid scene, or if the scene uses a mesh.
+    /// Fails if the text isn't a valid scene, or if the scene uses a mesh or an environment map.
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
-        let message = "meshes are separate files, so only a scene that is read from a file can use \
-                       one";
-        read::scene(text, &|_| Err(message.to_owned())).map(|(scene, _)| scene)
+        let message = |what: &str| {
+            format!(
+                "{what} are separate files, so only a scene that is read from a file can use one"
+            )
+        };
+        let load = read::LoadFiles {
+            mesh: &|_| Err(message("meshes")),
+            map: &|_, _| Err(message("environment maps")),
+        };
+        read::scene(text, &load).map(|(scene, _)| scene)
     }
 
     /// Loads a scene from a file. Paths of meshes are relative to the file's folder.
@@ -89,8 +98,13 @@ impl Scene {
         }
         let text = text_file::read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let load =
+        let mesh =
             |file: &str| obj::load(&folder.join(file)).map_err(|error| format!("mesh: {error}"));
+        let map = |file: &str, scale: f32| EnvironmentMap::load(&folder.join(file), scale);
+        let load = read::LoadFiles {
+            mesh: &mesh,
+            map: &map,
+        };
         read::scene(&text, &load).map_err(|error| error.in_file(path))
     }
 

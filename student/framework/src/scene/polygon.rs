@@ -8,10 +8,10 @@ use super::triangulate::{fan, triangulate};
 use super::value::{Object, Value};
 
 /// The maximum distance of a point from the plane of the polygon, relative to the polygon's size.
-/// It is large enough to allow rounded coordinates, but too small to allow a visible bend.
+/// It is large enough to allow for rounded coordinates, but too small to allow a visible bend.
 const FLATNESS_TOLERANCE: f64 = 1e-3;
 
-/// Reads the entry of a polygon and splits it into triangles.
+/// Reads a polygon's entry and splits the polygon into triangles.
 pub(super) fn read(keys: &Object) -> Result<Vec<[Vertex; 3]>, SceneError> {
     let list = keys.value("points")?;
     let points = list.list(Value::point)?;
@@ -35,15 +35,16 @@ pub(super) fn read(keys: &Object) -> Result<Vec<[Vertex; 3]>, SceneError> {
         .collect())
 }
 
-/// Returns the normal of a polygon and the indices of its triangles, or why it is invalid.
+/// Returns the normal of a polygon and the indices of its triangles, or the reason it is
+/// invalid.
 fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
     let count = points.len();
     if count < 3 {
         return Err(format!(
-            "`points` has length {count}: a polygon needs 3 or more points"
+            "`points` has length {count}: a polygon needs at least 3 points"
         ));
     }
-    // Use double precision, where products of single-precision coordinates can't overflow.
+    // Use double precision, in which products of single-precision coordinates can't overflow.
     let points: Vec<DVec3> = points.iter().map(|point| point.as_dvec3()).collect();
     let size = points
         .iter()
@@ -59,9 +60,9 @@ fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
     }
     let smallest = 1e-6 * size * size;
     if fan(&points).all(|cross| cross.length() <= smallest) {
-        return Err("`points` are on a line, so the polygon has no area".to_owned());
+        return Err("all `points` are on one line, so the polygon has no area".to_owned());
     }
-    let crosses = "the outline of `points` crosses itself: list the corners in order, all around";
+    let crosses = "the outline of `points` crosses itself: list the corners in order around it";
     let sum: DVec3 = fan(&points).sum();
     if sum.length() <= smallest {
         return Err(crosses.to_owned());
@@ -70,7 +71,7 @@ fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
     let off_plane = |p: &DVec3| (*p - points[0]).dot(normal).abs() > FLATNESS_TOLERANCE * size;
     if let Some(index) = points.iter().position(off_plane) {
         return Err(format!(
-            "`points` are not in a plane: point {} is off it, so split the polygon",
+            "`points` are not in one plane: point {} is outside it, so split the polygon",
             index + 1
         ));
     }
@@ -78,8 +79,8 @@ fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
     Ok((normal.as_vec3(), triangles))
 }
 
-/// Returns the texture coordinates of the points: u runs along the first side and v perpendicular to
-/// it, each from 0 to 1 over the whole polygon.
+/// Returns the texture coordinates of the points: u runs along the first side and v perpendicular
+/// to it, each from 0 to 1 over the whole polygon.
 fn uv_along_the_first_side(points: &[Vec3], normal: Vec3) -> Vec<Vec2> {
     let along = (points[1] - points[0]).normalize_or_zero();
     let across = normal.cross(along);
@@ -139,8 +140,8 @@ mod tests {
     fn rejects_an_invalid_outline() {
         for (points, expected) in [
             ("[[0,0,0], [1,0,0]]", "`points` has length 2"),
-            ("[[0,0,0], [1,0,0], [2,0,0]]", "are on a line"),
-            ("[[0,0,0], [1,0,0], [1,1,1], [0,1,0]]", "not in a plane"),
+            ("[[0,0,0], [1,0,0], [2,0,0]]", "are on one line"),
+            ("[[0,0,0], [1,0,0], [1,1,1], [0,1,0]]", "not in one plane"),
             (
                 "[[0,0,0], [1,0,0], [1,0,0], [0,1,0]]",
                 "`points` 2 and 3 are the same",

@@ -1,19 +1,27 @@
 //! Reads scene files.
 
+use glam::Vec3;
 use protocol::{Shape, Vertex};
 
 use super::camera::Camera;
+use super::environment::{Environment, EnvironmentMap};
 use super::error::{SceneError, TextPosition};
 use super::material::Material;
 use super::mesh::{Face, Transform};
 use super::value::{Object, Value};
 use super::{MAX_LEAF_SIZE, Scene, polygon};
 
-/// Loads a mesh from the path in a scene file, or returns why it can't.
-pub(super) type LoadMesh<'a> = &'a dyn Fn(&str) -> Result<Vec<Face>, String>;
+/// Loads the files that a scene refers to by their paths.
+pub(super) struct LoadFiles<'a> {
+    /// Loads a mesh, or returns the reason it can't be loaded.
+    pub(super) mesh: &'a dyn Fn(&str) -> Result<Vec<Face>, String>,
+    /// Loads an environment map whose pixels are multiplied by a factor, or returns the reason
+    /// it can't be loaded.
+    pub(super) map: &'a dyn Fn(&str, f32) -> Result<EnvironmentMap, String>,
+}
 
-/// Reads the scene in `text`. Returns it with the names of its materials.
-pub(super) fn scene(text: &str, load: LoadMesh) -> Result<(Scene, Vec<String>), SceneError> {
+/// Reads the scene in `text` and returns it with the names of its materials.
+pub(super) fn scene(text: &str, load: &LoadFiles) -> Result<(Scene, Vec<String>), SceneError> {
     let start = text.trim_start();
     if start.is_empty() {
         let message = "the scene is empty: it needs at least a camera, materials and shapes";
@@ -29,7 +37,7 @@ pub(super) fn scene(text: &str, load: LoadMesh) -> Result<(Scene, Vec<String>), 
     let keys = file.object(&["about", "camera", "environment", "materials", "shapes"])?;
     let about = keys.optional("about", Value::string)?;
     let camera = keys.required("camera", Camera::read)?;
-    let environment = keys.optional("environment", Value::radiance)?;
+    let environment = keys.optional("environment", |value| read_environment(value, load))?;
     let (mut names, mut materials) = (Vec::new(), Vec::new());
     for (name, material) in keys.required("materials", Value::members)? {
         names.push(name.key);
@@ -49,13 +57,26 @@ pub(super) fn scene(text: &str, load: LoadMesh) -> Result<(Scene, Vec<String>), 
     let scene = Scene {
         about: about.unwrap_or_default(),
         camera,
-        environment: environment.unwrap_or_default(),
+        environment: environment.unwrap_or(Environment::Constant(Vec3::ZERO)),
         materials,
         shapes,
         shape_materials,
         max_leaf_size: MAX_LEAF_SIZE,
     };
     Ok((scene, names))
+}
+
+/// Reads the environment: a radiance, or an object with the file of a map.
+fn read_environment(value: &Value, load: &LoadFiles) -> Result<Environment, SceneError> {
+    if value.members().is_err() {
+        return value.radiance().map(Environment::Constant);
+    }
+    let keys = value.object(&["map", "scale"])?;
+    let scale = keys.optional("scale", Value::positive)?.unwrap_or(1.0);
+    let file = keys.value("map")?;
+    let map = (load.map)(&file.string()?, scale);
+    map.map(Environment::Map)
+        .map_err(|message| file.error(message))
 }
 
 /// Returns the index of the material with the name in `value`.
@@ -72,7 +93,7 @@ fn material_index(value: &Value, names: &[String]) -> Result<u32, SceneError> {
 fn read_shape<'a>(
     entry: &Value<'a>,
     first: u32,
-    load: LoadMesh,
+    load: &LoadFiles,
 ) -> Result<(Object<'a>, Vec<Shape>), SceneError> {
     let numbered = |triangles: Vec<[Vertex; 3]>| {
         let numbered = triangles.into_iter().zip(first..);
@@ -103,14 +124,14 @@ fn read_shape<'a>(
         }
         name => {
             let known = ["sphere", "polygon", "mesh"];
-            let problem = "there is no kind of shape";
+            let problem = "unknown kind of shape";
             Err(kind.unknown(problem, name, ("the kinds are", &known)))
         }
     }
 }
 
-/// Reads the entry of a mesh, which is in an OBJ file in or below the folder of the scene file.
-fn read_mesh(keys: &Object, load: LoadMesh) -> Result<Vec<[Vertex; 3]>, SceneError> {
+/// Reads the entry for a mesh, which is in an OBJ file in or below the folder of the scene file.
+fn read_mesh(keys: &Object, load: &LoadFiles) -> Result<Vec<[Vertex; 3]>, SceneError> {
     let transform = Transform {
         scale: keys.optional("scale", Value::positive)?.unwrap_or(1.0),
         rotate: keys.optional("rotate", Value::point)?.unwrap_or_default(),
@@ -119,7 +140,7 @@ fn read_mesh(keys: &Object, load: LoadMesh) -> Result<Vec<[Vertex; 3]>, SceneErr
             .unwrap_or_default(),
     };
     let file = keys.value("file")?;
-    load(&file.string()?)
+    (load.mesh)(&file.string()?)
         .and_then(|mesh| transform.apply(&mesh))
         .map_err(|message| file.error(message))
 }

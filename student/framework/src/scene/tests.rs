@@ -1,4 +1,4 @@
-//! Tests of the errors for invalid scenes: their position, reason and remedy.
+//! Tests of the errors for invalid scenes: their positions, reasons and remedies.
 
 use super::Scene;
 
@@ -66,9 +66,9 @@ fn an_error_shows_the_line_and_a_mark_under_the_column() {
 #[test]
 fn wrong_keys_names_and_kinds_are_listed_with_the_known_ones() {
     let metal = r#""red": { "metal": { "albedo": [1, 1, 1] } }"#;
-    let kinds = "4:27: there is no kind of material `metal`; the kinds are: lambertian, checker";
+    let kinds = "4:27: unknown kind of material `metal`; the kinds are: lambertian, checker";
     check(RED, metal, kinds);
-    let kinds = "6:7: there is no kind of shape `cube`; the kinds are: sphere, polygon, mesh";
+    let kinds = "6:7: unknown kind of shape `cube`; the kinds are: sphere, polygon, mesh";
     check(SPHERE, r#"{ "cube": {} }"#, kinds);
     check(" \"radius\": 1,", "", "6:17: missing key `radius`");
     check(
@@ -87,18 +87,18 @@ fn wrong_keys_names_and_kinds_are_listed_with_the_known_ones() {
 
 #[test]
 fn an_error_points_at_the_value_and_says_what_is_allowed() {
-    let positive = "expected a number above 0, up to 1e9, got";
+    let positive = "expected a number greater than 0, up to 1e9, got";
     for value in ["0", "-2", "1e39", "null"] {
         let expected = format!("6:50: `radius`: {positive} {value}\n");
         check("1, \"mat", &format!("{value}, \"mat"), &expected);
     }
-    let text = format!("6:50: `radius`: {positive} the text \"one\"\n");
+    let text = format!("6:50: `radius`: {positive} the string \"one\"\n");
     check("1, \"mat", "\"one\", \"mat", &text);
     check("1, \"mat", "1e999, \"mat", "6:54: the number is too large");
     check(
         "1, \"mat",
         "NaN, \"mat",
-        "6:50: expected a value: a number, a text in quotes",
+        "6:50: expected a value: a number, a string in quotes",
     );
     check(
         "[0, 1, 0]",
@@ -112,11 +112,11 @@ fn an_error_points_at_the_value_and_says_what_is_allowed() {
     );
     let same = "3:39: `look_at` and `position` are the same point";
     check("\"look_at\": [0, 0, 0]", "\"look_at\": [0, 0, 5]", same);
-    let degrees =
-        "2:31: `vertical_fov`: expected a number of degrees above 0 and below 180, got 180";
+    let degrees = "2:31: `vertical_fov`: expected an angle in degrees, greater than 0 and less \
+                   than 180, got 180";
     check("40", "180", degrees);
     let kind =
-        "4:25: `red`: expected an object in { } with one key, its kind, got the text \"mirror\"";
+        "4:25: `red`: expected an object in { } with one key, its kind, got the string \"mirror\"";
     check(RED, r#""red": "mirror""#, kind);
     check(
         SPHERE,
@@ -128,8 +128,8 @@ fn an_error_points_at_the_value_and_says_what_is_allowed() {
             format!("6:29: `center`: expected three numbers from -1e9 to 1e9, got {value}\n");
         check("[0, 0, 0], \"rad", &format!("{value}, \"rad"), &expected);
     }
-    let film =
-        "2:43: `film`: expected two whole numbers from 1 to 16384, the pixels across and up, got";
+    let film = "2:43: `film`: expected two whole numbers from 1 to 16384: the width and height in \
+                pixels, got";
     for value in ["[0, 3]", "[4, 16385]", "[4, -3]", "[4]"] {
         check("[4, 3]", value, &format!("{film} {value}\n"));
     }
@@ -167,7 +167,7 @@ fn an_error_in_a_polygon_points_at_its_points_or_uv() {
     check(
         SPHERE,
         short,
-        "6:30: `points` has length 2: a polygon needs 3 or more",
+        "6:30: `points` has length 2: a polygon needs at least 3",
     );
 }
 
@@ -189,7 +189,7 @@ fn reports_the_line_of_truncated_or_invalid_json() {
     check_text(&after, "9:1: the scene ends before this");
 }
 
-/// Terms of the parser's library, which mean nothing to the author of a scene.
+/// Terms of the parsing library that mean nothing to the author of a scene.
 const JARGON: [&str; 12] = [
     "invalid type",
     "invalid value",
@@ -205,7 +205,7 @@ const JARGON: [&str; 12] = [
     "EOF",
 ];
 
-/// Checks that the error uses terms that a scene's author knows and says where it is.
+/// Checks that the error uses terms that a scene's author knows, and that it has a position.
 fn check_words(text: &str) {
     let error = Scene::from_text(text).expect_err("the scene is invalid");
     let word = JARGON.iter().find(|word| error.message.contains(*word));

@@ -1,4 +1,4 @@
-//! Reads text files as editors and shells write them.
+//! Reads text files in the encodings that editors and shells write.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
     )
 }
 
-/// Decodes a text that begins with a UTF-16 byte order mark, as written by PowerShell.
+/// Decodes text that begins with a UTF-16 byte order mark, as written by PowerShell.
 fn utf_16(bytes: &[u8]) -> Option<String> {
     let (pairs, []) = bytes.as_chunks::<2>() else {
         return None;

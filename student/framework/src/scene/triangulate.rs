@@ -26,7 +26,8 @@ pub(super) fn triangulate(corners: &[DVec3]) -> Option<Vec<[usize; 3]>> {
         return None;
     }
     let normal = sum.normalize_or_zero();
-    // 1 if the corners are counter-clockwise, -1 if they are clockwise, and 0 if they are on a line.
+    // 1 if the corners are counter-clockwise, -1 if they are clockwise, and 0 if they are on a
+    // line.
     let turn = |triangle: [usize; 3]| match cross(triangle).dot(normal) {
         twice_area if twice_area.abs() <= 1e-12 * area => 0,
         twice_area if twice_area > 0.0 => 1,
@@ -36,7 +37,8 @@ pub(super) fn triangulate(corners: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let turns_back = |&i: &usize| turn([i, after(i), after(after(i))]) < 0;
     let reflex: Vec<usize> = (0..count).filter(turns_back).map(after).collect();
     let around_first: Vec<[usize; 3]> = (2..count).map(|i| [0, i - 1, i]).collect();
-    // Each corner of a star such as a pentagram turns the same way, but its fan doesn't.
+    // All corners of a star such as a pentagram turn the same way, but the triangles of its fan
+    // don't.
     if reflex.is_empty() && around_first.iter().all(|triangle| turn(*triangle) >= 0) {
         return Some(around_first);
     }

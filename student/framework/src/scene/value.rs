@@ -1,5 +1,5 @@
-//! Values in the JSON text of a scene. They know their positions, so that errors can point at them.
-//! The parser itself only knows how far it has read, which is often the closing brace.
+//! Values in the JSON text of a scene. They store their positions, so that errors can point at
+//! them. The parser itself only reports how far it has read, which is often the closing brace.
 
 use glam::Vec3;
 use serde::de::{DeserializeOwned, IgnoredAny};
@@ -29,7 +29,7 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Value<'a> {
-    /// Parses a text.
+    /// Parses JSON text.
     pub(super) fn parse(text: &'a str) -> Result<Self, SceneError> {
         // This also finds numbers that are too large and lists that are nested too deeply.
         serde_json::from_str::<serde_json::Value>(text).map_err(|error| {
@@ -53,7 +53,7 @@ impl<'a> Value<'a> {
     fn unexpected(&self, expected: &str) -> SceneError {
         let end = self.read::<IgnoredAny>().map_or(self.start, |(_, end)| end);
         let got = match &self.text[self.start..end] {
-            text if text.starts_with('"') => format!("the text {text}"),
+            text if text.starts_with('"') => format!("the string {text}"),
             text if text.starts_with('{') => "an object".to_owned(),
             text if text.len() > 60 || text.contains('\n') => "a list".to_owned(),
             text => text.to_owned(),
@@ -103,8 +103,8 @@ impl<'a> Value<'a> {
         })
     }
 
-    /// Returns the only member of an object, whose key is its kind. Scene files use this form
-    /// rather than a key `type`, so that the known keys follow from the kind.
+    /// Returns the only member of an object. The member's key is the object's kind. Scene files use
+    /// this form rather than a key `type`, so that the known keys follow from the kind.
     pub(super) fn kind(&self) -> Result<(Value<'a>, Value<'a>), SceneError> {
         let expected = || self.unexpected("an object in { } with one key, its kind");
         match <[_; 1]>::try_from(self.members().map_err(|_| expected())?) {
@@ -123,10 +123,10 @@ impl<'a> Value<'a> {
         items.iter().map(read).collect()
     }
 
-    /// Returns a text.
+    /// Returns a string.
     pub(super) fn string(&self) -> Result<String, SceneError> {
         let string = self.read().map(|(string, _)| string);
-        string.ok_or_else(|| self.unexpected("a text in quotes"))
+        string.ok_or_else(|| self.unexpected("a string in quotes"))
     }
 
     /// Returns the value as a Rust type, if it is valid.
@@ -164,7 +164,7 @@ impl<'a> Value<'a> {
 
     /// Returns a positive number, such as a radius, a scale or an index of refraction.
     pub(super) fn positive(&self) -> Result<f32, SceneError> {
-        self.number("a number above 0, up to 1e9", |x| {
+        self.number("a number greater than 0, up to 1e9", |x| {
             x > 0.0 && x <= MAX_COORDINATE
         })
     }
@@ -189,7 +189,7 @@ impl<'a> Value<'a> {
         numbers.map(Vec3::from_array)
     }
 
-    /// Returns the elements of a list, or the keys and values of an object, one after another.
+    /// Returns the elements of a list, or the keys and values of an object, one after the other.
     /// Returns `None` if the value doesn't begin with the bracket `open`.
     fn items(&self, open: char) -> Option<Vec<Value<'a>>> {
         let mut rest = self.text[self.start..].strip_prefix(open)?;
@@ -212,7 +212,7 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// Reads the value as a Rust type. Returns it and the offset of its end.
+    /// Reads the value as a Rust type and returns it with the offset of its end.
     fn read<T: DeserializeOwned>(&self) -> Option<(T, usize)> {
         let parser = serde_json::Deserializer::from_str(&self.text[self.start..]);
         let mut values = parser.into_iter::<T>();
@@ -260,18 +260,18 @@ fn syntax_message(error: &serde_json::Error) -> String {
     let text = match message {
         "EOF while parsing a list" => "the file ends inside a list: a `]` is missing",
         "EOF while parsing an object" => "the file ends inside an object: a `}` is missing",
-        "EOF while parsing a string" => "the file ends inside a text: a quote is missing",
-        "EOF while parsing a value" => "the file ends where a value should follow",
+        "EOF while parsing a string" => "the file ends inside a string: a quote is missing",
+        "EOF while parsing a value" => "the file ends where a value is expected",
         "expected value" => {
-            "expected a value: a number, a text in quotes, a list in [ ] or an object in { }"
+            "expected a value: a number, a string in quotes, a list in [ ] or an object in { }"
         }
         "expected ident" => "expected a value; `true`, `false` and `null` are written in full",
         "key must be a string" => "expected a key in quotes",
         "trailing comma" => "remove the comma before this closing bracket",
-        "trailing characters" => "the scene ends before this: remove the rest",
+        "trailing characters" => "the scene ends before this point: remove the rest",
         "number out of range" => "the number is too large",
         "recursion limit exceeded" => "the lists and objects are nested too deeply",
-        _ if message.starts_with("control character") => "the text has no closing quote",
+        _ if message.starts_with("control character") => "the string has no closing quote",
         other => other,
     };
     text.to_owned()

@@ -1,16 +1,17 @@
-//! `BBox::hit`: from a ray and an interval to the part of the interval that is inside a box.
+//! `BBox::hit`, which takes a ray and an interval and returns the part of the interval that is
+//! inside a box.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::rows::NoView;
-use super::{Function, Input, Output, Question, Submission, Table, Words};
+use super::{Function, Input, Output, Question, ResultText, Submission, Table};
 use crate::answer::{Answer, ElementOutcome};
 use crate::interval::Interval;
 use crate::ray::Ray;
 use crate::value::{Fields, Record, Value, fields};
 
-/// Calls `BBox::hit` for rays, each with its times.
+/// Calls `BBox::hit` with rays, each with its own `times`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BBoxHit;
 
@@ -101,7 +102,7 @@ impl Record for Interval {
 
 impl Output for Option<Interval> {
     const NAMES: &'static [&'static str] = <Interval as Fields>::NAMES;
-    const WORDS: Words = Words {
+    const RESULT_TEXT: ResultText = ResultText {
         record: "{interval inside the box}",
         present: "{interval inside the box}",
         absent: "None",

@@ -1,17 +1,16 @@
-//! `hit` of triangles, spheres and trees: from a ray to its closest hit.
+//! `hit` for triangles, spheres and trees, which takes a ray and returns its closest hit.
 
 use std::borrow::Cow;
 
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Input, Output, Question, Submission, Table, View, Words};
+use super::{Function, Input, Output, Question, ResultText, Submission, Table, View};
 use crate::answer::{Answer, ElementOutcome};
 use crate::packed;
-use crate::ray::Ray;
+use crate::ray::{Ray, Trace};
 use crate::shape::Shape;
 use crate::submission::Aggregate;
-use crate::trace::Trace;
 use crate::tree::TreeNode;
 use crate::value::{Fields, Record, Value, fields};
 use crate::view::{ExamCamera, Sample};
@@ -80,6 +79,9 @@ impl Function for Hit {
     fn sentence(subject: &Geometry) -> &'static str {
         match subject {
             Geometry::List { .. } => "{ray}; {shapes}",
+            Geometry::Tree { nodes, .. } if nodes.len() == 1 => {
+                "{ray}; a tree from the exam: {nodes} node, root {root}, over {shapes}"
+            }
             Geometry::Tree { .. } => {
                 "{ray}; a tree from the exam: {nodes} nodes, root {root}, over {shapes}"
             }
@@ -176,7 +178,7 @@ fields! {
 
 impl Output for Option<Trace> {
     const NAMES: &'static [&'static str] = <Trace as Fields>::NAMES;
-    const WORDS: Words = Words {
+    const RESULT_TEXT: ResultText = ResultText {
         record: "distance {distance}, position {position}, normal {normal}, uv {uv}, \
                  shape {shape}",
         present: "a hit at distance {distance}",

@@ -40,7 +40,7 @@ pub use table::{AnyTable, Attempts, Table};
 pub enum Question {
     /// Calls `Camera::sample_ray` once per row.
     SampleRay(Table<SampleRay>),
-    /// Finds the closest hit of one ray per row, without or with a tree.
+    /// Finds the closest hit of one ray per row, with or without a tree.
     Hit(Table<Hit>),
     /// Calls `BBox::hit` once per row.
     #[serde(rename = "bbox_hit")]
@@ -55,17 +55,15 @@ pub enum Question {
         /// The maximum number of primitives in a leaf.
         max_leaf_size: u32,
     },
-    /// Renders a path-traced picture. The framework draws every random number.
+    /// Renders a picture in clay. The framework draws every random number.
     Radiance {
         /// The scene, as the text of a scene file that needs no other file.
         scene: String,
-        /// The number of pixels, across and up.
+        /// The width and height of the picture, in pixels.
         film: UVec2,
-        /// The number of paths per pixel.
+        /// The number of samples per pixel.
         samples: u32,
-        /// The maximum number of times that a path is scattered.
-        bounces: u32,
-        /// The seed of all random numbers.
+        /// The seed for all random numbers.
         seed: u64,
     },
 }
@@ -93,7 +91,7 @@ pub trait Submission: Sync {
     /// Creates a list of primitives, without a tree.
     fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate>;
 
-    /// Calls `BBox::hit` of the box between these corners.
+    /// Calls `BBox::hit` on the box between these corners.
     fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval>;
 
     /// Calls `reflect`, in a frame whose +z is the normal.
@@ -125,13 +123,14 @@ pub trait Function: Copy + Debug + PartialEq + 'static {
     /// Returns the method's name, such as `BBox::hit`.
     fn name(subject: &Self::Subject) -> &'static str;
 
-    /// Returns a sentence about one call. `{name}` stands for the field of this name.
+    /// Returns a sentence about one call. `{name}` stands for the field with this name.
     fn sentence(subject: &Self::Subject) -> &'static str;
 
     /// Returns the question for a table of calls.
     fn question(table: Table<Self>) -> Question;
 
-    /// Converts the subject to a submission's own type and returns a closure that calls the method on it.
+    /// Converts the subject to a submission's own type and returns a closure that calls the method
+    /// on it.
     fn calls<'a>(
         submission: &'a dyn Submission,
         subject: &'a Self::Subject,
@@ -143,9 +142,9 @@ pub trait Data: Clone + Debug + PartialEq + Serialize + DeserializeOwned + 'stat
 
 impl<T: Clone + Debug + PartialEq + Serialize + DeserializeOwned + 'static> Data for T {}
 
-/// How a function's results are printed. `{name}` stands for the field of this name.
+/// The templates for printing a function's results. `{name}` stands for the field with that name.
 #[derive(Clone, Copy, Debug)]
-pub struct Words {
+pub struct ResultText {
     /// A record in full.
     pub record: &'static str,
     /// A record where none is expected.
@@ -158,8 +157,8 @@ pub struct Words {
 pub trait Output: Data {
     /// The names of the record's fields.
     const NAMES: &'static [&'static str];
-    /// How values are printed.
-    const WORDS: Words;
+    /// The texts for printing values.
+    const RESULT_TEXT: ResultText;
     /// An upper bound on the size of one value on the wire, in bytes.
     const MAX_BYTES: usize;
 

@@ -1,10 +1,11 @@
-//! `reflect`: from the direction toward the viewer to the direction that a mirror reflects into it.
+//! `reflect`, which takes the direction toward the viewer and returns the direction that a mirror
+//! reflects into it.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::rows::NoView;
-use super::{Function, Input, Output, Question, Submission, Table, Words};
+use super::{Function, Input, Output, Question, ResultText, Submission, Table};
 use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Fields, Record, fields};
 
@@ -59,7 +60,7 @@ impl Input for LocalDirection {
 
 impl Output for LocalDirection {
     const NAMES: &'static [&'static str] = <LocalDirection as Fields>::NAMES;
-    const WORDS: Words = Words {
+    const RESULT_TEXT: ResultText = ResultText {
         record: "{direction}",
         present: "{direction}",
         absent: "no direction",

@@ -11,23 +11,23 @@ use crate::packed;
 use crate::value::Record;
 use crate::view::{PIXEL_OFFSETS, Sample};
 
-/// The arguments of one call of a function.
+/// The arguments of one call to a function.
 pub trait Input: Record + Data {
     /// A picture with one row per position.
     type View: View<Self>;
 }
 
-/// A picture, with one row for each of the five [`PIXEL_OFFSETS`] in every pixel, row by row from the
-/// bottom.
+/// A picture, with one row for each of the five [`PIXEL_OFFSETS`] in every pixel, row by row from
+/// the bottom.
 pub trait View<I>: Data {
-    /// Returns the number of pixels, across and up.
+    /// Returns the width and height in pixels.
     fn film(&self) -> UVec2;
 
     /// Returns the row at a position.
     fn input(&self, sample: Sample) -> I;
 }
 
-/// The picture of a function that has none.
+/// The type of picture for a function without pictures.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum NoView {}
 

@@ -1,9 +1,9 @@
-//! `Camera::sample_ray`: from a position on the film to a ray.
+//! `Camera::sample_ray`, which takes a position on the film and returns a ray.
 
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Input, Output, Question, Submission, Table, View, Words};
+use super::{Function, Input, Output, Question, ResultText, Submission, Table, View};
 use crate::answer::{Answer, ElementOutcome};
 use crate::ray::Ray;
 use crate::value::{Fields, Record, fields};
@@ -23,7 +23,8 @@ impl Function for SampleRay {
     }
 
     fn sentence(_: &PinholeCamera) -> &'static str {
-        "camera of {vertical_fov}° and aspect {aspect_ratio}, film {film}, pixel {pixel} + {offset}"
+        "camera ({vertical_fov}°, aspect ratio {aspect_ratio}), film {film}, pixel {pixel} + \
+         {offset}"
     }
 
     fn question(table: Table<Self>) -> Question {
@@ -79,7 +80,7 @@ impl View<Sample> for UVec2 {
 
 impl Output for Ray {
     const NAMES: &'static [&'static str] = <Ray as Fields>::NAMES;
-    const WORDS: Words = Words {
+    const RESULT_TEXT: ResultText = ResultText {
         record: "{ray}",
         present: "{ray}",
         absent: "no ray",

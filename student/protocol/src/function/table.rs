@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Function, Output, Question, Rows, Submission, View, Words};
+use super::{Function, Output, Question, ResultText, Rows, Submission, View};
 use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Record, Value};
 
@@ -31,16 +31,16 @@ impl<F: Function> Table<F> {
 
 /// Runs the calls of one table.
 pub trait Attempts {
-    /// Runs `call` and returns how it ended.
+    /// Runs `call` and returns its outcome.
     fn attempt(&mut self, call: &mut dyn FnMut()) -> ElementOutcome<()>;
 }
 
-/// A table of any function.
+/// A table for any function.
 pub trait AnyTable {
     /// Returns the function's name, such as `BBox::hit`.
     fn name(&self) -> &'static str;
 
-    /// Returns a sentence about one row. `{name}` stands for the field of this name.
+    /// Returns a sentence about one row. `{name}` stands for the field with this name.
     fn sentence(&self) -> &'static str;
 
     /// Returns the value that the function is called on.
@@ -52,20 +52,20 @@ pub trait AnyTable {
     /// Returns the arguments in a row, or `None` if the row is out of range.
     fn input(&self, row: usize) -> Option<Box<dyn Record>>;
 
-    /// Returns the number of pixels, across and up, if the rows are those of a picture.
+    /// Returns the picture's width and height in pixels, if the rows are those of a picture.
     fn film(&self) -> Option<UVec2>;
 
     /// Returns the field names of the function's result.
     fn output_names(&self) -> &'static [&'static str];
 
-    /// Returns how the function's results are printed.
-    fn words(&self) -> Words;
+    /// Returns the texts for printing the function's results.
+    fn result_text(&self) -> ResultText;
 
     /// Returns an upper bound on the size of one row of the answer on the wire, in bytes.
     fn max_row_bytes(&self) -> usize;
 
-    /// Returns a submission's answer. The subject is converted in the first attempt, so that a panic in
-    /// a constructor is reported like any other panic.
+    /// Returns a submission's answer. The subject is converted in the first attempt, so that a
+    /// panic in a constructor is reported like any other panic.
     fn answer(&self, submission: &dyn Submission, attempts: &mut dyn Attempts) -> Answer;
 
     /// Returns a question with only these rows, as a list.
@@ -75,8 +75,8 @@ pub trait AnyTable {
     /// If the range is out of bounds.
     fn subset(&self, rows: Range<usize>) -> Question;
 
-    /// Returns the question with every field of the subject and the rows replaced by `change`.
-    /// Returns `None` if the rows are a picture's.
+    /// Returns the question with the value of every field in the subject and the rows replaced by
+    /// what `change` returns for it. Returns `None` if the rows are those of a picture.
     fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> Option<Question>;
 }
 
@@ -109,8 +109,8 @@ impl<F: Function> AnyTable for Table<F> {
         F::Output::NAMES
     }
 
-    fn words(&self) -> Words {
-        F::Output::WORDS
+    fn result_text(&self) -> ResultText {
+        F::Output::RESULT_TEXT
     }
 
     fn max_row_bytes(&self) -> usize {

@@ -11,14 +11,15 @@ use base64::engine::general_purpose::STANDARD;
 use grader::report::html::prose;
 use grader::svg::number;
 use judging::sanitize::sanitize;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 use sha2::{Digest, Sha256};
 
 use crate::distribution::Distribution;
 use crate::graded_class::GradedClass;
+use crate::names::joined;
 use crate::regrade_diff::Changes;
 use crate::similar_pairs::SimilarPair;
-use crate::summary::{Cause, ClassSummary, Outlier};
+use crate::summary::{Cause, ClassSummary, Outlier, attention_groups};
 use grader::printing::counted;
 
 const STYLE: &str = include_str!("page.css");
@@ -33,7 +34,7 @@ pub fn render_page(
     similar: &[SimilarPair],
 ) -> String {
     let submissions = counted(class.rows.len(), "submission");
-    let title = format!("{submissions}, {} exam", class.exam);
+    let title = format!("{submissions}, {} exam", summary.exam);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -55,22 +56,22 @@ pub fn render_page(
                     }
                 }
                 main {
-                    (attention(&summary.outliers))
+                    @if !summary.outliers.is_empty() { (attention(&summary.outliers)) }
                     (distribution(summary))
                     (causes(&summary.causes))
                     (failure_rates(summary))
-                    (times::section(class))
-                    (changes::sections(changes))
-                    (submissions::section(class))
-                    (similar::section(class, similar))
+                    (times::times(class))
+                    (changes::changes(changes))
+                    (submissions::submissions(class))
+                    @if !similar.is_empty() { (similar::similar(class, similar)) }
                 }
                 footer {
                     p {
-                        "Exam " code { (sanitized(&class.exam)) } ", "
-                        code { (sanitized(class.exam_hash.get(..12).unwrap_or_default())) }
-                        "; isolation " code { (sanitized(&class.isolation)) }
-                        ". The same data for programs: "
-                        code { "class.json" } ", " code { "grades.csv" } ", in the same folder."
+                        "Exam " code { (sanitized(&summary.exam)) } ", "
+                        code { (sanitized(summary.exam_hash.get(..12).unwrap_or_default())) }
+                        "; isolation " code { (sanitized(&summary.isolation)) }
+                        ". The same data is in a machine-readable form in "
+                        code { "class.json" } " and " code { "grades.csv" } " in the same folder."
                     }
                 }
                 script { (PreEscaped(SCRIPT)) }
@@ -90,54 +91,56 @@ fn content_security_policy() -> String {
     )
 }
 
+/// Renders a section with a heading. `id` identifies the heading.
+fn section(id: &str, title: &str, contents: &Markup) -> Markup {
+    html! { section aria-labelledby=(id) { h2 id=(id) { (title) } (contents) } }
+}
+
+/// Renders a table that scrolls in a narrow window. `id` is the id of its section.
+fn wide(id: &str, table: &Markup) -> Markup {
+    html! { div .wide tabindex="0" role="region" aria-labelledby=(id) { (table) } }
+}
+
+/// Renders the header of a table. It has text columns, number columns, and a last text column,
+/// unless `last` is empty.
+fn header<T: Render>(texts: &[&str], numbers: impl Iterator<Item = T>, last: &str) -> Markup {
+    html! { thead { tr {
+        @for title in texts { th scope="col" { (title) } }
+        @for title in numbers { th scope="col" .number { (title) } }
+        @if !last.is_empty() { th scope="col" { (last) } }
+    } } }
+}
+
 fn distribution(summary: &ClassSummary) -> Markup {
     let all = summary.points.iter().map(|points| ("All tasks", points));
-    let tasks = summary
-        .tasks
-        .iter()
-        .map(|task| (task.title.as_str(), &task.points));
-    html! {
-        section aria-labelledby="spread" {
-            h2 #spread { "Points" }
-            div .wide tabindex="0" role="region" aria-labelledby="spread" { table {
-                caption { "Number of submissions (upwards) by points (to the right), in tenths of the maximum" }
-                thead {
-                    tr {
-                        th scope="col" { "Task" }
-                        th scope="col" { "Distribution" }
-                        th scope="col" .number { "Mean" }
-                        th scope="col" .number { "Median" }
-                        th scope="col" .number { "Maximum" }
-                    }
-                }
-                tbody {
-                    @for (title, distribution) in all.chain(tasks) {
-                        tr {
-                            th scope="row" { (sanitized(title)) }
-                            td { (bars(distribution)) }
-                            td .number { (format!("{:.1}", distribution.mean)) }
-                            td .number { (distribution.median) }
-                            td .number { (distribution.of) }
-                        }
-                    }
-                }
-            } }
+    let tasks = summary.tasks.iter();
+    let tasks = tasks.map(|task| (task.title.as_str(), &task.points));
+    let numbers = ["Mean", "Median", "Maximum"];
+    let table = html! { table {
+        caption {
+            "Number of submissions (vertical) by points (horizontal), in tenths of the maximum"
         }
-    }
+        (header(&["Task", "Distribution"], numbers.iter(), ""))
+        tbody { @for (title, distribution) in all.chain(tasks) { tr {
+            th scope="row" { (sanitized(title)) }
+            td { (bars(distribution)) }
+            td .number { (format!("{:.1}", distribution.mean)) }
+            td .number { (distribution.median) }
+            td .number { (distribution.of) }
+        } } }
+    } };
+    section("spread", "Points", &wide("spread", &table))
 }
 
 /// Renders a distribution as ten columns with axes, and the numbers as text for screen readers.
 fn bars(distribution: &Distribution) -> Markup {
     let highest = distribution.bins.iter().max().copied().unwrap_or(0).max(1);
-    let counts: Vec<String> = distribution.bins.iter().map(ToString::to_string).collect();
-    let label = format!(
-        "from the lowest tenth to the highest: {}",
-        counts.join(", ")
-    );
+    let counts = joined(distribution.bins.iter().map(ToString::to_string), ", ");
+    let label = format!("from the lowest tenth to the highest: {counts}");
     let columns = distribution.bins.iter().enumerate();
     let columns = columns.map(|(index, count)| (12 * index, 40.0 * *count as f64 / highest as f64));
     html! {
-        svg .bars viewBox="-16 -4 142 60" role="img" aria-label=(label) {
+        svg .bars viewBox="-28 -4 154 60" role="img" aria-label=(label) {
             @for (x, height) in columns {
                 rect x=(x) y=(number(41.0 - height)) width="10" height=(number(height)) {}
             }
@@ -151,71 +154,56 @@ fn bars(distribution: &Distribution) -> Markup {
 }
 
 fn attention(outliers: &[Outlier]) -> Markup {
-    html! {
-        @if !outliers.is_empty() {
-            section aria-labelledby="look" {
-                h2 #look { "Submissions that need attention" }
-                ul {
-                    @for outlier in outliers {
-                        @let link = outlier.has_report.then(|| submissions::report_link(&outlier.id));
-                        li {
-                            strong { a href=[link] { (sanitized(&outlier.title())) } }
-                            ": " (sanitized(&outlier.why))
-                        }
-                    }
+    let groups = html! {
+        @for (heading, submissions) in attention_groups(outliers) {
+            h3 { (sanitized(&heading)) }
+            ul { @for (detail, submissions) in submissions { li {
+                @if !detail.is_empty() { (sanitized(detail)) ": " }
+                @for (index, outlier) in submissions.iter().enumerate() {
+                    @let link = outlier.has_report.then(|| submissions::report_link(&outlier.id));
+                    @if index > 0 { ", " }
+                    a href=[link] { (sanitized(&outlier.title())) }
                 }
-            }
+            } } }
         }
-    }
+    };
+    section("look", "Submissions that need attention", &groups)
 }
 
 fn causes(causes: &[Cause]) -> Markup {
-    html! {
-        section aria-labelledby="causes" {
-            h2 #causes { "Root causes of lost points" }
-            @if causes.is_empty() { p { "Nobody lost a point." } }
-            ul .counted {
-                @for cause in causes {
-                    li {
-                        strong { (cause.count) " × " } (prose(&cause.text))
-                        @for item in &cause.items { " " code { (sanitized(item)) } }
-                    }
-                }
-            }
-        }
-    }
+    let list = html! {
+        @if causes.is_empty() { p { "Nobody lost any points." } }
+        ul .counted { @for cause in causes { li {
+            strong { (cause.count) " × " } (prose(&cause.text))
+            @for item in &cause.items { " " code { (sanitized(item)) } }
+        } } }
+    };
+    section("causes", "Root causes of lost points", &list)
 }
 
-/// Renders how often each task and item was failed, in each section. Items are collapsed.
+/// Renders the failure rates for each task and item in each section. Items are collapsed.
 fn failure_rates(summary: &ClassSummary) -> Markup {
-    let table = |of_items: bool| {
+    let table = |title: &str, is_of_items: bool| {
         let rates = summary.failed.iter();
-        let rates = rates.filter(|rate| rate.id.contains('.') == of_items);
-        html! {
-            div .wide tabindex="0" role="region" aria-labelledby="rates" { table {
-                thead { tr {
-                    th scope="col" { @if of_items { "Item" } @else { "Task" } }
-                    @for (section, graded) in &summary.sections {
-                        th scope="col" .number { (sanitized(section)) " (" (graded) ")" }
-                    }
-                } }
-                tbody { @for rate in rates { tr {
-                    th scope="row" { code { (sanitized(&rate.id)) } }
-                    @for (section, graded) in &summary.sections {
-                        @let count = rate.counts.get(section).copied().unwrap_or(0);
-                        td .number { (count) " (" (100 * count / graded) " %)" }
-                    }
-                } } }
-            } }
-        }
+        let rates = rates.filter(|rate| rate.id.contains('.') == is_of_items);
+        let sections = summary.sections.iter();
+        let sections =
+            sections.map(|(section, graded)| html! { (sanitized(section)) " (" (graded) ")" });
+        let table = html! { table {
+            (header(&[title], sections, ""))
+            tbody { @for rate in rates { tr {
+                th scope="row" { code { (sanitized(&rate.id)) } }
+                @for (section, graded) in &summary.sections {
+                    @let count = rate.counts.get(section).copied().unwrap_or(0);
+                    td .number { (count) " (" (100 * count / graded) " %)" }
+                }
+            } } }
+        } };
+        wide("rates", &table)
     };
-    html! {
-        section aria-labelledby="rates" {
-            h2 #rates { "Submissions without full points, in each section" }
-            (table(false))
-            details { summary { "Each item" } (table(true)) }
-        }
-    }
+    let title = "Submissions without full marks, by section";
+    let items = html! { details { summary { "Each item" } (table("Item", true)) } };
+    section("rates", title, &html! { (table("Task", false)) (items) })
 }
 
 /// Returns untrusted text, shortened and without control characters that could affect the text

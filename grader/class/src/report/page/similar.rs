@@ -3,27 +3,23 @@
 use judging::sanitize::sanitize;
 use maud::{Markup, html};
 
-use super::sanitized;
 use super::submissions::report_link;
+use super::{sanitized, section};
 use crate::graded_class::GradedClass;
 use crate::outcome::id_and_names;
 use crate::similar_pairs::SimilarPair;
 use crate::table::safe_cell;
 
-/// Renders the pairs, if there are any, with their lines side by side.
-pub(super) fn section(class: &GradedClass, pairs: &[SimilarPair]) -> Markup {
-    html! {
-        @if !pairs.is_empty() {
-            section aria-labelledby="similar" {
-                h2 #similar { "Similar submissions" }
-                p {
-                    "A similarity checker compared the students' own lines. Code can be similar for "
-                    "other reasons than copying, so compare it yourself. Points don't depend on this."
-                }
-                @for pair in pairs { (side_by_side(class, pair)) }
-            }
+/// Renders the pairs. The lines of the two files are shown side by side.
+pub(super) fn similar(class: &GradedClass, pairs: &[SimilarPair]) -> Markup {
+    let contents = html! {
+        p {
+            "A similarity checker compared the students' own lines. Code can be similar for "
+            "reasons other than copying, so compare it yourself. This doesn't affect points."
         }
-    }
+        @for pair in pairs { (side_by_side(class, pair)) }
+    };
+    section("similar", "Similar submissions", &contents)
 }
 
 fn side_by_side(class: &GradedClass, pair: &SimilarPair) -> Markup {

@@ -2,42 +2,28 @@
 
 use maud::{Markup, html};
 
-use super::sanitized;
+use super::{header, sanitized, section, wide};
 use crate::graded_class::{ClassRow, GradedClass};
 use crate::report::grades::LATE;
 
-pub(super) fn section(class: &GradedClass) -> Markup {
+pub(super) fn submissions(class: &GradedClass) -> Markup {
     let tasks = class.tasks();
-    html! {
-        section aria-labelledby="students" {
-            h2 #students { "Submissions" }
-            div .wide tabindex="0" role="region" aria-labelledby="students" {
-                table .sortable {
-                    thead {
-                        tr {
-                            th scope="col" { "Who" }
-                            th scope="col" .number { "Counts" }
-                            th scope="col" .number { "Points" }
-                            @for task in tasks { th scope="col" .number { (sanitized(&task.title)) } }
-                            th scope="col" { "Notes" }
-                        }
-                    }
-                    tbody {
-                        @for row in &class.rows { (submission_row(row, tasks.len())) }
-                        @for person in &class.missing {
-                            tr {
-                                th scope="row" { (sanitized(person.display_name())) }
-                                td .number { "–" }
-                                td .number { "–" }
-                                @for _ in tasks { td {} }
-                                td { "nothing submitted" }
-                            }
-                        }
-                    }
-                }
-            }
+    let numbers = ["Counts", "Points"].into_iter();
+    let numbers = numbers.chain(tasks.iter().map(|task| task.title.as_str()));
+    let table = html! { table .sortable {
+        (header(&["Who"], numbers.map(sanitized), "Notes"))
+        tbody {
+            @for row in &class.rows { (submission_row(row, tasks.len())) }
+            @for person in &class.missing { tr {
+                th scope="row" { (sanitized(person.display_name())) }
+                td .number { "–" }
+                td .number { "–" }
+                @for _ in tasks { td {} }
+                td { "nothing submitted" }
+            } }
         }
-    }
+    } };
+    section("students", "Submissions", &wide("students", &table))
 }
 
 fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
@@ -66,7 +52,7 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
     }
 }
 
-/// Returns the final points of the people, or a single number if they are equal.
+/// Returns the final points of the people, or a single number if all of them are equal.
 fn counts(row: &ClassRow) -> String {
     let counts = row.grades.iter().map(|grade| match &grade.counted {
         Some(counted) => counted.points.to_string(),
@@ -77,8 +63,8 @@ fn counts(row: &ClassRow) -> String {
     counts.join(" / ")
 }
 
-/// Renders the platform's late flag, an explanation of the final points or why there are none, and
-/// comments by staff.
+/// Renders the platform's late flag, an explanation of the final points (or the reason there are
+/// none), and comments by staff.
 fn notes(row: &ClassRow) -> Markup {
     html! {
         @if row.result.info.is_late() { p { "marked " (LATE) " by the platform" } }
@@ -86,7 +72,8 @@ fn notes(row: &ClassRow) -> Markup {
     }
 }
 
-/// Returns the link to a report. An id may have letters of any language, which are percent-encoded.
+/// Returns the link to a report. An id may contain letters from any language, which are
+/// percent-encoded.
 pub(super) fn report_link(id: &str) -> String {
     let byte = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {

@@ -4,14 +4,17 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
-use super::sanitized;
+use super::{header, sanitized, section};
 use crate::graded_class::{GradeProblem, GradedClass, PersonGrade};
 use crate::outcome::id_and_names;
 use grader::printing::counted;
 
+/// The maximum number of people whose names are listed in a sentence.
+const MAX_NAMES: usize = 20;
+
 /// Renders the section, if anything is known about times.
-pub(super) fn section(class: &GradedClass) -> Markup {
-    // With the id, since names may be equal or look alike.
+pub(super) fn times(class: &GradedClass) -> Markup {
+    // Add the id, since names may be equal or look alike.
     let grades = || {
         let rows = class.rows.iter();
         let people = rows.flat_map(|row| row.people().map(move |person| (row, person)));
@@ -26,7 +29,10 @@ pub(super) fn section(class: &GradedClass) -> Markup {
     }
     let undated = grades().filter(|(_, grade)| grade.is_undated);
     let undated: Vec<String> = undated.map(|(who, _)| who).collect();
-    let undated = undated.join(", ");
+    let undated = match undated.len() {
+        0..=MAX_NAMES => undated.join(", "),
+        count => format!("{count} people, who have no time in grades.csv"),
+    };
     let is_unclear =
         |grade: &PersonGrade| matches!(grade.problem, Some(GradeProblem::UnclearTime(_)));
     let unclear: Vec<_> = grades().filter(|(_, grade)| is_unclear(grade)).collect();
@@ -34,40 +40,26 @@ pub(super) fn section(class: &GradedClass) -> Markup {
     if !has_late && undated.is_empty() && unclear.is_empty() {
         return html! {};
     }
-    html! {
-        section aria-labelledby="times" {
-            h2 #times { "Submission times" }
-            table {
-                thead {
-                    tr { th scope="col" { "Handed in" } th scope="col" .number { "Students" } }
-                }
-                tbody {
-                    @for (days, count) in &days {
-                        tr {
-                            th scope="row" { (lateness(*days)) }
-                            td .number { (count) }
-                        }
-                    }
-                }
-            }
-            @if !undated.is_empty() {
-                p { "Counted as on time, since the time is unknown: " (sanitized(&undated)) "." }
-            }
-            @if !unclear.is_empty() {
-                p { "Without final points until somebody has cleared up the following:" }
-                ul {
-                    @for (who, grade) in &unclear {
-                        li {
-                            strong { (sanitized(who)) }
-                            @if let Some(problem) = &grade.problem {
-                                ": " (sanitized(&problem.to_string()))
-                            }
-                        }
-                    }
-                }
-            }
+    let contents = html! {
+        table {
+            (header(&["Handed in"], ["Students"].iter(), ""))
+            tbody { @for (days, count) in &days { tr {
+                th scope="row" { (lateness(*days)) }
+                td .number { (count) }
+            } } }
         }
-    }
+        @if !undated.is_empty() {
+            p { "Counted as on time, because the time is unknown: " (sanitized(&undated)) "." }
+        }
+        @if !unclear.is_empty() {
+            p { "Without final points until the following is cleared up:" }
+            ul { @for (who, grade) in &unclear { li {
+                strong { (sanitized(who)) }
+                @if let Some(problem) = &grade.problem { ": " (sanitized(&problem.to_string())) }
+            } } }
+        }
+    };
+    section("times", "Submission times", &contents)
 }
 
 fn lateness(days: u32) -> String {

@@ -4,7 +4,7 @@ use grader::handed_out::RAYS;
 
 use crate::harness::{source, zip};
 
-/// The files of a submission, with their paths.
+/// The paths and contents of a submission's files.
 pub type Files = Vec<(String, Vec<u8>)>;
 
 /// A submission and the grade it must get.

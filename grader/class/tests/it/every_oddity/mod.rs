@@ -1,5 +1,5 @@
-//! Sixty submissions: twelve oddities, as each of five platforms exports them. Every person is
-//! graded or listed with a reason, and all files agree on the numbers.
+//! Sixty submissions: the same twelve odd submissions in the export formats of five platforms.
+//! Every person is graded or listed with a reason, and all files agree on the numbers.
 
 mod cases;
 mod platforms;
@@ -108,8 +108,8 @@ fn check_counts(platform: Platform, class: &TestClass, text: &str) {
     }
     let texts = [
         format!("{graded} graded, small exam"),
-        format!("{nothing} without anything that can be graded"),
-        format!("{missing} on a roster, but submitted nothing"),
+        format!("{nothing} with nothing to grade"),
+        format!("{missing} on a roster, but without a submission"),
         format!("{unclear} without final points"),
     ];
     assert_contains(text, &texts.each_ref().map(String::as_str));

@@ -1,4 +1,4 @@
-//! The same submissions as exported by each platform, with its list of the class.
+//! The same submissions in each platform's export format, and the platform's class lists.
 
 use super::cases::{Case, Files};
 use crate::harness::{TestClass, zip};
@@ -21,7 +21,7 @@ pub struct Student<'a> {
 }
 
 impl Student<'_> {
-    /// Returns the time as the platform's own list shows it.
+    /// Returns the submission time as shown in the platform's list.
     fn time(&self) -> &str {
         self.case.map_or("", |case| case.time)
     }
@@ -119,7 +119,7 @@ impl Platform {
         named.collect()
     }
 
-    /// Returns the platform's lists of the class, by kind.
+    /// Returns the platform's class lists, by kind.
     pub fn lists(self, students: &[Student]) -> Vec<(&'static str, String)> {
         let table = |header: &str, row: &dyn Fn(&Student) -> String| {
             let rows: String = students.iter().map(|student| row(student) + "\n").collect();
@@ -158,8 +158,8 @@ impl Platform {
         }
     }
 
-    /// Returns the name of the copied gradebook, its column that identifies a person, and its
-    /// column with the points.
+    /// Returns the name of the copied gradebook and the titles of two of its columns: the one that
+    /// identifies people and the one with the points.
     pub fn gradebook(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Platform::Gradescope => ("gradescope.csv", "Email", "Total Score"),

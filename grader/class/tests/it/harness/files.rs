@@ -20,7 +20,7 @@ pub fn zip<P: ToString, B: AsRef<[u8]>>(files: impl IntoIterator<Item = (P, B)>)
     writer.finish().unwrap().into_inner()
 }
 
-/// Returns the names in an archive and the contents of each file.
+/// Returns the name and the contents of each file in an archive.
 pub fn unzip(archive: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut archive = ZipArchive::new(Cursor::new(archive)).unwrap();
     let mut files = Vec::new();

@@ -36,7 +36,7 @@ impl TestClass {
         class
     }
 
-    /// Creates a class of three submissions, in a folder with a name such as Moodle uses.
+    /// Creates a class of three submissions, in a folder that is named like one from Moodle.
     pub fn of_three() -> Self {
         TestClass::named("CG-Path tracing (2)")
             .with_reference("ann")
@@ -82,6 +82,13 @@ impl TestClass {
         self.with_files_of("grader/starter", folder)
     }
 
+    /// Adds a submission that ignores the offset in a pixel.
+    pub fn with_offset_mistake(self, folder: &str) -> Self {
+        let file = format!("{folder}/camera.rs");
+        let class = self.with_reference(folder);
+        class.with_replaced(&file, "pixel.as_vec2() + offset", "pixel.as_vec2() + 0.5")
+    }
+
     fn with_files_of(self, source: &str, folder: &str) -> Self {
         RAYS.file_names().fold(self, |class, file| {
             let text = self::source(&format!("{source}/{file}"));
@@ -115,8 +122,8 @@ impl TestClass {
         path.to_str().unwrap().to_owned()
     }
 
-    /// Writes an exam with only these items of the practice exam, so that grading is fast. Returns
-    /// the path of the exam.
+    /// Writes an exam with only these items from the practice exam, so that grading is fast.
+    /// Returns the path of the exam.
     pub fn small_exam(&self, items: &[&str]) -> String {
         let path = workspace().join("grader/exams/practice.json");
         let mut exam: Value = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();
@@ -173,9 +180,9 @@ impl TestClass {
     }
 
     /// Tries to preview a class that must be refused. Returns the error.
-    pub fn refused_preview(&self) -> String {
+    pub fn refused_preview(&self, more: &[&str]) -> String {
         let mut command = class_command();
-        command.arg(self.input()).arg("--dry-run");
+        command.arg(self.input()).arg("--dry-run").args(more);
         refusal(&command.output().unwrap())
     }
 
@@ -186,6 +193,14 @@ impl TestClass {
 
     pub fn command(&self, exam: &str, more: &[&str]) -> Command {
         self.command_into(&self.out(), exam, more)
+    }
+
+    /// Runs a question again on the results in this folder. Returns the output.
+    pub fn replay(&self, out: &Path, arguments: &[&str]) -> Output {
+        let mut command = class_command();
+        command.args(["--isolation", "none", "--replay"]);
+        command.args(arguments).arg("--out").arg(out);
+        command.output().unwrap()
     }
 
     /// Returns a command that grades the class into this folder.
@@ -210,7 +225,7 @@ impl TestClass {
     }
 }
 
-/// Returns a cell of `grades.csv`, by submission, name and column.
+/// Returns the cell of `grades.csv` for this submission, name and column.
 pub fn cell(class: &TestClass, submission: &str, name: &str, column: &str) -> String {
     let grades = class.read("grades.csv");
     let mut rows = table(&grades).into_iter();
@@ -218,7 +233,7 @@ pub fn cell(class: &TestClass, submission: &str, name: &str, column: &str) -> St
     row.unwrap_or_else(|| panic!("{submission}, {name}: {grades}"))[column].clone()
 }
 
-/// Returns the rows of a table, each by the titles of its columns.
+/// Returns the rows of a table. The cells of each row are keyed by column title.
 pub fn table(text: &str) -> Vec<BTreeMap<String, String>> {
     let mut reader = csv::Reader::from_reader(text.trim_start_matches('\u{feff}').as_bytes());
     reader.deserialize().map(Result::unwrap).collect()
@@ -252,7 +267,7 @@ pub fn refusal(output: &Output) -> String {
     error
 }
 
-/// Panics if a text lacks one of these parts.
+/// Panics if `text` lacks one of these parts.
 #[track_caller]
 pub fn assert_contains(text: &str, parts: &[&str]) {
     for part in parts {

@@ -118,8 +118,8 @@ impl Cluster {
         });
     }
 
-    /// Starts a daemon that writes its output to a log. It is killed if the test's thread ends
-    /// without dropping the cluster.
+    /// Starts a daemon that writes its output to a log. The daemon is killed if the test's thread
+    /// ends without dropping the cluster.
     fn spawn(&self, daemon: &str, arguments: &[&str]) {
         let log = fs::File::create(self.folder.path().join(format!("{daemon}.txt"))).unwrap();
         let mut command = self.command("setpriv");

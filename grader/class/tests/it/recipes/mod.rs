@@ -71,8 +71,11 @@ fn another_number_of_parts_and_results_among_the_submissions_are_refused() {
         refused(&class.out(), "has parts of 2; set SHARDS=2");
 
         let inside = class.input().join("graded");
-        refused(&inside, "would be taken for submissions");
-        refused(&class.input().join("ann/../graded"), "choose another OUT");
+        refused(&inside, "would be mistaken for submissions");
+        refused(
+            &class.input().join("ann/../graded"),
+            "choose a different OUT",
+        );
         assert!(!inside.exists());
     }
 }

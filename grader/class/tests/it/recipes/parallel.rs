@@ -40,12 +40,12 @@ fn grades_a_dead_part_again_and_merges() {
             .output()
             .unwrap()
     };
-    // It dies twice, but is only retried once.
+    // The second shard's run dies twice but is only retried once.
     let (code, error) = exit_code_and_stderr(&run("2"));
     assert_eq!(code, 3, "{error}");
     assert!(error.contains("not every part was graded"), "{error}");
     assert!(!class.out().join("grades.csv").exists());
-    // Now it dies once more.
+    // Now the run dies once more.
     successful_stdout(&run("3"));
     assert_eq!(class.read("deaths").lines().count(), 3);
     assert_eq!(class.read("grades.csv").lines().count(), 4);

@@ -25,8 +25,8 @@ impl Schema {
         Schema { schemas, index }
     }
 
-    /// Returns the problems with a document and the paths of the invalid values, or `None` if it is
-    /// valid.
+    /// Returns the problems with a document and the paths of the invalid values, or `None` if the
+    /// document is valid.
     pub fn problems(&self, document: &Value) -> Option<String> {
         let checked = self.schemas.validate(document, self.index);
         checked.err().map(|error| format!("{error:#}"))

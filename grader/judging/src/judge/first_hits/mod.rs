@@ -1,8 +1,8 @@
 //! Compares pictures of first hits with a key that allows a *set* of answers at every position.
 //!
-//! Near an edge, rounding decides which surface a ray hits, so any answer that a ray within ±5e-4
-//! of a pixel would get is correct. Simply skipping these positions would hide cracks between
-//! triangles, which occur nowhere else.
+//! Near an edge, rounding decides which surface a ray hits, so an answer is correct if a ray moved
+//! by up to ±5e-4 of a pixel would get it. Simply skipping these positions would hide cracks
+//! between triangles, which occur nowhere else.
 
 use std::iter;
 
@@ -15,6 +15,7 @@ use crate::judge::{
     Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Position,
     Threshold, deviation,
 };
+use crate::symptom::Side;
 use crate::types::{direction, length, uv};
 
 pub(super) const DEPTH: f32 = 2e-4;
@@ -168,10 +169,10 @@ impl FirstHits<'_> {
     }
 }
 
-/// Returns the deviations at one position, up to the first wrong quantity. Each quantity is
-/// compared to the closest of the answers in `right` that agree with it in all earlier quantities.
-/// A correct miss consists only of the first quantity. `alike` is a buffer whose contents are
-/// overwritten.
+/// Returns the deviations at one position, up to the first wrong quantity. For each quantity, the
+/// submitted answer is compared with the closest of the answers in `right` that agree with it in
+/// all earlier quantities. A correct miss consists only of the first quantity. `alike` is a buffer
+/// whose contents are overwritten.
 fn position_deviations<'a>(
     got: Option<&Trace>,
     right: impl Iterator<Item = &'a Option<Surface>>,
@@ -229,8 +230,18 @@ fn failure_kind(
         (Aspect::Uv, Some(hit)) => describe::uv(hit.uv),
         (_, Some(hit)) => format!("a hit at distance {}", describe::number(hit.depth)),
     };
+    let side = match aspect {
+        Aspect::HitOrMiss => Some(Side::of_presence(got.is_some())),
+        Aspect::Depth => got
+            .zip(wanted)
+            .and_then(|(got, wanted)| Side::of(got.distance, wanted.depth)),
+        Aspect::NoAnswer | Aspect::Normal | Aspect::Uv | Aspect::Direction | Aspect::Radiance => {
+            None
+        }
+    };
     FailureKind::Wrong {
         what: aspect.name().to_owned(),
+        side,
         got: text(got.map(Surface::from)),
         wanted: text(wanted.copied()),
     }

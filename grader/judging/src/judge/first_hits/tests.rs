@@ -49,7 +49,7 @@ fn answer_of(surface: Surface) -> ElementOutcome<Option<Trace>> {
     }))
 }
 
-/// Returns a key of a hundred positions. The first half show a wall.
+/// Returns a key with a hundred positions. The first half show a wall.
 fn key() -> Vec<Option<Surface>> {
     (0..100).map(|i| (i < 50).then_some(WALL)).collect()
 }
@@ -84,7 +84,9 @@ fn a_wrong_quantity_is_shown_with_its_own_numbers() {
     let shown = |surface: Surface| {
         let failure = judge(&key(), &[], &answers(answer_of(surface))).failure;
         match failure.expect("it is wrong").kind {
-            FailureKind::Wrong { what, got, wanted } => [what, got, wanted],
+            FailureKind::Wrong {
+                what, got, wanted, ..
+            } => [what, got, wanted],
             FailureKind::Panicked(_) | FailureKind::Protocol(_) => panic!("there is an answer"),
         }
     };
@@ -109,7 +111,7 @@ fn a_quantity_judged_at_too_few_positions_earns_nothing() {
     got[..24].fill(answer_of(WALL));
     let few = judge(&key(), &[], &got);
     assert_eq!(few.credit.apply(100), 0);
-    // With half of the wall hit, depth, normal and uv are judged. Hit or miss still earns nothing.
+    // If half of the wall is hit, depth, normal and uv are judged. Hit or miss still earns nothing.
     got[..25].fill(answer_of(WALL));
     assert_eq!(judge(&key(), &[], &got).credit.apply(100), 60);
 }

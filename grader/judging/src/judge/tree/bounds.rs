@@ -64,9 +64,9 @@ impl Bounds {
         (self.max - self.min).length()
     }
 
-    /// Returns the surface area.
+    /// Returns the surface area, which is 0 for an empty box.
     pub fn area(self) -> f64 {
-        let size = self.max - self.min;
+        let size = (self.max - self.min).max(DVec3::ZERO);
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
@@ -97,6 +97,7 @@ mod tests {
         };
         assert_eq!(bounds.area(), 2.0 * (2.0 * 3.0 + 3.0 * 6.0 + 6.0 * 2.0));
         assert_eq!(bounds.diagonal(), 7.0);
+        assert_eq!(Bounds::EMPTY.area(), 0.0);
     }
 
     #[test]
@@ -128,7 +129,7 @@ mod tests {
     #[test]
     fn an_excess_of_the_last_bits_is_rounding() {
         let bit = 1000.0 * f64::from(f32::EPSILON);
-        // The tolerance depends on the coordinate farther from 0, which can be either one.
+        // The tolerance depends on the coordinate farther from 0, which can be either of the two.
         for (min, max) in [(-1000.0, 1000.0), (-1000.0, -1.0), (1.0, 1000.0)] {
             let (min, max) = (DVec3::splat(min), DVec3::splat(max));
             let outer = Bounds { min, max };

@@ -1,6 +1,7 @@
-//! Defects of trees and their texts in reports.
+//! Defects of trees and their descriptions in reports.
 
 use crate::describe;
+use crate::symptom::Side;
 
 use super::bounds::Bounds;
 use super::reached_nodes::ReachedNode;
@@ -29,7 +30,7 @@ pub enum TreeDefect {
         /// The index of the node.
         index: u32,
     },
-    /// The leaves list too many primitives in total, so the rest was not read.
+    /// The leaves list too many primitives in total, so the rest were not read.
     TooManyListed {
         /// The maximum number of listed primitives.
         most: usize,
@@ -97,7 +98,8 @@ pub struct NodeBox {
     /// The index of the node.
     pub index: u32,
     node: TreeNode,
-    tight: Bounds,
+    /// The tightest box.
+    pub tight: Bounds,
 }
 
 impl NodeBox {
@@ -111,6 +113,23 @@ impl NodeBox {
 }
 
 impl TreeDefect {
+    /// Returns the node with the defect, or `None` if the defect concerns the entire tree.
+    pub fn node(&self) -> Option<u32> {
+        match self {
+            TreeDefect::BoxTooSmall(node) | TreeDefect::BoxTooLarge(node) => Some(node.index),
+            TreeDefect::UnknownPrimitives { leaf: index, .. }
+            | TreeDefect::LeafTooLarge { leaf: index, .. }
+            | TreeDefect::NotSplit { leaf: index, .. }
+            | TreeDefect::NeedlessSplit { node: index, .. }
+            | TreeDefect::ReachedTwice { index } => Some(*index),
+            TreeDefect::NoNodes { .. }
+            | TreeDefect::UnknownNode { .. }
+            | TreeDefect::TooManyListed { .. }
+            | TreeDefect::Partition { .. }
+            | TreeDefect::Cost(_) => None,
+        }
+    }
+
     /// Returns the name of the wrong part or property.
     pub fn what(&self) -> &'static str {
         match self {
@@ -124,6 +143,24 @@ impl TreeDefect {
             TreeDefect::NotSplit { .. } | TreeDefect::NeedlessSplit { .. } => "splits",
             TreeDefect::LeafTooLarge { .. } => "leaf size",
             TreeDefect::Cost(_) => "SAH cost",
+        }
+    }
+
+    /// Returns whether there is too little or too much of that part or property, if that can be
+    /// determined.
+    pub fn side(&self) -> Option<Side> {
+        match self {
+            TreeDefect::NoNodes { .. } | TreeDefect::NotSplit { .. } => Some(Side::Less),
+            TreeDefect::Partition { leaves, .. } => Some(Side::of_presence(*leaves > 0)),
+            TreeDefect::ReachedTwice { .. }
+            | TreeDefect::TooManyListed { .. }
+            | TreeDefect::NeedlessSplit { .. } => Some(Side::More),
+            TreeDefect::UnknownNode { .. }
+            | TreeDefect::UnknownPrimitives { .. }
+            | TreeDefect::BoxTooSmall(_)
+            | TreeDefect::BoxTooLarge(_)
+            | TreeDefect::LeafTooLarge { .. }
+            | TreeDefect::Cost(_) => None,
         }
     }
 
@@ -162,10 +199,10 @@ impl TreeDefect {
                 format!("leaf {leaf} holds {count} primitives")
             }
             TreeDefect::NeedlessSplit { node, count, .. } => {
-                format!("node {node} was split over {count} primitives")
+                format!("node {node} with {count} primitives was split")
             }
             TreeDefect::Cost(ratio) => {
-                format!("{ratio:.2} times that of the best split at every node")
+                format!("{ratio:.2} times the cost with the best split at every node")
             }
         }
     }
@@ -188,7 +225,7 @@ impl TreeDefect {
                 let [min, max] = [tight.min, tight.max].map(|at| describe::point(at.as_vec3()));
                 format!("{min} to {max}")
             }
-            TreeDefect::NotSplit { .. } => "less than half of them in any leaf".to_owned(),
+            TreeDefect::NotSplit { .. } => "fewer than half of them in each leaf".to_owned(),
             TreeDefect::LeafTooLarge { most, .. } => format!("at most {most}"),
             TreeDefect::NeedlessSplit { most, .. } => {
                 format!("a leaf for at most {most} primitives")

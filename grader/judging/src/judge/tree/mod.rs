@@ -5,14 +5,14 @@ pub mod bounds;
 pub mod defect;
 pub mod reached_nodes;
 
-use protocol::{ElementOutcome, Shape, Tree};
+use protocol::{ElementOutcome, Question, Shape, Tree};
 
-use crate::exam::TreeCheck;
+use crate::exam::{ExamQuestion, Key, TreeCheck};
 use crate::judge::{
     Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Threshold,
     deviation,
 };
-use crate::types::multiple::in_units_of;
+use crate::types::in_units_of;
 
 use bounds::Bounds;
 use defect::{NodeBox, TreeDefect};
@@ -47,6 +47,27 @@ pub struct TreeCriteria<'a> {
     pub max_leaf_size: u32,
 }
 
+impl<'a> TreeCriteria<'a> {
+    /// Returns the criteria for a question, or `None` if it doesn't ask for a tree.
+    pub fn of(question: &'a ExamQuestion) -> Option<Self> {
+        match (&question.question, &question.key) {
+            (
+                Question::Build {
+                    shapes,
+                    max_leaf_size,
+                },
+                Key::Tree { checks, sweep_cost },
+            ) => Some(TreeCriteria {
+                checks,
+                sweep_cost: *sweep_cost,
+                shapes,
+                max_leaf_size: *max_leaf_size,
+            }),
+            _ => None,
+        }
+    }
+}
+
 impl Comparison for TreeAnswer<'_> {
     fn judge(&self) -> Judgement {
         let tree = match self.answer {
@@ -72,6 +93,7 @@ impl Comparison for TreeAnswer<'_> {
                     element: 0,
                     kind: FailureKind::Wrong {
                         what: defect.what().to_owned(),
+                        side: defect.side(),
                         got: defect.got(),
                         wanted: defect.wanted(),
                     },
@@ -92,17 +114,17 @@ impl Comparison for TreeAnswer<'_> {
         };
         let parts = criteria.checks.iter();
         let parts = parts.flat_map(|part| criteria.check_deviations(*part, &nodes));
-        let cost = criteria.sweep_cost.map(|sweep| {
-            match partition_defect(&nodes, criteria.shapes.len()) {
-                Some(_) => Deviation::WRONG,
-                None => cost_deviation(cost(&nodes) / sweep),
-            }
-        });
+        let cost = criteria
+            .sweep_cost
+            .map(|sweep| match criteria.cost(&nodes) {
+                Ok(cost) => cost_deviation(cost / sweep),
+                Err(_) => Deviation::WRONG,
+            });
         deviation::worst_by_threshold(parts.chain(cost))
     }
 }
 
-/// Returns the deviation of a cost that is `ratio` times the cost of the exact sweep's tree.
+/// Returns the deviation for a cost that is `ratio` times the cost of the exact sweep's tree.
 fn cost_deviation(ratio: f64) -> Deviation {
     Deviation::new(
         Threshold::SahCost,
@@ -119,40 +141,47 @@ impl TreeCriteria<'_> {
         };
         let mut checks = self.checks.iter();
         checks
-            .find_map(|check| self.check_defect(*check, &nodes))
+            .find_map(|check| self.check_defects(*check, &nodes).next())
             .or_else(|| {
-                // The cost is only meaningful if the tree contains every primitive exactly once.
                 let sweep = self.sweep_cost?;
-                partition_defect(&nodes, self.shapes.len()).or_else(|| {
-                    let ratio = cost(&nodes) / sweep;
-                    (!cost_deviation(ratio).is_right()).then_some(TreeDefect::Cost(ratio))
-                })
+                let ratio = match self.cost(&nodes) {
+                    Ok(cost) => cost / sweep,
+                    Err(defect) => return Some(defect),
+                };
+                (!cost_deviation(ratio).is_right()).then_some(TreeDefect::Cost(ratio))
             })
     }
 
-    fn check_defect(&self, check: TreeCheck, nodes: &[ReachedNode]) -> Option<TreeDefect> {
+    /// Returns the SAH cost of a tree, which is only meaningful if the tree contains every
+    /// primitive exactly once. Otherwise, returns the first defect of that kind.
+    pub fn cost(&self, nodes: &[ReachedNode]) -> Result<f64, TreeDefect> {
+        let mut defects = self.check_defects(TreeCheck::Partition, nodes);
+        defects.next().map_or_else(|| Ok(cost(nodes)), Err)
+    }
+
+    /// Returns all defects that a check finds in a tree.
+    pub fn check_defects(
+        &self,
+        check: TreeCheck,
+        nodes: &[ReachedNode],
+    ) -> impl Iterator<Item = TreeDefect> {
         let (all, most) = (self.shapes.len(), self.max_leaf_size as usize);
-        let node = || nodes.iter().find(|node| breaks(check, node, all, most));
-        match check {
-            TreeCheck::Partition => partition_defect(nodes, all),
-            TreeCheck::Contains => Some(TreeDefect::BoxTooSmall(NodeBox::of(node()?))),
-            TreeCheck::Tight => Some(TreeDefect::BoxTooLarge(NodeBox::of(node()?))),
-            TreeCheck::Split => node().map(|leaf| TreeDefect::NotSplit {
-                leaf: leaf.index,
-                count: leaf.count,
-                all,
-            }),
-            TreeCheck::LeafSize => node().map(|leaf| TreeDefect::LeafTooLarge {
-                leaf: leaf.index,
-                count: leaf.count,
-                most,
-            }),
-            TreeCheck::Stops => node().map(|node| TreeDefect::NeedlessSplit {
-                node: node.index,
-                count: node.count,
-                most,
-            }),
-        }
+        let leaves = if check == TreeCheck::Partition {
+            leaves_of_primitives(nodes, all)
+        } else {
+            Vec::new()
+        };
+        let in_wrong_leaves = leaves.into_iter().enumerate();
+        let partition = in_wrong_leaves.filter(|(_, leaves)| *leaves != 1);
+        let partition = partition.map(move |(primitive, leaves)| TreeDefect::Partition {
+            primitive,
+            primitives: all,
+            leaves,
+        });
+        let broken = nodes
+            .iter()
+            .filter(move |node| breaks(check, node, all, most));
+        partition.chain(broken.filter_map(move |node| node_defect(check, node, all, most)))
     }
 
     fn check_deviations(&self, part: TreeCheck, nodes: &[ReachedNode]) -> Vec<Deviation> {
@@ -160,7 +189,9 @@ impl TreeCriteria<'_> {
             TreeCheck::Contains => nodes.iter().map(containment_deviation).collect(),
             TreeCheck::Tight => nodes.iter().map(tightness_deviation).collect(),
             TreeCheck::Partition | TreeCheck::Split | TreeCheck::LeafSize | TreeCheck::Stops => {
-                vec![Deviation::binary(self.check_defect(part, nodes).is_none())]
+                vec![Deviation::binary(
+                    self.check_defects(part, nodes).next().is_none(),
+                )]
             }
         }
     }
@@ -177,6 +208,36 @@ pub fn breaks(check: TreeCheck, node: &ReachedNode, all: usize, most: usize) -> 
         TreeCheck::Split => is_leaf && all > 1 && 2 * node.count >= all,
         TreeCheck::LeafSize => is_leaf && node.count > most,
         TreeCheck::Stops => !is_leaf && node.count <= most,
+    }
+}
+
+/// Returns the defect of a node that breaks a check.
+fn node_defect(
+    check: TreeCheck,
+    node: &ReachedNode,
+    all: usize,
+    most: usize,
+) -> Option<TreeDefect> {
+    let (index, count) = (node.index, node.count);
+    match check {
+        TreeCheck::Partition => None,
+        TreeCheck::Contains => Some(TreeDefect::BoxTooSmall(NodeBox::of(node))),
+        TreeCheck::Tight => Some(TreeDefect::BoxTooLarge(NodeBox::of(node))),
+        TreeCheck::Split => Some(TreeDefect::NotSplit {
+            leaf: index,
+            count,
+            all,
+        }),
+        TreeCheck::LeafSize => Some(TreeDefect::LeafTooLarge {
+            leaf: index,
+            count,
+            most,
+        }),
+        TreeCheck::Stops => Some(TreeDefect::NeedlessSplit {
+            node: index,
+            count,
+            most,
+        }),
     }
 }
 
@@ -217,28 +278,15 @@ pub fn leaves_of_primitives<'a>(
     leaves
 }
 
-fn partition_defect(nodes: &[ReachedNode], primitives: usize) -> Option<TreeDefect> {
-    let leaves = leaves_of_primitives(nodes, primitives);
-    let (primitive, leaves) = leaves
-        .iter()
-        .enumerate()
-        .find(|(_, leaves)| **leaves != 1)?;
-    Some(TreeDefect::Partition {
-        primitive,
-        primitives,
-        leaves: *leaves,
-    })
-}
-
 /// Returns the SAH cost of a tree: Σ S/S_root over interior nodes + Σ n · S/S_root over leaves
-/// (C_trav = C_isect = 1), with the tightest boxes around the primitives. See MacDonald and Booth,
-/// "Heuristics for ray tracing using space subdivision", The Visual Computer 6, 1990, section 3.
+/// (C_trav = C_isect = 1), computed with the tightest boxes around the primitives. Empty leaves
+/// cost nothing. See MacDonald and Booth, "Heuristics for ray tracing using space subdivision", The
+/// Visual Computer 6, 1990, section 3.
 pub fn cost<'a>(nodes: impl IntoIterator<Item = &'a ReachedNode<'a>>) -> f64 {
     let mut nodes = nodes.into_iter().peekable();
-    let Some(root) = nodes.peek().map(|root| root.tight_bounds.area()) else {
-        return 0.0;
-    };
-    nodes.map(ReachedNode::cost).sum::<f64>() / root
+    let root = nodes.peek().map_or(0.0, |root| root.tight_bounds.area());
+    // A tree without primitives has no area, and costs nothing.
+    nodes.map(ReachedNode::cost).sum::<f64>() / root.max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]

@@ -14,11 +14,11 @@ const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 /// A node that can be reached from the root.
 #[derive(Debug)]
 pub struct ReachedNode<'a> {
-    /// Index of the node in the tree's nodes.
+    /// Index of the node in the tree's list of nodes.
     pub index: u32,
     /// The node in the answer.
     pub node: &'a TreeNode,
-    /// For a leaf, its primitives in the submission's order, as indices of the question's shapes.
+    /// For a leaf, its primitives in the submission's order, as indices into the question's shapes.
     pub leaf_primitives: Option<Vec<usize>>,
     /// Distance from the root, which is at level 0.
     pub level: u32,
@@ -31,7 +31,7 @@ pub struct ReachedNode<'a> {
 }
 
 impl ReachedNode<'_> {
-    /// Returns the node's part of the tree's SAH cost, times the area of the root.
+    /// Returns the node's contribution to the tree's SAH cost, multiplied by the area of the root.
     pub fn cost(&self) -> f64 {
         let times = self.leaf_primitives.as_ref().map_or(1, Vec::len);
         self.tight_bounds.area() * times as f64

@@ -77,7 +77,8 @@ pub(crate) const ALL_CHECKS: [TreeCheck; 5] = [
     TreeCheck::Stops,
 ];
 
-/// Returns the wrong property of a tree over four spheres and the submission's value of it.
+/// Returns the property that is wrong in a tree over four spheres, and the submission's value for
+/// it.
 fn defect_of(tree: Tree) -> (String, String) {
     let judgement = judge(&ALL_CHECKS, None, 4, 2, tree);
     match judgement.failure.map(|failure| failure.kind) {
@@ -139,7 +140,7 @@ fn a_tree_may_be_deep_on_either_side() {
 
 #[test]
 fn counting_stops_when_leaves_list_too_many_primitives() {
-    // A chain of nodes. Each has a leaf that lists all of a long `order`.
+    // A chain of nodes. Each of them has a leaf that lists the whole of a long `order`.
     let (links, listed) = (2_000, 200_000);
     let link = |i: u32| {
         [
@@ -219,6 +220,29 @@ fn cost_matches_a_hand_calculation() {
     assert_eq!(credit(1.11), Credit::FULL);
     assert_eq!(credit(1.13), Credit::HALF);
     assert_eq!(credit(1.26), Credit::NONE);
+}
+
+#[test]
+fn an_empty_leaf_costs_nothing_but_its_parent_does() {
+    // The left leaf of the valid tree becomes the child of a node whose other child is empty.
+    let mut tree = valid_tree();
+    let empty = TreeNode::new(Vec3::INFINITY, Vec3::NEG_INFINITY, 0, 0, 4, 4);
+    tree.nodes.extend([leaf(0, 1), empty]);
+    tree.nodes[0] = node(0, 1, 0, 3, 4);
+    let nodes = reached_nodes(&row(4), &tree).expect("the tree is valid");
+    let by_hand = 1.0 + (1.0 + 2.0 + 2.0) * 14.0 / 30.0;
+    assert!((cost(&nodes) - by_hand).abs() < 1e-12);
+
+    let empty = tree_of(
+        vec![TreeNode {
+            l: 0,
+            r: 0,
+            ..empty
+        }],
+        0,
+    );
+    let nodes = reached_nodes(&[], &empty).expect("the tree is valid");
+    assert_eq!(cost(&nodes), 0.0);
 }
 
 #[test]

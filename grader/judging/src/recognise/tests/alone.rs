@@ -7,7 +7,8 @@ fn a_mistake_that_explains_all_answers_is_named_at_the_items_that_it_affects() {
     let correct = "1 2|3 4|5";
     let known = [("root", "7 2|3 8|"), ("other", "9 2||")];
     assert_eq!(explain(correct, &known, "7 2|3 8|5"), "root|root|");
-    // One answer differs from the mistake's, in an item the mistake explains only half of.
+    // One answer to the second item differs from the mistake's, so the mistake explains only half
+    // of that item.
     assert_eq!(explain(correct, &known, "7 2|3 6|5"), "||");
     assert_eq!(explain(correct, &known, correct), "||");
 }
@@ -39,7 +40,7 @@ fn a_mistake_that_gives_no_answers_needs_several_items() {
     let named = |wrong: &str, answers: &str| names_known("1|2|3|4", &[("known", wrong)], answers);
     assert!(named("stack|stack|stack|", "stack|stack|stack|4"));
     assert!(!named("stack|stack||", "stack|stack|3|4"));
-    // Few mistakes panic with an index, so one item less suffices.
+    // Few mistakes panic because of an index, so one item fewer is enough.
     assert!(named("index|index||", "index|index|3|4"));
     assert!(!named("index|||", "index|2|3|4"));
     assert!(named("index|stack||", "index|stack|3|4"));

@@ -32,8 +32,8 @@ fn items(text: &str) -> Vec<Vec<ObservedAnswer>> {
 /// A mistake's hint and its answers to the items of an exam.
 type Mistake<'a> = (&'a str, &'a str);
 
-/// Returns the hints at each item for a submission's answers, in an exam of one task with these
-/// correct answers and known mistakes. Mistakes with the same hint share a name here.
+/// Returns the hints for each item in an exam with one task, given the correct answers, the known
+/// mistakes and a submission's answers. Mistakes with the same hint share a name here.
 fn explain(correct: &str, mistakes: &[Mistake], answers: &str) -> String {
     let correct = items(correct);
     let wrong: Vec<_> = mistakes.iter().map(|(_, answers)| items(answers)).collect();

@@ -9,7 +9,7 @@ fn explain_pair(correct: &str, one: &str, other: &str, answers: &str) -> String 
 
 #[test]
 fn two_mistakes_are_named_where_each_explains_an_item_alone() {
-    // Neither is named for the last item, since some answers there are the other mistake's.
+    // Neither is named for the last item, since some answers to it come from the other mistake.
     let named = |answers| explain_pair("1 2|3 4|5 6", "7 2||7 6", "|3 8|5 8", answers);
     assert_eq!(named("7 2|3 8|7 8"), "one|other|");
     // An answer that neither changes must be correct.
@@ -31,7 +31,7 @@ fn each_mistake_of_a_pair_must_affect_an_item_of_its_own() {
 #[test]
 fn three_of_five_answers_must_be_those_of_a_mistake_in_a_pair() {
     // Both change `open` answers, which can be anything. In addition, `one` changes `own` answers,
-    // and `other` three.
+    // and `other` changes three.
     let named = |open: usize, own: usize| {
         let correct = format!("1*{open}|3*{own}|4 5 6");
         let one = format!("7*{open}|7*{own}|");

@@ -1,4 +1,4 @@
-//! Snapshot tests of the captions for common mistakes.
+//! A snapshot test of the captions for common mistakes.
 
 mod rays;
 mod trees;
@@ -8,6 +8,26 @@ use judging::exam::ExamQuestion;
 use protocol::{Answer, ElementOutcome, Ray, Shape, Trace};
 
 use crate::drawing::draw;
+
+#[test]
+fn captions_name_the_mistake() {
+    let all = [
+        (
+            "missing or misplaced hits",
+            rays::missing_or_misplaced_hits(),
+        ),
+        (
+            "hits with another wrong field",
+            rays::hits_with_another_wrong_field(),
+        ),
+        ("box intervals", rays::box_intervals()),
+        ("camera rays", rays::camera_rays()),
+        ("built trees", trees::built_trees()),
+        ("traversals", trees::traversals()),
+    ];
+    let sections = all.map(|(title, captions)| format!("{title}:\n{captions}"));
+    insta::assert_snapshot!(sections.join("\n\n"));
+}
 
 fn caption(question: &ExamQuestion, answer: Answer) -> String {
     let drawing = draw(question, 0, Some(&answer));

@@ -185,7 +185,8 @@ fn if_argument(
     Ok(SeccompRule::new(vec![condition])?)
 }
 
-/// Returns a rule for each of `values` that is satisfied if the 32-bit argument equals that value.
+/// Returns one rule for each of `values`. A rule is satisfied if the 32-bit argument equals its
+/// value.
 fn if_argument_in<const N: usize>(
     argument: u8,
     values: [u64; N],

@@ -61,7 +61,7 @@ fn listing(bytes: &[u8]) -> Listing {
     archive.unwrap().listing().unwrap()
 }
 
-/// Returns an archive of files with these names, all with the same contents.
+/// Returns an archive of files with these names and identical contents.
 fn packed(
     pack: fn(Files) -> Vec<u8>,
     names: impl Iterator<Item = String>,
@@ -94,8 +94,8 @@ fn reads_zip_tar_and_tar_gz_alike() {
         assert_eq!(*text(&submission, "bvh.rs"), Ok("tree".to_owned()));
         assert_eq!(*text(&submission, "camera.rs"), Err(TaskFileError::Missing));
         let notes = [
-            "helper.rs is not one of the task files: ignored",
-            "world.rs differs from the given file: the given one is used, not yours",
+            "helper.rs is not one of the task files and is ignored",
+            "world.rs differs from the given file, which is used instead of yours",
         ];
         assert_eq!(submission.notes, notes);
     }

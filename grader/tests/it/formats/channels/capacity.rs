@@ -1,4 +1,4 @@
-//! The number of bits that reach students in any case, since points and verdicts depend on the
+//! The number of bits that reach students anyway, since points and verdicts depend on the
 //! answers. It is documented in `SECURITY.md`.
 
 use std::fs;
@@ -26,7 +26,8 @@ const WITHOUT_POINTS: [Verdict; 7] = [
     Verdict::Protocol,
 ];
 
-/// Returns the number of results, without hints, that students can distinguish at a level.
+/// Returns the number of results, without hints, that students can distinguish at a visibility
+/// level.
 fn distinct_results(score: &Score, item: &Item, level: &str) -> usize {
     let partial = (1..item.points).map(|points| (Verdict::Partial, points));
     let failed = WITHOUT_POINTS.map(|verdict| (verdict, 0));
@@ -63,7 +64,7 @@ fn sets_of_hints(item: &Item) -> usize {
     1 + sets.sum::<usize>()
 }
 
-/// Returns the number of bits that an item can send to students at a level.
+/// Returns the number of bits that an item can send to students at a visibility level.
 fn bits_of_item(score: &Score, item: &Item, level: &str) -> f64 {
     let results = distinct_results(score, item, level);
     let results = match level {

@@ -37,7 +37,7 @@ const CLOSED: [&str; 5] = [
     "hidden",
 ];
 
-/// The number of bits that arrived, by output.
+/// The number of bits that arrived, keyed by output.
 type Arrived = BTreeMap<&'static str, u32>;
 
 /// Returns a policy that shows every item of every exam at this level.

@@ -36,7 +36,7 @@ fn send() {
 "#;
 #[cfg(not(target_os = "linux"))]
 const WRITES_FRAMES: &str = EXITS;
-/// Sends bits as printed text and as the time it takes.
+/// Sends bits as printed text and as the time that a call takes.
 const PRINTS_AND_WAITS: &str = r#"
 fn send() {
     static ONCE: std::sync::Once = std::sync::Once::new();

@@ -36,7 +36,7 @@ pub fn channels() -> Vec<Channel> {
             record_fault(score, item, Fault::Crashed(Crash::Signal(bits as i32)));
         }),
         channel("length of a frame", |score, item, bits| {
-            let why = format!("a frame has {bits} bytes, and at most 100 are allowed");
+            let why = format!("a frame has {bits} bytes, but at most 100 are allowed");
             record_fault(score, item, Fault::Protocol(why));
         }),
         channel("element that crashes", |score, item, bits| {
@@ -96,8 +96,8 @@ pub fn channels() -> Vec<Channel> {
     ]
 }
 
-/// Fails to compile if there is a new way for a program to fail. If so, add a channel for each
-/// number and text in it.
+/// Fails to compile when a program can fail in a new way, i.e. when a variant is added below. Add a
+/// channel for each number and each text in the new variant.
 #[expect(dead_code, reason = "it only has to compile")]
 fn has_a_channel(fault: &Fault, failure: &FailureKind) {
     match fault {
@@ -115,6 +115,7 @@ fn has_a_channel(fault: &Fault, failure: &FailureKind) {
     match failure {
         FailureKind::Wrong {
             what: _,
+            side: _,
             got: _,
             wanted: _,
         }
@@ -167,6 +168,7 @@ fn panic(message: String, location: &str) -> FailureKind {
 fn wrong(what: &str, got: &str) -> FailureKind {
     FailureKind::Wrong {
         what: what.to_owned(),
+        side: None,
         got: got.to_owned(),
         wanted: "2".to_owned(),
     }

@@ -7,16 +7,16 @@ use std::marker::PhantomData;
 use protocol::{ElementOutcome, Panic};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
-use super::{Drawn, Quantity, Request, Response, TreeData, Values};
+use super::{DrawnPixels, Quantity, Request, Response, TreeData, Values};
 
 /// The maximum number of values in a response: 16 samples of 64 × 64 pixels.
 pub const MAX_VALUES: usize = 1 << 16;
 /// The maximum number of panics in a response.
 pub const MAX_PANICS: usize = 64;
-/// The maximum number of rays in a recording, above twice the maximum number of bounces.
+/// The maximum number of rays in a recording. It is more than twice the maximum number of bounces.
 pub(super) const MAX_RAYS: usize = 1 << 15;
 
-/// The maximum sizes on the wire, in bytes: numbers of 32 bits take up to 5, and floats take 4.
+/// The maximum sizes on the wire, in bytes. A 32-bit number takes up to 5, and a float takes 4.
 const PANIC_BYTES: usize = 2 * (Panic::MAX_TEXT_BYTES + 2);
 const TRACE_BYTES: usize = 12 * 4 + 5;
 const NODE_BYTES: usize = 6 * 4 + 4 * 5;
@@ -28,8 +28,8 @@ impl Request {
     /// Returns the maximum size of the response on the wire, in bytes.
     pub fn max_response_bytes(&self) -> usize {
         let of_lists = match self {
-            Request::Open(_) | Request::Aim(_) => 0,
-            // A pixel has a value and can be in a panic's list.
+            Request::Scene(_) | Request::Try(_) | Request::Build | Request::Aim(_) => 0,
+            // Each pixel has a value and can be listed under a panic.
             Request::Draw(draw) => draw.pixels().count() * (1 + TRACE_BYTES + 5),
             Request::Tree(size) => size.nodes as usize * NODE_BYTES + size.primitives as usize * 4,
             Request::Follow(follow) => {
@@ -37,7 +37,7 @@ impl Request {
             }
             Request::Boxes(queries) => queries.boxes.len() * SPAN_BYTES,
         };
-        // All lists of panics plus some numbers.
+        // The lists of all panics, plus some numbers.
         of_lists + MAX_PANICS * (PANIC_BYTES + 5) + 64
     }
 }
@@ -46,14 +46,19 @@ impl Response {
     /// Returns whether this answers the request with the requested number of values.
     pub fn answers(&self, request: &Request) -> bool {
         let is_whole = match (request, self) {
-            (Request::Open(_), Response::Opened(_))
+            (Request::Scene(_), Response::Received)
+            | (Request::Try(_), Response::Tried)
+            | (Request::Build, Response::Opened(_))
             | (Request::Aim(_), Response::Aimed)
             | (_, Response::NotOpen) => true,
             (Request::Draw(draw), Response::Drawn(drawn)) => {
                 let of_quantity = matches!(
                     (draw.quantity, &drawn.values),
                     (Quantity::Hit, Values::Hits(_))
-                        | (Quantity::Light { .. }, Values::Light(_))
+                        | (
+                            Quantity::Light { .. } | Quantity::Clay { .. },
+                            Values::Light(_)
+                        )
                         | (Quantity::Tests, Values::Tests(_))
                 );
                 // A response without pixels would be requested again forever.
@@ -88,7 +93,11 @@ impl Response {
             Response::Drawn(drawn) => drawn.panics.iter().map(|(panic, _)| panic).collect(),
             Response::Tree(tree) => of_outcome(tree).into_iter().collect(),
             Response::Followed(followed) => followed.panic.iter().collect(),
-            Response::Aimed | Response::Spans(_) | Response::NotOpen => Vec::new(),
+            Response::Received
+            | Response::Tried
+            | Response::Aimed
+            | Response::Spans(_)
+            | Response::NotOpen => Vec::new(),
         }
     }
 }
@@ -100,8 +109,9 @@ fn of_outcome<T>(outcome: &ElementOutcome<T>) -> Option<&Panic> {
     }
 }
 
-/// Returns whether the panics are in drawn pixels, and no sum of numbers overflows.
-fn has_possible_numbers(drawn: &Drawn) -> bool {
+/// Returns whether every panic belongs to a drawn pixel and the counts are small enough to be added
+/// up without overflow.
+fn has_possible_numbers(drawn: &DrawnPixels) -> bool {
     let mut indices = drawn.panics.iter().flat_map(|(_, indices)| indices);
     let count = drawn.values.len();
     indices.all(|index| (*index as usize) < count)
@@ -139,7 +149,7 @@ where
     from.deserialize_seq(List::<T, N>(PhantomData))
 }
 
-/// Numbers of four bytes each, as in memory.
+/// Encodes each number in four bytes, as in memory.
 pub(super) mod fixed_width {
     use serde::{Deserialize, Deserializer, Serializer};
 

@@ -8,18 +8,24 @@ use glam::{UVec2, Vec3};
 use protocol::{ElementOutcome, Interval, Panic, Ray, Trace, Tree, TreeNode};
 use serde::{Deserialize, Serialize};
 
+use crate::rules::RULES;
 use crate::scene_data::{Aim, SceneData};
 
 use limits::{at_most, fixed_width};
 
 pub use limits::{MAX_PANICS, MAX_VALUES};
-pub use recorded::{Followed, FollowedRay, Test};
+pub use recorded::{RecordedRay, RecordedRays, Test};
 
 /// A request from the viewer.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Request {
-    /// Replaces the scene and builds the tree. All other requests need a scene.
-    Open(Box<SceneData>),
+    /// Replaces the scene. All other requests need a scene. Runs none of the submission's code.
+    Scene(Box<SceneData>),
+    /// Calls a method to find out whether it has been written and whether it returns.
+    Try(Trial),
+    /// Builds the tree, using the parts that have turned out to be written. All of the following
+    /// requests need the tree.
+    Build,
     /// Replaces the camera and keeps the tree.
     Aim(Aim),
     /// Draws some pixels.
@@ -32,20 +38,31 @@ pub enum Request {
     Boxes(BoxQueries),
 }
 
+/// A call of a single method. As with the grader's questions, each call is a separate request, so
+/// the viewer knows which method doesn't return.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// The method.
+    pub part: SubmissionPart,
+    /// The ray to test, unused for the camera. Before the tree is built, the ray is tested with one
+    /// shape, and afterwards with all of them.
+    pub ray: Ray,
+}
+
 /// A rectangle of the film where some pixels should be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Draw {
     /// The lower left pixel.
     pub origin: UVec2,
-    /// The number of pixels, across and up.
+    /// The width and height of the rectangle, in pixels.
     pub size: UVec2,
     /// Draws only pixels whose coordinates are multiples of this.
     pub stride: u32,
     /// Leaves out pixels whose coordinates are multiples of this, because they have already been
     /// drawn. 0 leaves out none.
     pub drawn_stride: u32,
-    /// The number of samples to draw for each of these pixels, one after the other. Rays of the
-    /// same pixel need the same nodes, which are then in the cache.
+    /// The number of samples to draw for each of these pixels, one after the other. Rays through
+    /// the same pixel need the same nodes, which are then in the cache.
     pub passes: u32,
     /// The number of samples that have been drawn already.
     pub first: u32,
@@ -63,24 +80,28 @@ pub enum Quantity {
     Hit,
     /// The radiance of one path per pass.
     Light {
-        /// The number of the first pass's path, from 0.
+        /// The index of the path in the first pass.
         sample: u32,
     },
-    /// The number of tests for the ray through the centre of the pixel. Needs the recording
-    /// program.
+    /// The radiance of one sample in clay per pass.
+    Clay {
+        /// The index of the sample in the first pass.
+        sample: u32,
+    },
+    /// The tests of the ray through the centre of the pixel. Needs the recording program.
     Tests,
 }
 
 impl Draw {
     /// Returns the pixels to draw, in order, excluding those that have already been drawn. Each
-    /// comes with the number of its pass, from 0.
+    /// pixel is paired with the index of its pass.
     pub fn pixels(self) -> impl Iterator<Item = (u32, UVec2)> {
         self.pixels_of_pass()
             .flat_map(move |pixel| (0..self.passes).map(move |pass| (pass, pixel)))
             .skip(self.first as usize)
     }
 
-    /// Returns the pixels of each pass.
+    /// Returns the pixels that are drawn in each pass.
     pub fn pixels_of_pass(self) -> impl Iterator<Item = UVec2> {
         let Draw {
             origin,
@@ -109,6 +130,8 @@ pub struct Follow {
     pub target: Target,
     /// The maximum number of tests to list. All tests are counted.
     pub max_tests: u32,
+    /// The maximum number of rays to trace. One more ray is listed, but it hits nothing.
+    pub max_rays: u32,
 }
 
 /// A ray or a path to record.
@@ -120,7 +143,14 @@ pub enum Target {
     Path {
         /// The pixel.
         pixel: UVec2,
-        /// The number of the path, from 0.
+        /// The index of the path.
+        sample: u32,
+    },
+    /// One sample in clay through this pixel.
+    Clay {
+        /// The pixel.
+        pixel: UVec2,
+        /// The index of the sample.
         sample: u32,
     },
     /// This ray, in world space.
@@ -139,35 +169,39 @@ pub struct BoxQueries {
 /// A response to a request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Response {
-    /// The response to `Open`.
-    Opened(Opened),
+    /// The response to `Scene`.
+    Received,
+    /// The response to `Try`.
+    Tried,
+    /// The response to `Build`.
+    Opened(OpenOutcome),
     /// The response to `Aim`.
     Aimed,
     /// The response to `Draw`.
-    Drawn(Drawn),
+    Drawn(DrawnPixels),
     /// The response to `Tree`.
     Tree(ElementOutcome<TreeData>),
     /// The response to `Follow`.
-    Followed(Followed),
+    Followed(RecordedRays),
     /// The response to `Boxes`: the part of the ray's range inside each box, or `None`.
     Spans(Vec<Option<Interval>>),
     /// There is no scene, or its tree could not be built.
     NotOpen,
 }
 
-/// The result of opening a scene.
+/// The result of building a scene's tree.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Opened {
+pub struct OpenOutcome {
     /// The parts of the submission that haven't been written yet, each with its panic.
     #[serde(deserialize_with = "at_most::<_, _, MAX_PANICS>")]
-    pub missing: Vec<(Part, Panic)>,
-    /// The size of the tree, or the panic of `Bvh::build`.
+    pub missing: Vec<(SubmissionPart, Panic)>,
+    /// The size of the tree, or the panic in `Bvh::build`.
     pub tree: ElementOutcome<TreeSize>,
 }
 
-/// A part of a submission that can be found missing when a scene is opened.
+/// A part of a submission: a method that students write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Part {
+pub enum SubmissionPart {
     /// `Camera::sample_ray`. The viewer's camera is used instead.
     Camera,
     /// `Triangle::hit`. Triangles are left out.
@@ -176,6 +210,27 @@ pub enum Part {
     Sphere,
     /// `BBox::hit`.
     BBox,
+    /// `Bvh::build`.
+    Build,
+    /// `Bvh::hit`.
+    Traversal,
+}
+
+impl SubmissionPart {
+    /// The methods that can be called before the tree is built.
+    pub const BEFORE_BUILD: [SubmissionPart; 4] = [
+        SubmissionPart::Camera,
+        SubmissionPart::Triangle,
+        SubmissionPart::Sphere,
+        SubmissionPart::BBox,
+    ];
+    /// The methods that are called with a ray, each after the methods that it calls.
+    pub const WITH_RAY: [SubmissionPart; 4] = [
+        SubmissionPart::Triangle,
+        SubmissionPart::Sphere,
+        SubmissionPart::BBox,
+        SubmissionPart::Traversal,
+    ];
 }
 
 /// A tree that can be sent.
@@ -204,7 +259,7 @@ pub struct TreeSize {
 
 /// Some pixels of a picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Drawn {
+pub struct DrawnPixels {
     /// One value per pixel, in the order of [`Draw::pixels`].
     pub values: Values,
     /// Each panic, with the indices of the pixels where it occurred.
@@ -223,8 +278,8 @@ pub enum Values {
     Hits(#[serde(deserialize_with = "at_most::<_, _, MAX_VALUES>")] Vec<Option<Trace>>),
     /// The radiance of one path per pixel.
     Light(#[serde(deserialize_with = "at_most::<_, _, MAX_VALUES>")] Vec<Vec3>),
-    /// Numbers of tests.
-    Tests(#[serde(deserialize_with = "at_most::<_, _, MAX_VALUES>")] Vec<TestCounts>),
+    /// The tests of rays.
+    Tests(#[serde(deserialize_with = "at_most::<_, _, MAX_VALUES>")] Vec<MarkedTests>),
 }
 
 impl Values {
@@ -243,7 +298,7 @@ impl Values {
     }
 }
 
-/// Numbers of tests.
+/// Test counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TestCounts {
     /// The number of calls of `BBox::hit`.
@@ -257,4 +312,13 @@ impl TestCounts {
     pub fn total(self) -> u32 {
         self.boxes.saturating_add(self.primitives)
     }
+}
+
+/// The tests of a ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MarkedTests {
+    /// The test counts.
+    pub counts: TestCounts,
+    /// For each [rule](crate::rules::Rule), the number of steps that break it.
+    pub marks: [u32; RULES],
 }

@@ -7,36 +7,36 @@ use serde::{Deserialize, Serialize};
 use super::TestCounts;
 use super::limits::{MAX_RAYS, at_most};
 
-/// The recorded tests of a ray, or of all rays of a path.
+/// The tests recorded for a ray, or for all rays in a path.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Followed {
+pub struct RecordedRays {
     /// The rays, in the order they were traced.
     #[serde(deserialize_with = "at_most::<_, _, MAX_RAYS>")]
-    pub rays: Vec<FollowedRay>,
+    pub rays: Vec<RecordedRay>,
     /// The radiance of the path.
     pub radiance: Option<Vec3>,
     /// The panic that ended the recording.
     pub panic: Option<Panic>,
 }
 
-/// The recorded tests of one ray.
+/// The tests recorded for one ray.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FollowedRay {
+pub struct RecordedRay {
     /// The ray that was passed to `Bvh::hit`.
     pub ray: Ray,
-    /// The result of `Bvh::hit`. `Trace::shape` is the index of the shape. `None` if it missed or
-    /// panicked.
+    /// The result of `Bvh::hit`. `Trace::shape` is the index of the shape. `None` if the ray missed
+    /// or the method panicked.
     pub hit: Option<Trace>,
     /// The tests, in order. Tests beyond the maximum number are left out.
     pub tests: Vec<Test>,
-    /// The numbers of all tests.
+    /// The counts of all tests, including those that aren't listed.
     pub counts: TestCounts,
 }
 
-impl FollowedRay {
+impl RecordedRay {
     /// Returns a ray without tests.
     pub(crate) fn new(ray: Ray) -> Self {
-        FollowedRay {
+        RecordedRay {
             ray,
             hit: None,
             tests: Vec::new(),

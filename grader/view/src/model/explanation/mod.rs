@@ -1,4 +1,4 @@
-//! The tests of a ray, or of all rays of a path, as shown on the page.
+//! The tests for a ray, or for all rays in a path, as shown on the page.
 
 mod remarks;
 mod types;
@@ -7,17 +7,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::UVec2;
 use protocol::Shape;
-use view_probe::messages::{Followed, FollowedRay, Test};
+use view_probe::indexed_tree::IndexedTree;
+use view_probe::messages::{RecordedRay, RecordedRays, Test};
+use view_probe::rules::{self, NodeAddresses, NodeSpan, Row};
 
-use crate::model::rules::{self, NodeAddresses, NodeSpan, Row};
-use crate::model::tree::TreeModel;
-
-pub use types::{ExplainedHit, ExplainedRay, ExplainedTest, Explanation, Outcome};
+pub use types::{ExplainedHit, ExplainedRay, ExplainedTest, Explanation, TestOutcome};
 
 /// The scene that the rays are traced in.
 pub struct Context<'a> {
     /// The tree, with numbered primitives.
-    pub tree: &'a TreeModel,
+    pub tree: &'a IndexedTree,
     /// All shapes.
     pub shapes: &'a [Shape],
     /// Whether the shapes are tested as a list, because the question isn't about a tree.
@@ -26,27 +25,31 @@ pub struct Context<'a> {
     pub addresses: Option<NodeAddresses>,
 }
 
-/// Explains the rays of a recording. `spans` contains the spans of the judged nodes for each ray.
+/// Explains the rays in a recording. For each ray, `spans` contains the spans of the judged nodes.
 pub fn explain(
     pixel: Option<UVec2>,
     sample: Option<u32>,
-    followed: &Followed,
+    followed: &RecordedRays,
     spans: &[BTreeMap<u32, NodeSpan>],
     context: &Context,
 ) -> Explanation {
     let rays = followed.rays.iter().zip(spans).enumerate();
     let mut bounce = 0;
     let explained = rays.map(|(index, (ray, spans))| {
-        let kind = match (pixel, ray.ray.range.max.is_finite()) {
-            (None, _) => "ray of the exam".to_owned(),
-            (Some(_), _) if index == 0 => "camera ray".to_owned(),
-            (Some(_), true) => "shadow ray, to a light".to_owned(),
-            (Some(_), false) => {
+        let is_shadow_ray = pixel.is_some() && index > 0 && ray.ray.range.max.is_finite();
+        let kind = match pixel {
+            None => "ray from the exam".to_owned(),
+            Some(_) if index == 0 => "camera ray".to_owned(),
+            Some(_) if is_shadow_ray => "shadow ray, to a light".to_owned(),
+            Some(_) => {
                 bounce += 1;
                 format!("ray after bounce {bounce}")
             }
         };
-        explain_ray(kind, ray, spans, context)
+        ExplainedRay {
+            is_shadow_ray,
+            ..explain_ray(kind, ray, spans, context)
+        }
     });
     Explanation {
         pixel,
@@ -62,7 +65,7 @@ pub fn explain(
 
 fn explain_ray(
     kind: String,
-    ray: &FollowedRay,
+    ray: &RecordedRay,
     spans: &BTreeMap<u32, NodeSpan>,
     context: &Context,
 ) -> ExplainedRay {
@@ -89,6 +92,7 @@ fn explain_ray(
     let ray_end = |t: f32| t.is_finite().then_some(t);
     ExplainedRay {
         kind,
+        is_shadow_ray: false,
         origin: ray.ray.origin,
         dir: ray.ray.dir,
         range: [ray_end(ray.ray.range.min), ray_end(ray.ray.range.max)],
@@ -104,7 +108,7 @@ fn explain_ray(
     }
 }
 
-/// The state of a traversal while explaining its tests one after the other.
+/// The state of a traversal while its tests are explained one after the other.
 struct State {
     closest: Option<f32>,
     /// The closest hit after all tests. A node is often skipped long after its box was tested.
@@ -117,7 +121,7 @@ impl State {
         &mut self,
         row: &Row,
         test: &Test,
-        ray: &FollowedRay,
+        ray: &RecordedRay,
         entered: &BTreeSet<u32>,
         spans: &BTreeMap<u32, NodeSpan>,
         context: &Context,
@@ -130,7 +134,7 @@ impl State {
             shape: None,
             corners: None,
             triangle: None,
-            outcome: Outcome::Missed,
+            outcome: TestOutcome::Missed,
             at: Vec::new(),
             closest: self.closest,
             marks: Vec::new(),
@@ -144,12 +148,12 @@ impl State {
                 let beyond = |from: f32| self.at_the_end.is_some_and(|closest| from > closest);
                 let outcome = match inside {
                     Some(_) if row.nodes.iter().any(|node| entered.contains(node)) => {
-                        Outcome::Entered
+                        TestOutcome::Entered
                     }
-                    Some(inside) if beyond(inside.min) => Outcome::SkippedBeyond,
-                    Some(_) => Outcome::NotEntered,
-                    None if whole.is_some() => Outcome::OutsideTimes,
-                    None => Outcome::Missed,
+                    Some(inside) if beyond(inside.min) => TestOutcome::SkippedBeyond,
+                    Some(_) => TestOutcome::NotEntered,
+                    None if whole.is_some() => TestOutcome::OutsideTimes,
+                    None => TestOutcome::Missed,
                 };
                 let span = inside.or(whole);
                 ExplainedTest {
@@ -163,12 +167,12 @@ impl State {
                 shape, distance, ..
             } => {
                 let outcome = match distance {
-                    None => Outcome::NoHit,
+                    None => TestOutcome::NoHit,
                     Some(t) if ray.ray.range.contains(t) && self.closest.is_none_or(|c| t < c) => {
                         self.closest = Some(t);
-                        Outcome::Closest
+                        TestOutcome::Closest
                     }
-                    Some(_) => Outcome::Farther,
+                    Some(_) => TestOutcome::Farther,
                 };
                 let (corners, triangle) = match context.shapes.get(shape as usize) {
                     None => (None, None),
@@ -197,7 +201,7 @@ impl State {
 }
 
 /// Returns the distance of the closest hit found by the listed tests.
-fn closest_hit(ray: &FollowedRay) -> Option<f32> {
+fn closest_hit(ray: &RecordedRay) -> Option<f32> {
     let distances = ray.tests.iter().filter_map(|test| match test {
         Test::Primitive { distance, .. } => *distance,
         Test::Box { .. } => None,

@@ -1,12 +1,12 @@
 //! Remarks about all tests of a ray together.
 
-use view_probe::messages::{FollowedRay, TestCounts};
+use view_probe::messages::{RecordedRay, TestCounts};
 
 use super::{Context, ExplainedTest};
 
 /// Returns remarks about all tests of a ray together.
 pub(super) fn remarks(
-    ray: &FollowedRay,
+    ray: &RecordedRay,
     tests: &[ExplainedTest],
     closest: Option<f32>,
     context: &Context,
@@ -22,11 +22,10 @@ pub(super) fn remarks(
     }
     match (context.tree.has_nodes(), boxes, primitives) {
         (false, 0, 1..) if !context.is_list => notes.push(
-            "There is no tree yet, so `Bvh::hit` tests the primitives one after the other."
-                .to_owned(),
+            "There is no tree yet, so `Bvh::hit` tests the primitives one by one.".to_owned(),
         ),
         (true, 0, 1..) => notes.push(
-            "`Bvh::hit` tested no box with `BBox::hit`. If it uses the tree in another way, only \
+            "`Bvh::hit` didn't test any box with `BBox::hit`. If it uses the tree in a different way, only \
              the tests of primitives can be listed."
                 .to_owned(),
         ),
@@ -56,7 +55,7 @@ pub(super) fn remarks(
             )),
             (Some(closest), Some(hit)) if hit.distance > closest * (1.0 + 1e-4) => {
                 notes.push(format!(
-                    "The closest hit that was found is at {closest}, but `Bvh::hit` returned one at {}.",
+                    "The closest hit found is at {closest}, but `Bvh::hit` returned one at {}.",
                     hit.distance
                 ));
             }

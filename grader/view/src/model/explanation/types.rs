@@ -2,13 +2,12 @@
 
 use glam::{UVec2, Vec3};
 use serde::Serialize;
-
-use crate::model::rules::Rule;
+use view_probe::rules::Rule;
 
 /// An explained pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Explanation {
-    /// The pixel, from the bottom left, or `None` for a ray of the exam.
+    /// The pixel, from the bottom left, or `None` for a ray from the exam.
     pub pixel: Option<UVec2>,
     /// The number of the path, or `None` for the ray through the centre.
     pub sample: Option<u32>,
@@ -23,8 +22,10 @@ pub struct Explanation {
 /// An explained ray.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExplainedRay {
-    /// The use of the ray, such as "camera ray".
+    /// The purpose of the ray, such as "camera ray".
     pub kind: String,
+    /// Whether the ray leads to a light, which is visible if the ray hits nothing.
+    pub is_shadow_ray: bool,
     /// The origin.
     pub origin: Vec3,
     /// The direction.
@@ -61,7 +62,7 @@ pub struct ExplainedTest {
     pub is_box: bool,
     /// The nodes with this box, or the leaf of the primitive.
     pub nodes: Vec<u32>,
-    /// The level of the first of them.
+    /// The level of the first of these nodes.
     pub level: Option<u32>,
     /// The index of the shape.
     pub shape: Option<u32>,
@@ -70,12 +71,12 @@ pub struct ExplainedTest {
     /// The corners of the triangle.
     pub triangle: Option<[Vec3; 3]>,
     /// The outcome.
-    pub outcome: Outcome,
-    /// The part of the ray in the box, or the distance of the hit.
+    pub outcome: TestOutcome,
+    /// The part of the ray inside the box, or the distance to the hit.
     pub at: Vec<f32>,
     /// The closest hit after this test.
     pub closest: Option<f32>,
-    /// The rules that are broken with this test, each with the node.
+    /// The rules that this test breaks, each with the node that shouldn't have been entered.
     pub marks: Vec<(Rule, u32)>,
     /// Whether the primitive had been tested for this ray before.
     pub again: bool,
@@ -84,7 +85,7 @@ pub struct ExplainedTest {
 /// The outcome of a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Outcome {
+pub enum TestOutcome {
     /// The ray hits the box, and the node was entered.
     Entered,
     /// The ray hits the box, but the node was not entered.

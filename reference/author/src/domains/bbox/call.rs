@@ -1,18 +1,18 @@
-//! Calls of `BBox::hit`.
+//! Calls to `BBox::hit`.
 
 use glam::Vec3;
 use protocol::{Interval, Query, Question, Ray};
 
 use crate::domains::fields;
-use crate::domains::{Call, Placed};
+use crate::domains::{Aimed, Call, Placed};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// The upper limit of a direction's component that is almost 0.
+/// Direction components below this limit count as almost 0.
 pub(super) const SMALL_COMPONENT: f32 = 1e-4;
 
-/// A call of `BBox::hit`.
+/// A call to `BBox::hit`.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxCall {
     /// The box. Its corners are exact in single precision.
@@ -25,7 +25,7 @@ pub struct BoxCall {
     pub(super) before: Option<(Ray, Interval)>,
 }
 
-/// Returns the calls of a question about a box.
+/// Returns the calls in a question about a box.
 pub(super) fn calls(question: &Question) -> Vec<BoxCall> {
     let Question::BBoxHit(table) = question else {
         return Vec::new();
@@ -43,12 +43,30 @@ pub(super) fn calls(question: &Question) -> Vec<BoxCall> {
 }
 
 impl BoxCall {
+    /// Returns whether the answers to the two calls clearly differ.
+    pub(super) fn differs(&self, other: &Self) -> bool {
+        let spans = [self, other].map(|call| call.bounds.span(&call.ray64()));
+        let [Some(one), Some(other)] = spans else {
+            return spans[0].is_some() != spans[1].is_some();
+        };
+        let far = self.ray.origin.as_dvec3().abs().max_element() + self.bounds.diagonal();
+        let scale = far.max(
+            self.bounds
+                .min
+                .abs()
+                .max(self.bounds.max.abs())
+                .max_element(),
+        );
+        let is_other = |a: f64, b: f64| a != b && (a - b).abs() > 3e-4 * scale;
+        is_other(one.0, other.0) || is_other(one.1, other.1)
+    }
+
     /// Returns half of the longest side.
     pub(super) fn size(&self) -> f64 {
         self.bounds.half_side()
     }
 
-    /// Returns the ray, limited to the times of the call.
+    /// Returns the ray with its range replaced by the times of the call.
     pub fn ray64(&self) -> Ray64 {
         Ray64::from(&self.ray).within(self.times)
     }
@@ -63,7 +81,8 @@ impl BoxCall {
         self.bounds.min.cmpeq(self.bounds.max).any()
     }
 
-    /// Returns the distance between the box's centre and the ray's line, in half diagonals.
+    /// Returns the distance between the box's centre and the ray's line, as a multiple of half the
+    /// diagonal.
     pub(super) fn distance_of_line(&self) -> f64 {
         let to_center = self.bounds.center() - self.ray.origin.as_dvec3();
         let dir = self.ray.dir.as_dvec3();
@@ -96,14 +115,15 @@ impl BoxCall {
         self.bounds.contains(&start)
     }
 
-    /// Returns whether it matters that a component of the direction is almost 0 rather than 0.
+    /// Returns whether it matters that a component of the direction is almost 0 rather than exactly
+    /// 0.
     pub fn is_decided_by_slant(&self) -> bool {
         let would_hit = self.with_zeros().map(|call| call.is_hit());
         would_hit.is_some_and(|would_hit| would_hit != self.is_hit())
     }
 
-    /// Returns the call with 0 for each component of the direction that is almost 0, or `None` if none
-    /// is.
+    /// Returns the call with all almost-zero components of the direction set to 0, or `None` if
+    /// there are no such components.
     fn with_zeros(&self) -> Option<BoxCall> {
         let is_small = self.ray.dir.abs().cmplt(Vec3::splat(SMALL_COMPONENT));
         let dir = Vec3::select(is_small, Vec3::ZERO, self.ray.dir);
@@ -118,9 +138,9 @@ impl BoxCall {
         self.bounds.span(&Ray64::from(&self.ray).within(whole))
     }
 
-    /// Returns whether this line, which misses the box, would hit one that is a little larger.
+    /// Returns whether this line, which misses the box, would hit a slightly larger box.
     pub(super) fn is_narrow_miss(&self, line: &Ray64) -> bool {
-        /// The margin, in sizes of the box.
+        /// The margin, as a multiple of the box's size.
         const NARROW: f64 = 0.002;
         let larger = self.bounds.grown(NARROW * self.size());
         larger.span(line).is_some()
@@ -157,6 +177,12 @@ impl Call for BoxCall {
         let leave = if leave.is_finite() { leave } else { 0.0 };
         let times = fields::range(rng, leave + 2.0 * self.size());
         Some(BoxCall { times, ..*self })
+    }
+}
+
+impl Aimed for BoxCall {
+    fn ray(&self) -> &Ray {
+        &self.ray
     }
 }
 

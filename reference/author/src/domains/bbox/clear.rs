@@ -1,4 +1,4 @@
-//! Whether rounding in single precision can change the answer to a call of `BBox::hit`.
+//! Checks whether rounding in single precision can change the answer to a `BBox::hit` call.
 
 use glam::{DVec3, Vec3};
 
@@ -8,12 +8,12 @@ use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 
 impl BoxCall {
-    /// Returns whether every correct formula in single precision agrees on the outcome, i.e. whether it
+    /// Returns whether all correct single-precision formulas agree on the outcome, i.e. whether it
     /// would be the same for a slightly larger or smaller box and slightly different times.
     pub fn is_clear(&self) -> bool {
-        /// The margin, in sizes of the box.
+        /// The margin, as a multiple of the box's size.
         const MARGIN: f64 = 0.02;
-        /// The margin of a thin box, in lengths of its side.
+        /// The margin for a thin box, as a fraction of its side.
         const THIN_MARGIN: f64 = 0.1;
         let size = self.size();
         let sides = self.bounds.max - self.bounds.min;
@@ -73,8 +73,8 @@ impl BoxCall {
         hits_with(1.0, longer) == hits_with(-1.0, shorter)
     }
 
-    /// Returns whether the ray enters or leaves the box through a side that it is almost parallel to, so
-    /// that rounding changes the time.
+    /// Returns whether the ray enters or leaves the box through a side that it is almost parallel
+    /// to, so that rounding changes the time.
     fn is_decided_by_rounding(&self, coordinates: f64) -> bool {
         /// The largest fraction of a tolerance that errors may use up.
         const PART: f64 = 0.3;
@@ -92,7 +92,7 @@ impl BoxCall {
         })
     }
 
-    /// Returns by how much the times can be shortened at each end.
+    /// Returns the amount by which the times can be shortened at each end.
     fn duration_margin(&self) -> f64 {
         let ray64 = self.ray64();
         (0.02 * self.size()).min(0.25 * (ray64.max - ray64.min))

@@ -4,14 +4,14 @@ use glam::DVec3;
 use protocol::{Interval, Ray};
 
 use super::call::{BoxCall, SMALL_COMPONENT};
-use super::{BOX, FOIL, THIN, THREAD};
+use super::{BOX, CORNER, DISTANT, FOIL, THIN, THREAD};
 use crate::domains::fields;
-use crate::domains::{Call, Generator};
+use crate::domains::{Call, Change, Generator};
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// Draws boxes of these sizes. Each has calls that fit an item's idea, and every other call is a
-/// hit.
+/// Draws boxes of these sizes and, for each box, calls that fit an item's idea. Every other call is
+/// a hit.
 pub fn tables(
     rng: &mut Rng,
     sizes: &[usize],
@@ -22,14 +22,15 @@ pub fn tables(
         domain: &BOX,
         subject: &drawn_box,
         input: &query,
-        changes: &[|call, _| BoxCall::new(smaller(&call.bounds), call.input())],
-        most_changes: 1,
+        changes: CHANGES,
+        most_changes: 2,
         follow: &[],
         fits: &fits,
-        differ: &|_, _| true,
+        differ: &|one, other| one.differs(other),
     };
     let mut tables = generator.tables(rng, sizes);
-    // If the last two have the same calls, they stay unchanged: one begins where the other ends.
+    // If the last two tables have the same calls, they stay unchanged, since one begins with the
+    // call that ends the other.
     let alone = if tables.len() > sizes.len() {
         sizes.len() - 1
     } else {
@@ -42,6 +43,24 @@ pub fn tables(
     });
     tables.collect::<Vec<_>>().into_iter().chain(rest).collect()
 }
+
+/// The ways a box can differ from the previous one.
+const CHANGES: &[Change<BoxCall>] = &[
+    |call, _| BoxCall::new(shorter(&call.bounds, 0), call.input()),
+    |call, _| BoxCall::new(shorter(&call.bounds, 1), call.input()),
+    |call, _| BoxCall::new(shorter(&call.bounds, 2), call.input()),
+    |call, random| {
+        let mut bounds = call.bounds;
+        let axis = random.max_position();
+        let side = (bounds.max - bounds.min)[axis];
+        if random[axis] > 0.5 {
+            bounds.max[axis] = (bounds.max[axis] - 0.2 * side) as f32 as f64;
+        } else {
+            bounds.min[axis] = (bounds.min[axis] + 0.2 * side) as f32 as f64;
+        }
+        BoxCall::new(bounds, call.input())
+    },
+];
 
 /// Draws a box of this size. Each of two sides may be thin, and one may be flat.
 fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
@@ -75,6 +94,10 @@ fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
         0 => center = half * DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]),
         1 => center[axis] = half[axis] * rng.sign(),
         2..=5 => [center, half] = exact(size, [center, half]),
+        6 => {
+            half[axis] = half[(axis + 1) % 3];
+            [center, half] = exact(size, [center, half]);
+        }
         _ if is_cube => [center, half] = exact(size, [center, half]),
         _ => {}
     }
@@ -85,7 +108,7 @@ fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     bounds
 }
 
-/// Draws a short side, in sizes.
+/// Draws the length of a short side, as a fraction of the box's size.
 fn thin(rng: &mut Rng) -> f64 {
     match rng.index(3) {
         0 => rng.uniform(0.005, THIN),
@@ -93,8 +116,8 @@ fn thin(rng: &mut Rng) -> f64 {
     }
 }
 
-/// Returns a centre and half sides close to these, so that the corners and the centre are exact in single
-/// precision. Sides that are too short for that are returned unchanged.
+/// Returns a centre and half sides close to these, for which the corners and the centre are exact
+/// in single precision. Sides that are too short for that are returned unchanged.
 fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
     let step = size.log2().floor().exp2() / 256.0;
     let is_long = half.cmpge(DVec3::splat(step));
@@ -105,7 +128,8 @@ fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
     ]
 }
 
-/// Draws a ray through a box or past it, and times. Returns `None` if it would start too far away.
+/// Draws times and a ray that passes through a box or beside it. Returns `None` if the ray would
+/// start too far away.
 fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
     let sides = bounds.max - bounds.min;
@@ -126,7 +150,29 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
         10..=16 => return from_the_origin(rng, bounds),
         _ => fields::direction(rng),
     };
-    query_along(rng, bounds, dir)
+    let (ray, times) = query_along(rng, bounds, dir)?;
+    let is_short = rng.index(4) == 0;
+    let short = is_short.then(|| short_times(rng, &BoxCall::new(*bounds, (ray, times))));
+    Some((ray, short.flatten().unwrap_or(times)))
+}
+
+/// Draws times that end just after the ray enters the box, or begin just before it leaves. Returns
+/// `None` if the box isn't far ahead.
+fn short_times(rng: &mut Rng, call: &BoxCall) -> Option<Interval> {
+    let (enter, leave) = call.crossing()?;
+    let inside = call.size() * rng.uniform(0.04, 0.07);
+    if enter < DISTANT * call.size() {
+        return None;
+    }
+    Some(if rng.coin() {
+        Interval::new(
+            rng.uniform(0.0, 0.9 * enter) as f32,
+            (enter + inside) as f32,
+        )
+    } else {
+        let end = leave * rng.uniform(1.1, 2.0);
+        Interval::new((leave - inside) as f32, end as f32)
+    })
 }
 
 /// Draws a ray in this direction. Sometimes, draws one that starts far away or at the origin
@@ -152,7 +198,8 @@ fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     match rng.index(4) {
         0 => bounds.center() + size * rng.point(2.0),
         1 => {
-            // Close to a face, inside or outside, by a fraction of the box's size or of this side.
+            // The target is close to a face, inside or outside, at a distance that is a fraction of
+            // the box's size or of this side.
             let thinnest = (0..3).filter(|&axis| sides[axis] > 0.0);
             let thinnest = thinnest.min_by(|&a, &b| sides[a].total_cmp(&sides[b]));
             let axis = match thinnest {
@@ -173,8 +220,8 @@ fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     }
 }
 
-/// Draws a ray with a component that is almost 0, along a slab. It starts beside the slab or leaves it
-/// on its long way to the box.
+/// Draws a ray along a slab, with one direction component that is almost 0. The ray starts beside
+/// the slab or leaves it on the long way to the box.
 fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -190,7 +237,8 @@ fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Draws a ray with a component below 3e-6 that crosses foil or passes beside it.
+/// Draws a ray that crosses a box as thin as foil or passes beside it. One component of its
+/// direction is below 3e-6.
 fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -228,8 +276,8 @@ fn from_faces(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some(with_times(rng, origin, dir, sides.max_element()))
 }
 
-/// Draws a ray that starts exactly in the centre of the box. Returns `None` if the centre isn't exact
-/// in single precision.
+/// Draws a ray that starts exactly in the centre of the box. Returns `None` if the centre isn't
+/// exact in single precision.
 fn from_center(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let center = bounds.center();
     let is_exact = center.as_vec3().as_dvec3() == center;
@@ -267,7 +315,12 @@ fn past_a_corner(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
     let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
     let is_long = sides.cmpge(DVec3::splat(0.5 * size));
-    let of_half = DVec3::select(is_long, rng.vector(0.88, 0.95), rng.vector(0.0, 0.7));
+    let part = if rng.coin() {
+        DVec3::splat(rng.uniform(CORNER, 0.965))
+    } else {
+        rng.vector(0.88, 0.95)
+    };
+    let of_half = DVec3::select(is_long, part, rng.vector(0.0, 0.7));
     let corner = 0.5 * of_half * signs * sides;
     let dir = rng.perpendicular_to(corner.try_normalize()?);
     let ahead = size * rng.uniform(1.5, 25.0);
@@ -276,7 +329,7 @@ fn past_a_corner(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Returns a ray with its own range, and times that end at distances up to `furthest`.
+/// Returns a ray with a random range, and random times that end at distances up to `furthest`.
 fn with_times(rng: &mut Rng, origin: DVec3, dir: DVec3, furthest: f64) -> (Ray, Interval) {
     let mut times = fields::range(rng, furthest);
     match rng.index(16) {
@@ -295,39 +348,37 @@ fn with_times(rng: &mut Rng, origin: DVec3, dir: DVec3, furthest: f64) -> (Ray, 
     (ray, times)
 }
 
-/// Returns a smaller box with exactly the same centre in single precision.
-fn smaller(bounds: &Bounds) -> Bounds {
-    /// The number of sides that are tried.
+/// Returns a box that is shorter along an axis but has exactly the same centre in single precision.
+fn shorter(bounds: &Bounds, axis: usize) -> Bounds {
+    /// The number of side lengths to try.
     const ATTEMPTS: usize = 256;
     let twice = bounds.min + bounds.max;
     let (mut min, mut max) = (bounds.min.as_vec3(), bounds.max.as_vec3());
-    for axis in 0..3 {
-        if min[axis] == max[axis] {
-            continue;
-        }
-        let shorter = 0.125 * (bounds.max - bounds.min)[axis];
-        let mut low = (bounds.min[axis] + shorter) as f32;
-        let mut high = || {
-            low = low.next_up();
-            (low, twice[axis] - f64::from(low))
-        };
-        let sides = (0..ATTEMPTS).map(|_| high());
-        let sides: Vec<(f32, f64)> = sides.collect();
-        let is_exact = |(_, high): &&(f32, f64)| f64::from(*high as f32) == *high;
-        let (low, high) = *sides.iter().find(is_exact).unwrap_or(&sides[0]);
-        (min[axis], max[axis]) = (low, high as f32);
+    if min[axis] == max[axis] {
+        return *bounds;
     }
+    let shorter = 0.125 * (bounds.max - bounds.min)[axis];
+    let mut low = (bounds.min[axis] + shorter) as f32;
+    let mut high = || {
+        low = low.next_up();
+        (low, twice[axis] - f64::from(low))
+    };
+    let sides = (0..ATTEMPTS).map(|_| high());
+    let sides: Vec<(f32, f64)> = sides.collect();
+    let is_exact = |(_, high): &&(f32, f64)| f64::from(*high as f32) == *high;
+    let (low, high) = *sides.iter().find(is_exact).unwrap_or(&sides[0]);
+    (min[axis], max[axis]) = (low, high as f32);
     Bounds::new(min, max)
 }
 
-/// Returns the calls of a table. If the box is so thin that the answers are clear, adds three calls
-/// about almost the same ray, which either hits or misses the box.
+/// Returns the calls in a table. If the box is so thin that the answers are clear, adds three calls
+/// whose rays are almost the same but hit and miss the box in turn.
 fn with_almost_the_same_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
     fits: impl Fn(&BoxCall) -> bool,
 ) -> (Bounds, Vec<(Ray, Interval)>) {
-    /// The maximum number of rays that are drawn.
+    /// The maximum number of rays to draw.
     const ATTEMPTS: usize = 3000;
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -363,12 +414,12 @@ fn with_almost_the_same_rays(
     (bounds, queries)
 }
 
-/// Returns boxes that are lines along the axes and a box that is a point, each with rays that clearly
-/// miss it.
+/// Returns boxes that are lines along the axes and a box that is a point, each with rays that
+/// clearly miss it.
 pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     /// The number of rays for each box.
     const RAYS: usize = 8;
-    /// The minimum distance between a ray and the box, in sizes.
+    /// The minimum distance between a ray and the box, as a multiple of the box's size.
     const CLEAR: f64 = 0.05;
     let table = |axis: usize| {
         let class = 1 + rng.index(7);
@@ -402,18 +453,19 @@ pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     (0..4).map(table).collect()
 }
 
-/// Returns the calls of a table and three more: two whose rays are parallel to the previous one, and
-/// one whose ray starts at the same point. Each of them hits if the previous ray misses, and vice
-/// versa.
+/// Returns the calls in a table and three more: two whose rays are parallel to the previous one,
+/// and one whose ray starts at the same point. Each of them hits if the previous ray misses, and
+/// vice versa.
 fn with_related_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
     fits: impl Fn(&BoxCall) -> bool,
 ) -> (Bounds, Vec<(Ray, Interval)>) {
-    /// The maximum number of rays drawn for each.
+    /// The maximum number of rays drawn for each new call.
     const ATTEMPTS: usize = 400;
     let is_hit = |query: &(Ray, Interval)| BoxCall::new(bounds, *query).is_hit();
-    // The first is parallel to the last row, or to a row that is moved to the end for this.
+    // The first new ray is parallel to the ray in the last row. If necessary, a different row is
+    // moved to the end for this purpose.
     let found = (0..queries.len()).rev().find_map(|row| {
         let last = queries[row];
         let dir = last.0.dir;
@@ -433,7 +485,7 @@ fn with_related_rays(
         queries.push(last);
         queries.extend(parallel);
     }
-    // A row is followed by one with the same start and the same times.
+    // The last new call has the same start and times as the row that it is inserted after.
     let found = (0..queries.len()).rev().find_map(|row| {
         let (ray, times) = queries[row];
         let other = rng.attempt(ATTEMPTS, |rng| {
@@ -456,7 +508,7 @@ mod tests {
     use super::*;
     use crate::seed::Seed;
 
-    /// Multiplies by the inverse of the direction, in single precision.
+    /// Computes the times by multiplying by the inverse of the direction, in single precision.
     fn span(call: &BoxCall) -> Option<(f32, f32)> {
         let (origin, inverse) = (call.ray.origin, call.ray.dir.recip());
         let (mut enter, mut leave) = (call.times.min, call.times.max);

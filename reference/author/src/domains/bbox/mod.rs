@@ -9,8 +9,7 @@ use protocol::{Interval, Ray};
 
 use self::call::calls;
 use super::fields::{
-    DIAGONALS, DIRECTIONS, DISTANCES, OCTANTS, diagonal_class, direction_class, distance_class,
-    history_class, octant, range_class,
+    DISTANCES, OCTANTS, SIZES, distance_class, history_class, octant, range_class, size_class,
 };
 use super::{Aspect, Call, FunctionDomain, not_asked};
 use crate::oracle::Ray64;
@@ -27,6 +26,8 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
         Aspect::PLACE,
         Aspect::OCTANT,
         FORM,
+        SQUARE,
+        SHORTEST_SIDE,
         ZERO_SIDES,
     ],
     aspects: &[
@@ -37,10 +38,11 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
         DISTANCE,
         OUTCOME,
         WAY,
-        DIRECTION,
-        DIAGONAL,
+        Aspect::DIRECTION,
+        Aspect::DIAGONAL,
         SLANT,
         TIMES,
+        SHORT_TIMES,
         RAYS_RANGE,
         HISTORY,
     ],
@@ -51,15 +53,15 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     ],
     calls,
     not_asked: &[
-        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(&["distance"], &[], &["`None`"], "A miss has no distance."),
         not_asked(
-            "outcome",
+            &["outcome"],
             &["misses", "too late", "too early"],
             &[],
             "The box is missed.",
         ),
         not_asked(
-            "outcome",
+            &["outcome"],
             &[
                 "enters and leaves",
                 "only leaves",
@@ -70,13 +72,13 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             "The box is hit.",
         ),
         not_asked(
-            "size",
+            &["size"],
             &["500"],
             &["pairs"],
             "Nothing is 30 sizes away from such a box in a scene whose coordinates end at a thousand.",
         ),
         not_asked(
-            "outcome",
+            &["outcome"],
             &[
                 "narrowly misses",
                 "narrowly misses a flat box",
@@ -86,32 +88,37 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             "The box is missed.",
         ),
         not_asked(
-            "form",
+            &["form"],
             &["a line", "a point"],
             &["some", "interval inside the box", "pairs"],
             "Whether a ray hits a line or a point depends on rounding.",
         ),
         not_asked(
-            "start in the box",
+            &["start in the box"],
             &[],
             &["`None`"],
             "A ray that starts in the box misses it only because of its times.",
         ),
-        not_asked("way past the centre", &[], &["`None`"], "The box is hit."),
         not_asked(
-            "components below 1e-4",
+            &["way past the centre", "part of the way through"],
+            &[],
+            &["`None`"],
+            "The box is hit.",
+        ),
+        not_asked(
+            &["components below 1e-4"],
             &["lead into the box", "below 3e-6, into the box"],
             &["`None`"],
             "The box is hit.",
         ),
         not_asked(
-            "components below 1e-4",
+            &["components below 1e-4"],
             &["lead past the box", "below 3e-6, past the box"],
             &["some", "interval inside the box"],
             "The box is missed.",
         ),
         not_asked(
-            "start",
+            &["start"],
             &["on a face"],
             &["pairs"],
             "Far from the origin, no coordinate of a tiny box is exact enough.",
@@ -163,16 +170,40 @@ const FORM: Aspect<BoxCall> = Aspect {
     },
 };
 
+/// Boxes with exactly the same length along two axes, but not the third.
+const SQUARE: Aspect<BoxCall> = Aspect {
+    name: "square",
+    classes: &["across x", "across y", "across z"],
+    class: |call| {
+        let sides = call.bounds.max - call.bounds.min;
+        (0..3).find(|&axis| {
+            let [one, other] = [sides[(axis + 1) % 3], sides[(axis + 2) % 3]];
+            one == other && one > 0.0 && ![0.0, one].contains(&sides[axis])
+        })
+    },
+};
+
+/// Half of the shortest side of a box that isn't flat.
+const SHORTEST_SIDE: Aspect<BoxCall> = Aspect {
+    name: "shortest side",
+    classes: SIZES,
+    class: |call| {
+        let shortest = (call.bounds.max - call.bounds.min).min_element();
+        (shortest > 0.0).then(|| size_class(0.5 * shortest))
+    },
+};
+
 /// The class of flat boxes that are thin as well.
 const FLAT_AND_THIN: usize = 5;
-/// The sides of a box below which it is thin, relative to the longest.
+/// A box is thin if its shortest side is below this fraction of its longest side.
 const THIN: f64 = 0.02;
-/// The second longest side of a box below which it is thin along two axes, relative to the longest.
+/// A box is thin along two axes if its second longest side is below this fraction of its longest
+/// side.
 const THREAD: f64 = 0.0025;
-/// The shortest side of a box below which it is as thin as paper, relative to the longest.
+/// A box is as thin as paper if its shortest side is below this fraction of its longest side.
 const PAPER: f64 = 0.0009;
 
-/// The shortest side of a box below which it is as thin as foil, relative to the longest.
+/// A box is as thin as foil if its shortest side is below this fraction of its longest side.
 const FOIL: f64 = 1.8e-4;
 
 /// The number of axes along which a side of the box is at 0.
@@ -234,7 +265,8 @@ const START_INSIDE: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The octant of the box, if the ray starts at the world's origin and that is outside the box.
+/// The octant of the box, if the ray starts at the world's origin and the origin is outside the
+/// box.
 const START_AT_THE_ORIGIN: Aspect<BoxCall> = Aspect {
     name: "octant, from the origin of the world",
     classes: OCTANTS,
@@ -257,7 +289,7 @@ const ZEROS_OF_START: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The distance where the ray enters the box.
+/// The distance at which the ray enters the box.
 const DISTANCE: Aspect<BoxCall> = Aspect {
     name: "distance",
     classes: DISTANCES,
@@ -301,32 +333,46 @@ const OUTCOME: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The distance between a hit's ray and the box's centre.
+/// The distance between a ray that hits the box and the box's centre.
 const WAY: Aspect<BoxCall> = Aspect {
     name: "way past the centre",
-    classes: &["near", "farther away", "near an edge or a corner"],
+    classes: &[
+        "near",
+        "farther away",
+        "near an edge or a corner",
+        "next to a corner",
+    ],
     class: |call| {
         call.is_hit().then(|| match call.distance_of_line() {
             ..0.4 => 0,
             ..0.83 => 1,
-            _ => 2,
+            ..CORNER => 2,
+            _ => 3,
         })
     },
 };
 
-/// The direction of the ray.
-const DIRECTION: Aspect<BoxCall> = Aspect {
-    name: "direction",
-    classes: DIRECTIONS,
-    class: |call| direction_class(call.ray.dir),
+/// The least distance between the centre and a ray that passes next to a corner, as a multiple of
+/// half the diagonal.
+const CORNER: f64 = 0.953;
+
+/// The part of the path through a distant box that is within the times, if this part is small.
+const SHORT_TIMES: Aspect<BoxCall> = Aspect {
+    name: "part of the way through",
+    classes: &["the beginning of a distant one", "the end of a distant one"],
+    class: |call| {
+        let (enter, leave) = call.crossing()?;
+        let (from, to) = call.bounds.span(&call.ray64())?;
+        let is_short = to - from < 0.1 * call.size() && leave - enter > 0.3 * call.size();
+        if !is_short || enter < DISTANT * call.size() {
+            return None;
+        }
+        Some(usize::from(from > enter))
+    },
 };
 
-/// The exact diagonals among the directions.
-const DIAGONAL: Aspect<BoxCall> = Aspect {
-    name: "diagonal",
-    classes: DIAGONALS,
-    class: |call| diagonal_class(call.ray.dir),
-};
+/// The minimum distance at which a box counts as distant, as a multiple of its size.
+const DISTANT: f64 = 15.0;
 
 /// The components of the direction that are almost 0, if they decide the answer.
 const SLANT: Aspect<BoxCall> = Aspect {
@@ -353,7 +399,7 @@ const TIMES: Aspect<BoxCall> = Aspect {
     class: |call| times_class(call.times),
 };
 
-/// The ray's own range, which must be ignored.
+/// The range of the ray, which must be ignored.
 const RAYS_RANGE: Aspect<BoxCall> = Aspect {
     name: "the ray's own range",
     classes: RANGE_CLASSES,
@@ -370,7 +416,7 @@ fn times_class(times: Interval) -> Option<usize> {
     }
 }
 
-/// The classes of times, and of the ray's own range, which may be empty.
+/// The classes of times.
 const TIMES_CLASSES: &[&str] = &[
     "from 0 to ∞",
     "from 0 to an end",
@@ -382,7 +428,7 @@ const TIMES_CLASSES: &[&str] = &[
     "one point",
 ];
 
-/// The same classes and an additional one for empty ranges.
+/// The same classes and an additional class for empty ranges.
 const RANGE_CLASSES: &[&str] = &[
     "from 0 to ∞",
     "from 0 to an end",

@@ -31,20 +31,20 @@ impl ShapeCall {
         call
     }
 
-    /// Returns the call with everything moved so that this point of the shape is the origin.
+    /// Returns the call with everything moved so that this point of the shape is at the origin.
     pub fn moved_to_origin(&self, point: Vec3) -> Self {
         let shape = moved(&self.shape, |corner| corner - point);
         let origin = self.ray.origin - point;
         ShapeCall::new(shape, Ray { origin, ..self.ray })
     }
 
-    /// Returns the call with the shape at a different position, less than a size away.
-    pub fn elsewhere(&self, random: DVec3) -> Self {
-        let offset = self.offset(random);
+    /// Returns the call with the shape moved along an axis by less than its size.
+    pub fn elsewhere_along(&self, axis: usize, random: DVec3) -> Self {
+        let offset = self.offset_along(axis, random);
         ShapeCall::new(moved(&self.shape, |point| point + offset), self.ray)
     }
 
-    /// Returns the call with a shape that only differs in its number.
+    /// Returns the call with a shape that differs only in its number.
     pub fn with_other_number(&self, _: DVec3) -> Self {
         let mut call = ShapeCall::new(self.shape, self.ray);
         let (Shape::Sphere { shape, .. }
@@ -54,10 +54,14 @@ impl ShapeCall {
         call
     }
 
-    /// Returns a vector that is either short or long, compared to the shape's size.
-    pub fn offset(&self, random: DVec3) -> Vec3 {
-        let part = if random.x > 0.0 { 0.5 } else { 0.02 };
-        (part * self.size() * random).as_vec3()
+    /// Returns a vector along an axis that is either short or long, compared to the shape's size.
+    pub fn offset_along(&self, axis: usize, random: DVec3) -> Vec3 {
+        let part = if random[(axis + 1) % 3] > 0.0 {
+            0.5
+        } else {
+            0.02
+        };
+        (part * self.size() * random * DVec3::AXES[axis]).as_vec3()
     }
 }
 

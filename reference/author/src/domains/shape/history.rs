@@ -1,4 +1,4 @@
-//! Calls that follow another call of the same shape and are almost the same.
+//! Calls that are almost the same as the previous call on the same shape.
 
 use glam::Vec3Swizzles;
 use protocol::Ray;
@@ -10,13 +10,15 @@ use crate::domains::tables::Follow;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 
-/// The largest angle between almost the same directions, in radians.
+/// The largest angle between two directions that count as almost the same, in radians.
 const ANGLE: f64 = 2e-3;
 
-/// The largest distance between almost the same starts, in sizes.
+/// The largest distance between two starts that count as almost the same, as a multiple of the
+/// shape's size.
 const DISTANCE: f64 = 0.02;
 
-/// The largest difference between almost the same ends of a range, in sizes.
+/// The largest difference between the ends of two ranges that count as almost the same, as a
+/// multiple of the shape's size.
 const ENDS: f64 = 0.03;
 
 /// The ways a call can follow another.
@@ -65,8 +67,8 @@ pub const FOLLOW: &[Follow<ShapeCall>] = &[
     },
 ];
 
-/// Returns two calls with the same ray. The range of the first ends or begins just before a hit, and the
-/// range of the second just behind it.
+/// Returns two calls with the same ray. One has a range that ends or begins just before a hit, and
+/// the other a range that ends or begins just behind it. Either can come first.
 fn with_ranges_beside_a_hit(rng: &mut Rng, before: &ShapeCall) -> Option<Vec<ShapeCall>> {
     let whole = before.ray.within(0.0, f32::INFINITY);
     let distance = scan::intersect(&Ray64::from(&whole), &before.shape)?.distance;
@@ -128,7 +130,7 @@ pub fn class_of(call: &ShapeCall) -> usize {
 }
 
 impl ShapeCall {
-    /// Returns the call of the same shape with a different ray.
+    /// Returns the call on the same shape with a different ray.
     fn with_ray(&self, ray: Ray) -> Self {
         ShapeCall::new(self.shape, ray)
     }

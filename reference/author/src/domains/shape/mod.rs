@@ -1,4 +1,4 @@
-//! Calls of `hit` on a single shape, and the aspects that all shapes have in common.
+//! Calls to `hit` on a single shape, and the aspects that all shapes have in common.
 
 mod changes;
 mod history;
@@ -6,18 +6,15 @@ mod history;
 use glam::Vec3;
 use protocol::{Geometry, Question, Ray, Shape};
 
-use super::fields::{
-    self, DIAGONALS, DIRECTIONS, DISTANCES, NUMBERS, RANGES, diagonal_class, direction_class,
-    distance_class, number_class, range_class,
-};
-use super::{Aspect, Call, Placed};
+use super::fields::{self, DISTANCES, NUMBERS, distance_class, number_class};
+use super::{Aimed, Aspect, Call, Placed};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Rng;
 
 pub use history::FOLLOW;
 
-/// A call of `hit`: a shape and a ray.
+/// A call to `hit`: a shape and a ray.
 #[derive(Clone, Copy, Debug)]
 pub struct ShapeCall {
     /// The shape.
@@ -34,7 +31,7 @@ impl ShapeCall {
         scan::intersect(&Ray64::from(&self.ray), &self.shape)
     }
 
-    /// Returns whether the answer differs from another answer in a judged quantity by more than twice
+    /// Returns whether the answers to the two calls differ in a judged quantity by more than twice
     /// its tolerance.
     pub fn differs(&self, other: &Self, judged: &[&str]) -> bool {
         let (Some(hit), Some(other_hit)) = (self.hit(), other.hit()) else {
@@ -64,6 +61,12 @@ impl ShapeCall {
     }
 }
 
+impl Aimed for ShapeCall {
+    fn ray(&self) -> &Ray {
+        &self.ray
+    }
+}
+
 impl Placed for ShapeCall {
     fn bounds(&self) -> Option<Bounds> {
         Some(scan::bounds(&self.shape))
@@ -77,25 +80,11 @@ pub const NUMBER: Aspect<ShapeCall> = Aspect {
     class: |call| Some(number_class(call.shape.number())),
 };
 
-/// The direction of the ray.
-pub const DIRECTION: Aspect<ShapeCall> = Aspect {
-    name: "direction",
-    classes: DIRECTIONS,
-    class: |call| direction_class(call.ray.dir),
-};
-
-/// Rays that start at the origin, like a camera's.
+/// Rays that start at the origin, like those of a camera.
 pub const ORIGIN: Aspect<ShapeCall> = Aspect {
     name: "ray",
     classes: &["from the origin"],
     class: |call| (call.ray.origin == Vec3::ZERO).then_some(0),
-};
-
-/// The diagonal that the ray is parallel to.
-pub const DIAGONAL: Aspect<ShapeCall> = Aspect {
-    name: "diagonal",
-    classes: DIAGONALS,
-    class: |call| diagonal_class(call.ray.dir),
 };
 
 /// The distance of the hit.
@@ -103,13 +92,6 @@ pub const DISTANCE: Aspect<ShapeCall> = Aspect {
     name: "distance",
     classes: DISTANCES,
     class: |call| Some(distance_class(call.hit()?.distance)),
-};
-
-/// The range of the ray.
-pub const RANGE: Aspect<ShapeCall> = Aspect {
-    name: "range",
-    classes: RANGES,
-    class: |call| range_class(call.ray.range),
 };
 
 /// The previous call.
@@ -161,7 +143,7 @@ impl Call for ShapeCall {
     }
 }
 
-/// Returns the calls of a question about a single shape.
+/// Returns the calls in a question about a single shape.
 pub fn calls(question: &Question) -> Vec<ShapeCall> {
     let Question::Hit(table) = question else {
         return Vec::new();

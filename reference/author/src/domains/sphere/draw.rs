@@ -13,8 +13,8 @@ use crate::domains::{Call, Change, Generator};
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws spheres of these sizes. Each has rays that fit an item's idea, and every other ray is a
-/// hit. All correct formulas compute the judged quantities within their tolerances.
+/// Draws spheres of these sizes and, for each sphere, rays that fit an item's idea. Every other ray
+/// is a hit. Every correct formula computes the judged quantities within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
@@ -36,15 +36,14 @@ pub fn tables(
     generator.tables(rng, sizes)
 }
 
-/// Draws a sphere with a radius of this class.
+/// Draws a sphere with a radius in this class.
 fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let size = fields::size(rng, size);
     let radius = size as f32;
     let mut center = fields::place(rng, size).as_vec3();
     let axis = rng.index(3);
     match rng.index(8) {
-        // The highest point is at the height of the origin, like that of a sphere used as the
-        // ground.
+        // The highest point is level with the origin, as on a sphere used as the ground.
         0 => center.y = -radius,
         1 if radius >= 100.0 => center.y = -radius,
         1 => center[axis] = radius * rng.sign() as f32,
@@ -57,7 +56,8 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     }
 }
 
-/// Draws a ray in, around or beside a sphere. Returns `None` if it would start too far away.
+/// Draws a ray that starts in, around or beside a sphere. Returns `None` if it would start too far
+/// away.
 fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     let bounds = scan::bounds(shape);
     let (center, radius) = (bounds.center(), 0.5 * (bounds.max - bounds.min).x);
@@ -120,7 +120,9 @@ fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
 const CHANGES: &[Change<ShapeCall>] = &[
     ShapeCall::smaller,
     ShapeCall::slightly_larger,
-    ShapeCall::elsewhere,
+    |call, random| call.elsewhere_along(0, random),
+    |call, random| call.elsewhere_along(1, random),
+    |call, random| call.elsewhere_along(2, random),
     ShapeCall::with_other_number,
     |call, _| {
         let center = scan::bounds(&call.shape).center();

@@ -1,4 +1,5 @@
-//! The line of a ray past or through a sphere, and the accuracy of its roots in single precision.
+//! The line of a ray that passes through a sphere or beside it, and the accuracy of the roots in
+//! single precision.
 
 use protocol::Shape;
 
@@ -14,9 +15,9 @@ pub struct Line {
     pub sphere: Sphere,
     /// The ray.
     pub ray64: Ray64,
-    /// The smallest distance from the centre, in radii.
+    /// The smallest distance between the line and the centre, in radii.
     pub approach: f64,
-    /// The distances at which the line enters and leaves the sphere, or NaN.
+    /// The distances at which the line enters and leaves the sphere, or NaN if it misses.
     pub roots: [f64; 2],
 }
 
@@ -45,7 +46,8 @@ impl Line {
         self.ray64.origin.distance(self.sphere.center) / self.sphere.radius
     }
 
-    /// Returns how far a point of the ray on the sphere is from the axis through the poles, in radii.
+    /// Returns the distance, in radii, between the axis through the poles and the point where the
+    /// ray hits the sphere. `distance` is measured along the ray.
     pub(super) fn pole_distance(&self, distance: f64) -> f64 {
         let radial = (self.ray64.at(distance) - self.sphere.center) / self.sphere.radius;
         radial.x.hypot(radial.z)
@@ -68,9 +70,9 @@ impl Line {
             .filter(|&root| self.ray64.is_in_range(root))
     }
 
-    /// Returns whether every correct formula in single precision agrees on whether the sphere is hit.
+    /// Returns whether all correct single-precision formulas agree on whether the sphere is hit.
     pub fn is_clear(&self) -> bool {
-        /// The minimum difference between the squares of the approach and of 1.
+        /// The minimum difference between the square of the approach and 1.
         const TANGENT_MARGIN: f64 = 0.01;
         /// The minimum difference between a distance and an end of the range, in radii.
         const END_MARGIN: f64 = 0.01;
@@ -87,8 +89,8 @@ impl Line {
         self.misses() || self.roots.into_iter().all(is_away)
     }
 
-    /// Returns whether every correct formula in single precision computes the quantity of this name well
-    /// within its tolerance.
+    /// Returns whether every correct single-precision formula computes `quantity` well within its
+    /// tolerance.
     pub fn is_exact(&self, quantity: &str) -> bool {
         /// The largest fraction of a tolerance that errors may use up.
         const PART: f64 = 0.3;
@@ -109,9 +111,9 @@ impl Line {
         }
     }
 
-    /// Returns a bound on the error of a distance that a usual formula computes in single precision.
-    /// The difference b² − c loses digits as the square of the distance from the centre grows, and the
-    /// square root passes on more of that loss the closer the ray is to a tangent.
+    /// Returns a bound on the error of a distance that a common formula computes in single
+    /// precision. The difference b² − c loses digits as the square of the distance from the centre
+    /// grows, and the square root passes on more of that loss the closer the ray is to a tangent.
     fn distance_error(&self) -> f64 {
         let from_center = self
             .ray64

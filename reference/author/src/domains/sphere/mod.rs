@@ -3,11 +3,10 @@
 mod draw;
 mod line;
 
+use glam::Vec3;
 use protocol::Shape;
 
-use super::shape::{
-    self, DIAGONAL, DIRECTION, DISTANCE, HISTORY, NUMBER, ORIGIN, RANGE, ShapeCall,
-};
+use super::shape::{self, DISTANCE, HISTORY, NUMBER, ORIGIN, ShapeCall};
 use super::{Aspect, FunctionDomain, not_asked};
 
 pub use draw::tables;
@@ -22,52 +21,68 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
         Aspect::SIZE,
         Aspect::ROUND,
         EXACT,
+        ON_AXIS,
         Aspect::PLACE,
         Aspect::OCTANT,
         TOUCH,
         NUMBER,
     ],
     aspects: &[
-        START, ORIGIN, DISTANCE, LINE, LATITUDE, DIRECTION, DIAGONAL, RANGE, END, HISTORY,
+        START,
+        ORIGIN,
+        DISTANCE,
+        LINE,
+        LATITUDE,
+        Aspect::DIRECTION,
+        Aspect::DIAGONAL,
+        Aspect::RANGE,
+        END,
+        HISTORY,
     ],
     not_asked: &[
-        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
-        not_asked("latitude", &[], &["`None`"], "A miss has no latitude."),
+        not_asked(&["distance"], &[], &["`None`"], "A miss has no distance."),
+        not_asked(&["latitude"], &[], &["`None`"], "A miss has no latitude."),
         not_asked(
-            "call before",
+            &["call before"],
             &["the axes in another order"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
-            "Such a ray hits only shapes near the origin, so an exam may ask it for the distance alone.",
+            "Such a ray hits only shapes near the origin, so an exam may test only its distance.",
         ),
         not_asked(
-            "place",
+            &["centre"],
+            &[],
+            &["normal", "unit_normal", "origin", "position", "shape", "uv"],
+            "A sphere on an axis is hit like any other, which the distance shows.",
+        ),
+        not_asked(
+            &["place"],
             &["1,000 sizes away"],
             &["normal", "unit_normal", "uv"],
             "So far from the origin, rounding the centre changes the normal by more than its tolerance allows.",
         ),
         not_asked(
-            "start",
+            &["start"],
             &["behind"],
             &[],
             "A sphere behind the ray is not hit.",
         ),
         not_asked(
-            "line",
+            &["line"],
             &["grazing, outside", "outside"],
             &[],
-            "A line outside of the sphere hits nothing.",
+            "A line outside the sphere hits nothing.",
         ),
         not_asked(
-            "size",
+            &["size"],
             &["500"],
             &["pairs"],
             "Nothing is 30 radii away from such a sphere in a scene whose coordinates end at a thousand.",
         ),
         not_asked(
-            "distance",
+            &["distance"],
             &["2000"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
-            "Only the largest spheres are hit so far away, so an exam may ask it for the distance alone.",
+            "Only the largest spheres are hit so far away, so an exam may test only its distance.",
         ),
     ],
 };
@@ -93,7 +108,20 @@ const EXACT: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// Spheres that touch a plane of two axes.
+/// Spheres whose centre is on an axis, but not at the origin.
+const ON_AXIS: Aspect<ShapeCall> = Aspect {
+    name: "centre",
+    classes: &["straight ahead of a camera", "on another axis"],
+    class: |call| {
+        let Shape::Sphere { center, .. } = call.shape else {
+            return None;
+        };
+        let zeros = center.cmpeq(Vec3::ZERO).bitmask().count_ones();
+        (zeros == 2).then_some(usize::from(center.z >= 0.0))
+    },
+};
+
+/// Spheres that touch a coordinate plane.
 const TOUCH: Aspect<ShapeCall> = Aspect {
     name: "touches",
     classes: &[
@@ -151,10 +179,10 @@ const START: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The minimum distance of a distant root, in radii.
+/// The minimum distance at which a root counts as distant, in radii.
 const DISTANT: f64 = 15.0;
 
-/// The maximum distance from a near root, in radii.
+/// The maximum distance at which a root counts as near, in radii.
 const NEAR: f64 = 0.1;
 
 /// The distance of the ray's line from the centre.

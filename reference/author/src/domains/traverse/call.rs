@@ -1,4 +1,4 @@
-//! Calls of `Bvh::hit` on trees.
+//! Calls to `Bvh::hit` on trees.
 
 use std::mem;
 use std::sync::Arc;
@@ -6,13 +6,13 @@ use std::sync::Arc;
 use protocol::{Geometry, Question, Ray, Shape};
 
 use super::decoy::{Decoy, Outside};
-use crate::domains::Placed;
 use crate::domains::fields;
+use crate::domains::{Aimed, Placed};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::tree::Tree;
 
-/// A call of `Bvh::hit`.
+/// A call to `Bvh::hit`.
 #[derive(Clone, Debug)]
 pub struct TraverseCall {
     pub(super) subject: Arc<Subject>,
@@ -27,7 +27,7 @@ pub struct TraverseCall {
     previous_hit: Option<Intersection>,
 }
 
-/// Returns the calls of a question about a tree.
+/// Returns the calls in a question about a tree.
 pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
     let Question::Hit(table) = question else {
         return Vec::new();
@@ -54,22 +54,24 @@ pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
     calls.collect()
 }
 
-/// A second hit that is hardly farther away than the closest.
+/// The leaf of a second hit that is hardly farther away than the closest one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Layer {
-    /// It is in the same leaf at almost the same distance, and its primitive comes before that of the closest
-    /// hit.
-    SameLeaf,
-    /// It is in a leaf that the ray starts in. Compared to the size of the tree, both hits are near
-    /// the start.
-    OtherLeaf,
+pub(super) enum SecondLeaf {
+    /// The second hit is in the same leaf at almost the same distance, and its primitive comes
+    /// before that of the closest hit.
+    Same,
+    /// The second hit is in a leaf whose box the ray starts in. Relative to the size of the tree,
+    /// both hits are close to the start.
+    Other,
+    /// The second hit is in a leaf whose box the ray enters earlier, at almost the same distance.
+    Earlier,
 }
 
 impl TraverseCall {
-    /// Returns the layer close behind the hit, if any.
-    pub(super) fn layer(&self) -> Option<Layer> {
-        /// The largest difference between the distances, or the largest distance from the start, in
-        /// diagonals of the tree.
+    /// Returns the leaf of a second hit close behind the closest one, if there is such a hit.
+    pub(super) fn layer(&self) -> Option<SecondLeaf> {
+        /// The largest relative difference between the distances, and the largest distance from the
+        /// start as a fraction of the tree's diagonal.
         const MOST: f64 = 1e-3;
         let ray64 = Ray64::from(&self.ray);
         let tree = &self.subject.tree;
@@ -80,7 +82,15 @@ impl TraverseCall {
             .take_while(|&index| tree.shapes[index].number() != closest.shape);
         let is_same = |other: f64| closest.distance > (1.0 - MOST) * other;
         if earlier.filter_map(distance).any(is_same) {
-            return Some(Layer::SameLeaf);
+            return Some(SecondLeaf::Same);
+        }
+        let enters = |leaf: usize| Some(tree.bounds(leaf).span(&ray64)?.0);
+        let is_earlier = |other: usize| {
+            enters(other) < enters(leaf) && tree.primitives(other).filter_map(distance).any(is_same)
+        };
+        let mut others = self.subject.leaves.iter().filter(|&&other| other != leaf);
+        if others.any(|&other| is_earlier(other)) {
+            return Some(SecondLeaf::Earlier);
         }
         let near = ray64.min + MOST * self.subject.bounds.diagonal();
         let start = Bounds::around([ray64.origin]);
@@ -92,7 +102,26 @@ impl TraverseCall {
                     .filter_map(distance)
                     .any(|it| it < near)
         };
-        (closest.distance < near && others.any(is_near)).then_some(Layer::OtherLeaf)
+        (closest.distance < near && others.any(is_near)).then_some(SecondLeaf::Other)
+    }
+
+    /// Returns the number of nodes that the ray enters after the leaf with the hit, among the
+    /// siblings of this leaf and of the nodes above it.
+    pub fn nodes_waiting(&self) -> Option<usize> {
+        let (tree, ray64) = (&self.subject.tree, Ray64::from(&self.ray));
+        let leaf = self.leaf_of_hit()?;
+        let enters = |node: usize| Some(tree.bounds(node).span(&ray64)?.0);
+        let path = tree.path(leaf);
+        let steps = path.windows(2).filter(|step| {
+            let parent = &tree.nodes[step[0]];
+            let other = if parent.l as usize == step[1] {
+                parent.r
+            } else {
+                parent.l
+            };
+            enters(other as usize) > enters(step[1])
+        });
+        Some(steps.count())
     }
 
     /// Returns the index of the hit primitive in its leaf.
@@ -114,7 +143,8 @@ impl TraverseCall {
         self.hit.is_some_and(|hit| hit.shape == number)
     }
 
-    /// Returns whether the ray is almost the previous one but hits at a clearly different distance.
+    /// Returns whether the ray is almost the same as the previous one but hits at a clearly
+    /// different distance.
     pub(super) fn is_after_almost_the_same_ray(&self) -> bool {
         /// The minimum difference between the distances.
         const LEAST: f64 = 5e-4;
@@ -127,11 +157,11 @@ impl TraverseCall {
         is_other && self.previous.is_some_and(is_almost_the_same)
     }
 
-    /// Returns `None` if no unreferenced primitive is in front of the answer, and otherwise whether it is
-    /// about as large as the tree.
+    /// Returns whether an unreferenced primitive in front of the answer is about as large as the
+    /// tree, or `None` if there is no such primitive.
     pub(super) fn unreferenced_in_front(&self) -> Option<bool> {
-        /// A primitive is as large as the tree if it has at least this size along two axes, in sides of the
-        /// tree.
+        /// A primitive is as large as the tree if, along two axes, it covers at least this fraction
+        /// of the tree's side.
         const LARGE: f64 = 0.9;
         let ray64 = Ray64::from(&self.ray);
         let end = self.hit.map_or(ray64.max, |hit| hit.distance);
@@ -154,6 +184,12 @@ impl TraverseCall {
     }
 }
 
+impl Aimed for TraverseCall {
+    fn ray(&self) -> &Ray {
+        &self.ray
+    }
+}
+
 impl Placed for TraverseCall {
     fn bounds(&self) -> Option<Bounds> {
         let bounds = self.subject.bounds;
@@ -171,7 +207,7 @@ pub(super) struct Subject {
     pub(super) bounds: Bounds,
     pub(super) leaves: Vec<usize>,
     pub(super) levels: usize,
-    /// The primitives in no leaf.
+    /// The primitives that are in no leaf.
     pub(super) unreferenced: Vec<usize>,
 }
 
@@ -237,7 +273,7 @@ impl Subject {
         (2 * self.leaves.len()).saturating_sub(1)
     }
 
-    /// Returns the primitives in leaves, or all that a tree is built over.
+    /// Returns the primitives in leaves, or all primitives if the submission builds the tree.
     pub(super) fn shapes(&self) -> Vec<&Shape> {
         if self.is_built {
             return self.tree.shapes.iter().collect();

@@ -1,4 +1,5 @@
-//! Decoys of calls of `Bvh::hit`: primitives in front of the answer that must not be tested.
+//! Decoys in calls to `Bvh::hit`: primitives that are in front of the answer but must not be
+//! tested.
 
 use protocol::{Ray, Shape};
 
@@ -8,19 +9,20 @@ use crate::tree::Tree;
 use crate::tree::decoy::{self, SkipReason};
 use crate::tree::traversal::MARGIN;
 
-/// A decoy in front of the answer to a call. Its leaf is a child of a node that must be entered, so that
-/// its own box decides.
+/// A decoy in front of the answer to a call. Its leaf is a child of a node that must be entered, so
+/// only the leaf's own box decides whether the decoy is tested.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Decoy {
     pub(super) reason: usize,
     pub(super) is_sphere: bool,
     pub(super) leaf_size: usize,
-    /// Its index in its leaf.
+    /// The decoy's index in its leaf.
     pub(super) place: usize,
     pub(super) level: usize,
-    /// The number of axes along which the box of its leaf is flat.
+    /// The number of axes along which the box of the decoy's leaf is flat.
     pub(super) flat_axes: u32,
-    /// Whether its leaf and the sibling, which is next to it in the list, have four or more primitives each.
+    /// Whether the decoy's leaf and that leaf's sibling each have four or more primitives, and all
+    /// of these are next to each other in the list.
     pub(super) is_beside_a_large_leaf: bool,
     /// Whether the ray starts in the box of the sibling, which contains the hit.
     pub(super) is_from_siblings_box: bool,
@@ -71,7 +73,8 @@ impl Decoy {
     }
 }
 
-/// Returns the class of the reason a leaf isn't entered, or `None` if the reason is a node above it.
+/// Returns the class of the reason a leaf isn't entered, or `None` if the reason is a node above
+/// it.
 fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
     let reason = decoy::skip_reason(tree, leaf, ray64)?;
     let sibling = tree.sibling(leaf)?;
@@ -95,8 +98,8 @@ fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
     })
 }
 
-/// Returns whether a leaf and its sibling have four or more primitives each, the left one's before the
-/// right one's.
+/// Returns whether a leaf and its sibling each have four or more primitives, and those of the left
+/// leaf come directly before those of the right leaf.
 fn is_beside_a_large_leaf(tree: &Tree, leaf: usize) -> bool {
     const LARGE: usize = 4;
     let path = tree.path(leaf);
@@ -117,7 +120,7 @@ fn is_from_siblings_box(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     sibling.is_some() && tree.leaf_of_hit(ray64) == sibling
 }
 
-/// Returns the class of the call that precedes a decoy's.
+/// Returns the class of the call before the one with the decoy.
 fn history(tree: &Tree, leaf: usize, ray64: &Ray64, previous: Option<&Ray>) -> usize {
     let Some(previous) = previous.map(Ray64::from) else {
         return 0;

@@ -1,4 +1,4 @@
-//! How the decoys of calls of `Bvh::hit` differ.
+//! Aspects of the decoys in calls to `Bvh::hit`.
 
 use super::call::TraverseCall;
 use crate::domains::Aspect;
@@ -77,7 +77,7 @@ pub(super) const START: Aspect<TraverseCall> = Aspect {
     class: |call| Some(usize::from(call.decoy?.is_from_siblings_box)),
 };
 
-/// The call that precedes a decoy's.
+/// The call before the one with the decoy.
 pub(super) const HISTORY: Aspect<TraverseCall> = Aspect {
     name: "decoy's history",
     classes: &[

@@ -8,10 +8,10 @@ use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::Tree;
 
-/// Draws a ray toward a point in a tree. It starts nearby, far away or inside. Every shape is within 30
-/// of its sizes.
+/// Draws a ray toward a point in a tree. The ray starts nearby, far away or inside, but its
+/// distance from each shape is at most 30 times the shape's size.
 pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
-    /// The farthest start, in sizes of the smallest shape.
+    /// The distance of the farthest start, as a multiple of the smallest shape's size.
     const FARTHEST: f64 = 27.0;
     let bounds = tree.bounds(tree.root);
     let target = bounds.center() + rng.point(0.45) * (bounds.max - bounds.min);
@@ -30,8 +30,8 @@ pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
     Ray::new(start.as_vec3(), dir.as_vec3())
 }
 
-/// Draws a ray that starts where another ray hits. Its range begins later. Returns `None` if the other
-/// ray hits nothing.
+/// Draws a ray that starts where another ray hits. The new ray's range begins after its start.
+/// Returns `None` if the other ray hits nothing.
 pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let hit = tree.expected_hit(&Ray64::from(&ray(rng, tree)))?;
     let later = 0.02 * tree.bounds(tree.root).diagonal();
@@ -39,8 +39,8 @@ pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     Some(ray.within(later as f32, f32::INFINITY))
 }
 
-/// Draws a ray that starts on a sphere and passes through it. Its range begins a little later.
-/// Returns `None` if it doesn't hit the same sphere.
+/// Draws a ray that starts on a sphere and passes through it. The range begins a little after the
+/// ray's start. Returns `None` if it doesn't hit the same sphere.
 pub fn ray_through_the_sphere_that_it_starts_on(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let shape = &tree.shapes[rng.index(tree.shapes.len())];
     let Shape::Sphere { center, radius, .. } = *shape else {
@@ -53,8 +53,8 @@ pub fn ray_through_the_sphere_that_it_starts_on(rng: &mut Rng, tree: &Tree) -> O
     (dir.dot(normal) < -0.3 && hit.shape == shape.number()).then_some(ray)
 }
 
-/// Draws a ray that starts in a box, more than half a side away from the middle, and hits something in
-/// a corner of the same box. Returns `None` if nothing is there.
+/// Draws a ray that starts in a box, more than half a side away from the middle, and hits something
+/// in a corner of the same box. Returns `None` if there is nothing to hit.
 pub fn ray_in_a_corner(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let leaves = tree.leaves();
     let leaf = leaves[rng.index(leaves.len())];

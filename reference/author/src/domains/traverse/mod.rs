@@ -9,11 +9,9 @@ use std::collections::BTreeSet;
 
 use protocol::Shape;
 
-use self::call::{Layer, calls};
+use self::call::{SecondLeaf, calls};
 use super::build::kind;
-use super::fields::{
-    DIRECTIONS, RANGES, class_up_to, direction_class, history_class, powers_of_two, range_class,
-};
+use super::fields::{class_up_to, history_class, powers_of_two};
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan};
@@ -40,14 +38,15 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         Aspect::OCTANT_OF_ALL,
         KIND,
         START,
-        DIRECTION,
-        RANGE,
+        Aspect::DIRECTION,
+        Aspect::RANGE,
         HISTORY,
         NEARNESS,
         IN_BOX,
         ON_SPHERE,
         ON_THE_WAY,
         PLACE_OF_HIT,
+        WAITING,
         LAYERS,
         UNREFERENCED,
         decoy_aspects::REASON,
@@ -73,65 +72,44 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
     calls,
     not_asked: &[
         not_asked(
-            "nodes",
+            &["nodes"],
             &["none", "one, an empty leaf"],
-            &[
-                "some", "distance", "normal", "origin", "position", "shape", "uv",
-            ],
+            OF_A_HIT,
             "Nothing is hit in an empty tree.",
         ),
         not_asked(
-            "primitives",
+            &["primitives"],
             &["0"],
-            &[
-                "some", "distance", "normal", "origin", "position", "shape", "uv",
-            ],
+            OF_A_HIT,
             "Nothing is hit in an empty tree.",
         ),
         not_asked(
-            "distance, in coordinates of the start",
+            &[
+                "distance, in coordinates of the start",
+                "start in a box of the hit",
+                "start on what is hit",
+                "place of the hit in its leaf",
+                "another hit close behind",
+                "nodes waiting",
+            ],
             &[],
             &["`None`"],
-            "A ray that hits nothing has no distance.",
+            "A ray that hits nothing has no hit to describe.",
         ),
         not_asked(
-            "start in a box of the hit",
-            &[],
-            &["`None`"],
-            "A ray that hits nothing has no box of a hit.",
-        ),
-        not_asked(
-            "start on what is hit",
-            &[],
-            &["`None`"],
-            "A ray that hits nothing does not hit the sphere that it starts on.",
-        ),
-        not_asked(
-            "place of the hit in its leaf",
-            &[],
-            &["`None`"],
-            "A ray that hits nothing has no hit in a leaf.",
-        ),
-        not_asked(
-            "another hit close behind",
-            &[],
-            &["`None`"],
-            "A ray that hits nothing has no hit.",
-        ),
-        not_asked(
-            "start before a decoy",
+            &["start before a decoy"],
             &["in the sibling's box, which holds the hit"],
             &["`None`"],
             "A ray that hits nothing has no box of a hit.",
         ),
         not_asked(
-            "decoy's box",
+            &["decoy's box"],
             &["a line or a point"],
             &["pairs"],
             "Whether a ray meets a line or a point depends on rounding, so such a box is asked where it is missed.",
         ),
         not_asked(
-            "decoy",
+            &["decoy"],
             &[
                 "its box begins beyond the hit",
                 "its box and then its sibling's begin beyond the hit",
@@ -141,40 +119,48 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             "Nothing is beyond the closest hit of a ray that hits nothing.",
         ),
         not_asked(
-            "decoy's history",
+            &["decoy's history"],
             &["after a parallel ray that enters its box before its sibling's"],
             &["`None`", "pairs"],
             "The order of two boxes matters only where the second begins beyond a hit in the first.",
         ),
         not_asked(
-            "history",
+            &["history"],
             &[],
             &["`None`", "normal", "origin", "position", "shape", "uv"],
-            "An exam asks the same ray again for the distance, as a trace that is kept has a wrong distance, too.",
+            "An exam repeats a ray only for its distance, since a stale trace has a wrong distance \
+             too.",
         ),
         not_asked(
-            "",
+            &[],
             &[],
             &["normal", "origin", "position", "shape", "uv"],
-            "A tree returns the trace of a primitive unchanged, whatever the form, size and place of the tree. So these quantities are asked of a few trees, and the distance of all.",
+            "A tree returns the trace of a primitive unchanged, whatever the tree's shape, size \
+             and position. So these quantities are tested in a few trees, and the distance in all.",
         ),
         not_asked(
-            "size",
+            &["size"],
             &["500"],
             &[],
-            "A tree that is half as large as the largest coordinate allows is asked of where the seed has room for one.",
+            "A tree half as large as the largest coordinate allows is tested only where the seed \
+             has room for one.",
         ),
     ],
 };
 
-/// The origin of the tree: the exam or the submission.
+/// The columns for rays that hit.
+const OF_A_HIT: &[&str] = &[
+    "some", "distance", "normal", "origin", "position", "shape", "uv",
+];
+
+/// Where the tree comes from: the exam or the submission.
 const WAY: Aspect<TraverseCall> = Aspect {
     name: "tree",
     classes: &["the exam's", "the student's own"],
     class: |call| Some(usize::from(call.subject.is_built)),
 };
 
-/// The number of nodes of the exam's tree.
+/// The number of nodes in the exam's tree.
 const NODES: Aspect<TraverseCall> = Aspect {
     name: "nodes",
     classes: &[
@@ -202,7 +188,7 @@ const NODES: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The number of levels of the exam's tree.
+/// The number of levels in the exam's tree.
 const LEVELS: Aspect<TraverseCall> = Aspect {
     name: "levels",
     classes: &["1", "2 to 5", "6 to 12", "13 to 59", "60"],
@@ -303,20 +289,6 @@ const START: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The direction of the ray.
-const DIRECTION: Aspect<TraverseCall> = Aspect {
-    name: "direction",
-    classes: DIRECTIONS,
-    class: |call| direction_class(call.ray.dir),
-};
-
-/// The range of the ray.
-const RANGE: Aspect<TraverseCall> = Aspect {
-    name: "range",
-    classes: RANGES,
-    class: |call| range_class(call.ray.range),
-};
-
 /// The previous call on the same tree.
 const HISTORY: Aspect<TraverseCall> = Aspect {
     name: "history",
@@ -334,7 +306,7 @@ const HISTORY: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The distance of the hit relative to the coordinates.
+/// The distance to the hit as a fraction of the largest coordinate of the ray's start.
 const NEARNESS: Aspect<TraverseCall> = Aspect {
     name: "distance, in coordinates of the start",
     classes: &["below 1e-5", "1e-5", "1e-3 or more"],
@@ -412,21 +384,35 @@ const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
 /// The index of the hit primitive in its leaf.
 const PLACE_OF_HIT: Aspect<TraverseCall> = Aspect {
     name: "place of the hit in its leaf",
-    classes: &["up to the 16th", "up to the 512th", "later"],
-    class: |call| Some(class_up_to(&[15, 511], call.place_in_leaf()?)),
+    classes: &[
+        "up to the 16th",
+        "up to the 512th",
+        "later",
+        "the last of a thousand",
+    ],
+    class: |call| Some(class_up_to(&[15, 511, 998], call.place_in_leaf()?)),
 };
 
-/// A second hit behind the closest.
+/// The number of nodes that a traversal enters only after the leaf with the hit.
+const WAITING: Aspect<TraverseCall> = Aspect {
+    name: "nodes waiting",
+    classes: &["up to 47", "48 or more"],
+    class: |call| Some(class_up_to(&[47], call.nodes_waiting()?)),
+};
+
+/// A second hit close behind the closest one.
 const LAYERS: Aspect<TraverseCall> = Aspect {
     name: "another hit close behind",
     classes: &[
         "within a thousandth of the distance, earlier in the same leaf",
         "in a leaf around the start, both within a thousandth of the tree's diagonal",
+        "within a thousandth of the distance, in a leaf that is entered earlier",
     ],
     class: |call| {
         Some(match call.layer()? {
-            Layer::SameLeaf => 0,
-            Layer::OtherLeaf => 1,
+            SecondLeaf::Same => 0,
+            SecondLeaf::Other => 1,
+            SecondLeaf::Earlier => 2,
         })
     },
 };
@@ -461,7 +447,7 @@ mod tests {
         let ray = Ray::new(vec3(-5.0, 0.0, 0.0), Vec3::X);
         let rays = vec![ray, ray.within(1.0, 9.0)];
         let question = Question::hits(row_of_spheres().geometry(), rays);
-        let calls = TRAVERSE.classes(&question);
+        let calls = TRAVERSE.classes(&question, None);
         let names = calls.into_iter().map(|classes| {
             let aspects = TRAVERSE.aspects().into_iter().zip(classes);
             let names = aspects.map(|((_, names), class)| Some(names[class?]));
@@ -494,5 +480,17 @@ mod tests {
             names[1][12..14],
             [Some("from later to an end"), Some(history)]
         );
+    }
+
+    #[test]
+    fn the_first_call_of_a_subject_can_follow_another_subject() {
+        let rays = vec![Ray::new(vec3(-5.0, 0.0, 0.0), Vec3::X); 2];
+        let question = Question::hits(row_of_spheres().geometry(), rays);
+        let first_calls = |before| {
+            let calls = TRAVERSE.classes(&question, before).into_iter();
+            calls.map(|mut call| call.pop()).collect::<Vec<_>>()
+        };
+        assert_eq!(first_calls(None), [Some(None); 2]);
+        assert_eq!(first_calls(Some(&question)), [Some(Some(0)), Some(None)]);
     }
 }

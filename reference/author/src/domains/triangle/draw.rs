@@ -4,7 +4,10 @@ use glam::{BVec2, BVec3, DVec2, DVec3, Vec3, vec2};
 use protocol::{Interval, Ray, Shape, Vertex};
 
 use super::plane::Plane;
-use super::{ALMOST_RIGHT, EDGE, END, NEAR, SMALL_WEIGHT, TRIANGLE, almost_right_corner};
+use super::{
+    ALMOST_RIGHT, EDGE, END, FAR_UV, NARROW_MISS, NEAR, SMALL_WEIGHT, TEXEL, TRIANGLE,
+    almost_right_corner,
+};
 use crate::domains::fields::{self, FURTHEST};
 use crate::domains::shape::{FOLLOW, ShapeCall};
 use crate::domains::{Call, Change, Generator};
@@ -12,8 +15,8 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws triangles of these sizes. Each has rays that fit an item's idea, and every other ray is a
-/// hit. All correct formulas compute the judged quantities within their tolerances.
+/// Draws triangles of these sizes and, for each triangle, rays that fit an item's idea. Every other
+/// ray is a hit. Every correct formula computes the judged quantities within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
@@ -98,7 +101,7 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
     let (second, third) = ((corner + 1) % 3, (corner + 2) % 3);
     match rng.index(5) {
         // The side opposite a corner is so short that the corner is narrow.
-        0 => corners[third] = corners[second].lerp(corners[third], rng.uniform(0.015, 0.03)),
+        0 => corners[third] = corners[second].lerp(corners[third], rng.log_uniform(0.004, 0.03)),
         // A corner is so close to the opposite side that the triangle is almost flat.
         1 => {
             let foot = corners[second].lerp(corners[third], rng.uniform(0.3, 0.7));
@@ -135,11 +138,11 @@ fn with_legs_along_axes(rng: &mut Rng, axis: usize, other: usize) -> [DVec3; 3] 
     corners
 }
 
-/// Moves corners so that the normal of the plane is exactly along a diagonal of a cube or of one of its
-/// faces. Returns `None` if the triangle would be narrow.
+/// Moves corners so that the normal of the plane is exactly along a diagonal of a cube or of one of
+/// its faces. Returns `None` if the triangle would be narrow.
 fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3]> {
-    /// The spacing of a grid, relative to the largest coordinate. The coordinates of its points have so
-    /// few digits that sums are exact.
+    /// The spacing of a grid, relative to the largest coordinate. The coordinates of the grid's
+    /// points have so few digits that their sums are exact.
     const STEP: f32 = 1.0 / (1 << 20) as f32;
     let largest = corners.map(|corner| corner.abs().max_element());
     let largest = largest.into_iter().fold(0.0, f32::max);
@@ -164,17 +167,29 @@ fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3
     (altitude > 0.3 * longest && is_inside).then_some(moved)
 }
 
-/// Draws normals, which point more or less to one side, and texture coordinates.
+/// Draws normals that point more or less to one side, and texture coordinates.
 fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3] {
     let common = (side + 0.7 * rng.direction()).normalize();
-    let spread = [0.0, 0.4, 0.8, 2.0, 2.0][rng.index(5)];
-    let (least, most) = if rng.coin() { (0.0, 1.0) } else { (-2.0, 3.0) };
+    let spread = match rng.index(6) {
+        0 => 0.0,
+        1 => rng.log_uniform(0.008, 0.02),
+        2 => rng.log_uniform(0.02, 0.8),
+        3 => 0.8,
+        _ => 2.0,
+    };
+    let (least, most) = [(0.0, 1.0), (-2.0, 3.0), (-FAR_UV, FAR_UV)][rng.index(3)];
     let tile = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
+    let in_a_texel = rng.index(8) == 0;
+    let texel = rng.log_uniform(0.005, 0.8 * TEXEL);
     let (same_u, same_v) =
         [(true, true), (false, true), (false, false), (false, false)][rng.index(4)];
     let mut vertices = corners.map(|corner| {
         let normal = (common + spread * rng.direction()).normalize();
-        let uv = DVec2::new(rng.uniform(least, most), rng.uniform(least, most));
+        let uv = if in_a_texel {
+            tile + texel * DVec2::new(rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5))
+        } else {
+            DVec2::new(rng.uniform(least, most), rng.uniform(least, most))
+        };
         let uv = DVec2::select(BVec2::new(same_u, same_v), tile, uv);
         Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
     });
@@ -221,7 +236,8 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     };
     let ahead = size
         * match rng.index(6) {
-            // The shorter the distance, the smaller the cosine can be before rounding spoils the answer.
+            // The shorter the distance, the smaller the cosine can be before rounding spoils the
+            // answer.
             _ if kind == 0 && rng.coin() => rng.log_uniform(NEAR, 1.0),
             0 => rng.log_uniform(NEAR, 3.0),
             1 => rng.log_uniform(0.0102, NEAR),
@@ -251,12 +267,13 @@ fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
     (end >= 0.0).then_some(range)
 }
 
-/// Returns the weights of a point: inside, near an edge, or outside.
+/// Draws the weights of a point that is inside, near an edge, or outside.
 fn weights(rng: &mut Rng) -> [f64; 3] {
     let least = match rng.index(6) {
         0 | 1 => return fields::weights_inside(rng, EDGE),
         2 if rng.coin() => rng.log_uniform(5e-4, SMALL_WEIGHT),
         2 => rng.log_uniform(5e-4, EDGE),
+        3 if rng.coin() => -rng.log_uniform(5e-4, NARROW_MISS),
         3 => -rng.log_uniform(5e-4, EDGE),
         4 => -rng.uniform(EDGE, 1.0),
         _ => -rng.uniform(1.0, 4.0),
@@ -276,9 +293,10 @@ const CHANGES: &[Change<ShapeCall>] = &[
         let [first, _, _] = scan::corners(&call.shape).unwrap_or_default();
         call.moved_to_origin(first.as_vec3())
     },
-    |call, random| with_other_corner(call, 0, call.offset(random)),
-    |call, random| with_other_corner(call, 1, call.offset(random)),
-    |call, random| with_other_corner(call, 2, call.offset(random)),
+    // Each corner moves along a different axis.
+    |call, random| with_other_corner(call, 0, call.offset_along(2, random)),
+    |call, random| with_other_corner(call, 1, call.offset_along(0, random)),
+    |call, random| with_other_corner(call, 2, call.offset_along(1, random)),
     |call, random| {
         with_other_attributes(call, random, |vertex| {
             let normal = vertex.normal.as_dvec3() + 0.8 * random;

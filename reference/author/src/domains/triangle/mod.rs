@@ -10,9 +10,7 @@ use protocol::Shape;
 
 use self::plane::corner_normals;
 use super::fields::{DIAGONALS, diagonal_class};
-use super::shape::{
-    self, DIAGONAL, DIRECTION, DISTANCE, HISTORY, NUMBER, ORIGIN, RANGE, ShapeCall,
-};
+use super::shape::{self, DISTANCE, HISTORY, NUMBER, ORIGIN, ShapeCall};
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::scan;
 
@@ -53,71 +51,92 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         CROSSING,
         LEAST_WEIGHT,
         SMALL_WEIGHTS,
-        DIRECTION,
-        DIAGONAL,
+        NARROWLY_OUTSIDE,
+        NORMAL_LENGTH,
+        Aspect::DIRECTION,
+        Aspect::DIAGONAL,
         AXIS,
-        RANGE,
+        Aspect::RANGE,
         ENDS,
         HISTORY,
     ],
     not_asked: &[
-        not_asked("distance", &[], &["`None`"], "A miss has no distance."),
+        not_asked(&["distance"], &[], &["`None`"], "A miss has no distance."),
         not_asked(
-            "start",
+            &["start"],
             &["leads away"],
             &[],
             "A ray that leads away from the triangle hits nothing.",
         ),
         not_asked(
-            "start",
+            &["start"],
             &["on the surface"],
             &[],
             "The start itself is in the range only if the range begins there, and ends of ranges keep a margin. So such a ray hits nothing.",
         ),
         not_asked(
-            "crossing",
+            &["crossing"],
             &["just outside an edge", "outside", "far outside"],
             &[],
             "Outside the triangle, nothing is hit.",
         ),
         not_asked(
-            "crossing",
+            &["crossing"],
             &["just inside an edge"],
             &[
                 "`None`", "distance", "normal", "origin", "position", "shape",
             ],
-            "Only `triangle.outside` and `triangle.uv_corners` ask rays close to an edge, so that a mistake there costs few points. The small weights show in the texture coordinates.",
+            "Only `triangle.outside` and `triangle.uv_corners` test rays close to an edge, so that \
+             a mistake there costs few points. The small weights show in the texture coordinates.",
         ),
         not_asked(
-            "call before",
+            &["call before"],
             &["the axes in another order"],
             &["normal", "origin", "position", "shape", "uv"],
-            "Such a ray hits only shapes near the origin, so an exam may ask it for the distance alone.",
+            "Such a ray hits only shapes near the origin, so an exam may test only its distance.",
         ),
         not_asked(
-            "call before",
+            &["call before"],
             &["the opposite direction"],
             &["normal", "position", "uv"],
-            "The items about these quantities ask for rays from the front, and of two opposite rays one comes from behind.",
+            "The items about these quantities test rays from the front, and one of two opposite \
+             rays comes from behind.",
         ),
         not_asked(
-            "almost right and far",
+            &["almost right and far"],
             &[],
             &[
                 "`None`", "some", "distance", "normal", "origin", "position", "shape",
             ],
-            "Where an angle is almost right, its difference shows in texture coordinates that differ by far.",
+            "Where an angle is almost right, the error shows in texture coordinates that differ \
+             widely.",
         ),
         not_asked(
-            "small weights",
+            &["small weights"],
             &[],
             &[
                 "`None`", "some", "distance", "normal", "origin", "position", "shape",
             ],
-            "A weight below a thousandth shows in nothing but the texture coordinates.",
+            "A weight below a thousandth shows only in the texture coordinates.",
         ),
         not_asked(
-            "form",
+            &["interpolated normal"],
+            &[],
+            &[
+                "`None`", "some", "distance", "origin", "position", "shape", "uv",
+            ],
+            "Only the normal depends on it.",
+        ),
+        not_asked(
+            &["narrowly outside"],
+            &[],
+            &[
+                "some", "distance", "normal", "origin", "position", "shape", "uv",
+            ],
+            "Outside the triangle, nothing is hit.",
+        ),
+        not_asked(
+            &["form"],
             &[
                 "narrow at p0",
                 "narrow at p1",
@@ -130,28 +149,30 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             "In a narrow or flat triangle, the weights of a usual formula in single precision are wrong by more than the tolerances allow, so an item that judges normals or texture coordinates has none. The other quantities do not depend on the weights.",
         ),
         not_asked(
-            "altitude",
+            &["altitude"],
             &[],
             &["normal", "uv", "origin", "position", "shape"],
-            "A triangle that flat is asked as seldom as other flat ones, for the same reason.",
+            "Such a flat triangle is tested as rarely as other flat ones, for the same reason.",
         ),
         not_asked(
-            "cosine",
+            &["cosine"],
             &["below 0.01"],
             &["normal", "uv"],
-            "At so small a cosine, the weights of a usual formula in single precision are seldom exact enough, so an exam may ask only the other quantities.",
+            "At so small a cosine, the weights of a usual formula in single precision are seldom \
+             exact enough, so an exam may test only the other quantities.",
         ),
         not_asked(
-            "place",
+            &["place"],
             &["1,000 sizes away"],
             &["normal", "uv"],
             "So far from the origin, rounding the corners changes the weights by more than the tolerances of normals and texture coordinates allow.",
         ),
         not_asked(
-            "distance",
+            &["distance"],
             &["2000"],
             &["normal", "origin", "position", "shape", "uv"],
-            "Only the largest triangles are hit so far away, so an exam may ask it for the distance alone.",
+            "Only the largest triangles are hit so far away, so an exam may test only its \
+             distance.",
         ),
     ],
 };
@@ -232,16 +253,24 @@ const FORM: Aspect<ShapeCall> = Aspect {
 /// Triangles with almost no area.
 const FLAT: Aspect<ShapeCall> = Aspect {
     name: "altitude",
-    classes: &["below 0.6 % of the longest side"],
+    classes: &[
+        "below 0.6 % of the longest side",
+        "an edge below 1 % of the longest side",
+    ],
     class: |call| {
         let [p0, p1, p2] = scan::corners(&call.shape)?;
         let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
         let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
-        (altitude < 0.006 * longest).then_some(0)
+        let shortest = p0.distance(p1).min(p1.distance(p2)).min(p2.distance(p0));
+        match altitude / longest {
+            _ if shortest < 0.01 * longest => Some(1),
+            ..0.006 => Some(0),
+            _ => None,
+        }
     },
 };
 
-/// The largest narrow angle, in radians.
+/// The largest angle that counts as narrow, in radians.
 const NARROW: f64 = 0.045;
 
 /// The angles of the triangle. Almost all are ordinary.
@@ -268,8 +297,8 @@ fn almost_right_corner(corners: [DVec3; 3]) -> Option<usize> {
     (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT)
 }
 
-/// Triangles with an angle that is almost, but not exactly, a right angle, and with texture coordinates
-/// that differ so much there that the difference matters.
+/// Triangles with an angle that is almost, but not exactly, a right angle, and with texture
+/// coordinates that differ so much there that the deviation from a right angle matters.
 const RIGHT_AND_FAR: Aspect<ShapeCall> = Aspect {
     name: "almost right and far",
     classes: &["at p0", "at p1", "at p2"],
@@ -329,7 +358,14 @@ const LEGS: Aspect<ShapeCall> = Aspect {
 /// The texture coordinates of the corners.
 const TILES: Aspect<ShapeCall> = Aspect {
     name: "uv of the corners",
-    classes: &["in [0, 1]", "beyond", "all equal", "with the same v"],
+    classes: &[
+        "in [0, 1]",
+        "beyond",
+        "all equal",
+        "with the same v",
+        "almost equal",
+        "beyond 4 tiles",
+    ],
     class: |call| {
         let Shape::Triangle { vertices, .. } = call.shape else {
             return None;
@@ -338,19 +374,34 @@ const TILES: Aspect<ShapeCall> = Aspect {
         let uvs = vertices.map(|vertex| vertex.uv);
         let is_inside = |uv: &Vec2| uv.to_array().iter().all(|it| unit.contains(it));
         let (same_u, same_v) = (all_equal(uvs.map(|uv| uv.x)), all_equal(uvs.map(|uv| uv.y)));
+        let largest = uvs.map(|uv| uv.abs().max_element());
         Some(match (same_u, same_v) {
             (true, true) => 2,
             (false, true) => 3,
+            _ if uv_extent(uvs) < TEXEL => 4,
+            _ if largest.into_iter().any(|it| it > 4.5) => 5,
             _ => usize::from(!uvs.iter().all(is_inside)),
         })
     },
 };
 
+/// The largest difference between texture coordinates that count as almost equal.
+const TEXEL: f64 = 0.025;
+
+/// The largest texture coordinate.
+const FAR_UV: f64 = 9.0;
+
+/// Returns the largest difference between the texture coordinates of two corners.
+fn uv_extent(uvs: [Vec2; 3]) -> f64 {
+    let extent = |from: usize| (uvs[from] - uvs[(from + 1) % 3]).abs().max_element();
+    (0..3).map(extent).fold(0.0, f32::max).into()
+}
+
 fn all_equal(values: [f32; 3]) -> bool {
     values.iter().all(|value| *value == values[0])
 }
 
-/// Returns which two of three values are equal, if the third differs.
+/// Returns the index in [`EQUAL`] of the two equal values, if the third one differs.
 fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
     match (a == b, b == c, c == a) {
         (true, false, _) => Some(0),
@@ -360,7 +411,7 @@ fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
     }
 }
 
-/// The corners with the same two values.
+/// The names of the two corners with the same value.
 const EQUAL: &[&str] = &["at p0 and p1", "at p1 and p2", "at p2 and p0"];
 
 /// The two corners with the same texture coordinates.
@@ -399,21 +450,23 @@ const NORMALS: Aspect<ShapeCall> = Aspect {
 /// The largest angle between the normals of two corners.
 const SPREAD: Aspect<ShapeCall> = Aspect {
     name: "spread of the normals",
-    classes: &["none", "to 45°", "to 90°", "beyond"],
+    classes: &["none", "to 3°", "to 45°", "to 90°", "beyond"],
     class: |call| {
         let normals = corner_normals(&call.shape)?;
         let cosine = |from: usize| normals[from].dot(normals[(from + 1) % 3]);
         let least = (0..3).map(cosine).fold(f64::INFINITY, f64::min);
         Some(match least {
             _ if normals[0] == normals[1] && normals[1] == normals[2] => 0,
-            FRAC_1_SQRT_2.. => 1,
-            0.0.. => 2,
-            _ => 3,
+            0.9986.. => 1,
+            FRAC_1_SQRT_2.. => 2,
+            0.0.. => 3,
+            _ => 4,
         })
     },
 };
 
-/// The start of the ray relative to the triangle, whose size is half of its box's longest side.
+/// The start of the ray relative to the triangle. A triangle's size is half of its box's longest
+/// side.
 const START: Aspect<ShapeCall> = Aspect {
     name: "start",
     classes: &[
@@ -441,10 +494,11 @@ const START: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The maximum distance of a point near the plane, in sizes.
+/// The maximum distance between the plane and a point near it, as a multiple of the triangle's
+/// size.
 const NEAR: f64 = 0.05;
 
-/// The cosine between the ray and the triangle's normal.
+/// The cosine of the angle between the ray and the triangle's normal.
 const COSINE: Aspect<ShapeCall> = Aspect {
     name: "cosine",
     classes: &["below 0.01", "0.01 to 0.1", "0.1 to 0.5", "0.5 to 1", "1"],
@@ -503,6 +557,37 @@ const SMALL_WEIGHTS: Aspect<ShapeCall> = Aspect {
     },
 };
 
+/// The edge that a ray narrowly passes, named after the opposite corner.
+const NARROWLY_OUTSIDE: Aspect<ShapeCall> = Aspect {
+    name: "narrowly outside",
+    classes: &["opposite p0", "opposite p1", "opposite p2"],
+    class: |call| {
+        let plane = Plane::of(call)?;
+        let mut weights = plane.weights.into_iter();
+        let is_ahead = plane.ray64.is_in_range(plane.distance);
+        let corner = weights.position(|weight| (-NARROW_MISS..0.0).contains(&weight))?;
+        is_ahead.then_some(corner)
+    },
+};
+
+/// The length of the interpolated normal before it is normalized.
+const NORMAL_LENGTH: Aspect<ShapeCall> = Aspect {
+    name: "interpolated normal",
+    classes: &["shorter than 0.35", "to 0.6", "to 0.9", "longer"],
+    class: |call| {
+        Some(match Plane::of(call)?.normal_length {
+            ..0.35 => 0,
+            ..0.6 => 1,
+            ..0.9 => 2,
+            _ => 3,
+        })
+    },
+};
+
+/// The largest distance between an edge and a ray that narrowly misses it, as a fraction of the
+/// altitude.
+const NARROW_MISS: f64 = 7e-4;
+
 /// The upper limit of a small weight.
 const SMALL_WEIGHT: f64 = 1e-3;
 
@@ -528,10 +613,11 @@ const ENDS: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The maximum distance between the plane and an end of the range near it, in sizes.
+/// The maximum distance between the plane and an end of the range near it, as a multiple of the
+/// triangle's size.
 const END: f64 = 0.02;
 
-/// The minimum distance of a distant plane, in sizes.
+/// The minimum distance at which a plane counts as distant, as a multiple of the triangle's size.
 const DISTANT: f64 = 20.0;
 
 /// The corner with the smallest weight.
@@ -549,7 +635,7 @@ const AXIS: Aspect<ShapeCall> = Aspect {
     name: "axis",
     classes: &["along x", "along y", "along z", "any"],
     class: |call| {
-        let direction = (DIRECTION.class)(call)?;
+        let direction = (Aspect::DIRECTION.class)(call)?;
         Some(if direction < 6 { direction % 3 } else { 3 })
     },
 };

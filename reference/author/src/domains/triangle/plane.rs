@@ -3,6 +3,7 @@
 use glam::DVec3;
 use protocol::Shape;
 
+use super::uv_extent;
 use crate::domains::fields::{EPSILON, FURTHEST, FURTHEST_SIZES};
 use crate::domains::shape::ShapeCall;
 use crate::oracle::{Ray64, scan, triangle};
@@ -19,9 +20,11 @@ pub struct Plane {
     /// The dot product of the ray's direction and the normalized normal (p1 − p0) × (p2 − p0).
     /// Negative if the ray comes from the front.
     pub slope: f64,
-    /// The length of the sum of the corners' normals, each times its weight.
-    normal_length: f64,
-    /// The distance of the ray's start from the triangle, in sizes.
+    /// The length of the sum of the corners' normals, each multiplied by its weight.
+    pub(super) normal_length: f64,
+    /// The largest difference between the texture coordinates of two corners.
+    uv_extent: f64,
+    /// The distance of the ray's start from the triangle, as a multiple of the triangle's size.
     start: f64,
     /// The smallest altitude.
     altitude: f64,
@@ -50,6 +53,10 @@ impl Plane {
         let bounds = scan::bounds(&call.shape);
         let beside = ray64.origin - ray64.origin.clamp(bounds.min, bounds.max);
         Some(Plane {
+            uv_extent: match call.shape {
+                Shape::Triangle { vertices, .. } => uv_extent(vertices.map(|vertex| vertex.uv)),
+                Shape::FlatTriangle { .. } | Shape::Sphere { .. } => 1.0,
+            },
             normal_length: weighted.map_or(1.0, DVec3::length),
             start: beside.length() / call.size(),
             ray64,
@@ -84,15 +91,17 @@ impl Plane {
         self.is_inside() && self.ray64.is_in_range(self.distance)
     }
 
-    /// Returns whether every correct formula in single precision agrees on whether the triangle is hit.
+    /// Returns whether all correct single-precision formulas agree on whether the triangle is hit.
     pub fn is_clear(&self) -> bool {
-        /// The minimum distance from an edge, in altitudes.
+        /// The minimum distance from an edge, as a fraction of the altitude.
         const EDGE_MARGIN: f64 = 5e-4;
         /// The minimum cosine at which edges are tested.
         const EDGE_COSINE: f64 = 0.1;
-        /// The minimum distance between an edge and a ray at a smaller cosine, in altitudes.
+        /// The minimum distance between an edge and a ray at a smaller cosine, as a fraction of the
+        /// altitude.
         const GRAZING_MARGIN: f64 = 0.1;
-        /// The minimum difference between a distance and an end of the range, in sizes.
+        /// The minimum difference between a distance and an end of the range, as a multiple of the
+        /// triangle's size.
         const END_MARGIN: f64 = 0.0101;
         let margin = if self.slope.abs() < EDGE_COSINE {
             GRAZING_MARGIN
@@ -111,8 +120,8 @@ impl Plane {
         !self.is_inside() || ends.all(|end| (self.distance - end).abs() >= margin)
     }
 
-    /// Returns whether every correct formula in single precision computes the quantity of this name well
-    /// within its tolerance.
+    /// Returns whether every correct single-precision formula computes `quantity` well within its
+    /// tolerance.
     pub fn is_exact(&self, quantity: &str) -> bool {
         /// The largest fraction of a tolerance that errors may use up.
         const PART: f64 = 0.5;
@@ -123,19 +132,18 @@ impl Plane {
         match quantity {
             "distance" | "position" => self.distance_error() <= PART * 1e-4 * scale,
             "normal" => {
-                /// The minimum length of a sum whose direction is accurate.
-                const LEAST: f64 = 0.3;
+                /// The minimum length at which the direction of a sum of normals is accurate.
+                const LEAST: f64 = 0.25;
                 let error = 2.0 * self.weight_error() / self.normal_length;
                 self.normal_length > LEAST && error <= PART * 1e-3
             }
-            // Corners may differ by five tiles.
-            "uv" => 5.0 * self.weight_error() <= PART * 2e-3,
+            "uv" => self.uv_extent.max(5.0) * self.weight_error() <= PART * 2e-3,
             _ => true,
         }
     }
 
-    /// Returns a bound on the error of the distance if a usual formula computes it in single
-    /// precision, such as (n · p0 − n · origin) / (n · direction).
+    /// Returns a bound on the error of the distance if it is computed in single precision by a
+    /// common formula, such as (n · p0 − n · origin) / (n · direction).
     fn distance_error(&self) -> f64 {
         let slenderness = self.longest / self.altitude;
         let lengths = self.coordinates + self.distance.abs();
@@ -143,15 +151,15 @@ impl Plane {
         1.5 * EPSILON * (lengths + determinant) / self.slope.abs()
     }
 
-    /// Returns a bound on the error of a weight that a usual formula computes in single precision. Some
-    /// formulas divide by the square of the area.
+    /// Returns a bound on the error of a weight that a common formula computes in single precision.
+    /// Some formulas divide by the square of the area.
     fn weight_error(&self) -> f64 {
         let position = 2.0 * self.distance_error() + 4.0 * EPSILON * self.coordinates;
         position / self.altitude + 4.0 * EPSILON * (self.longest / self.altitude).powi(2)
     }
 }
 
-/// Returns the normals of a triangle's corners, or `None` if it doesn't have any.
+/// Returns the normals of a triangle's corners, or `None` if the triangle doesn't have any.
 pub(super) fn corner_normals(shape: &Shape) -> Option<[DVec3; 3]> {
     let Shape::Triangle { vertices, .. } = shape else {
         return None;

@@ -2,7 +2,6 @@
 
 mod formulas;
 mod pages;
-mod pictures;
 
 use std::path::Path;
 
@@ -15,8 +14,7 @@ use mdbook_driver::errors::Error;
 use crate::bundle::{Bundle, archive};
 
 use self::formulas::render_formulas;
-use self::pages::problems;
-use self::pictures::inline_figures;
+use self::pages::{inline_figures, problems};
 
 /// Builds the book of the workspace at `root` into the folder `to`.
 pub fn build(root: &Path, to: &Path) -> Result<()> {
@@ -38,7 +36,7 @@ fn driver_error(error: Error) -> anyhow::Error {
     anyhow!("mdBook: {error:#}")
 }
 
-/// Builds the book of a bundle's chapters, which exclude those for instructors, into the folder
+/// Builds the book from a bundle's chapters, which exclude those for instructors, into the folder
 /// `to`.
 pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<()> {
     let mut chapters = Bundle::default();
@@ -54,8 +52,8 @@ pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<()> {
     build(sources.path(), to)
 }
 
-/// Replaces formulas with MathML, and figures with inline SVG. `chapters` is the folder of the
-/// figures.
+/// Replaces formulas with MathML, and figures with inline SVG. `chapters` is the folder that
+/// contains the figures.
 fn render_chapters(book: &mut Book, chapters: &Path) -> Result<()> {
     let mut result = Ok(());
     book.for_each_mut(|item| {
@@ -81,7 +79,7 @@ mod tests {
 
     use super::*;
 
-    /// Returns the names of a book's files that mention the chapter about Gradescope.
+    /// Returns the names of the book files that mention the chapter about Gradescope.
     fn mentions(book: &Path) -> Vec<String> {
         let files = files::read_dir(book).unwrap().into_iter();
         let files = files.filter(|path| path.is_file());

@@ -1,13 +1,14 @@
-//! Checks the pages that mdBook built: every anchor of the Markdown chapters exists, and no page
-//! loads anything from the network.
+//! The pages that mdBook builds. Figures are inlined, so that they follow the light or dark theme.
+//! Every anchor of the Markdown chapters exists, and no page loads anything from the network.
 
 use std::path::Path;
 
 use grader::files::{self, PathError};
 use judging::section::CHAPTERS;
+use pulldown_cmark::{Event, Parser, Tag};
 
 use crate::handout::links::SUMMARY;
-use crate::handout::pages::{Page, pages};
+use crate::handout::pages::{Page, options, pages};
 
 /// Returns the problems with the pages in the folder `book`, built from the workspace at `root`.
 pub fn problems(root: &Path, book: &Path) -> Result<Vec<String>, PathError> {
@@ -24,7 +25,7 @@ fn page_problems(chapter: &Page, html: &str) -> Vec<String> {
     let missing = chapter
         .anchors()
         .filter(|anchor| !html.contains(&format!("id=\"{anchor}\"")))
-        .map(|anchor| format!("{}: the page has no #{anchor}", chapter.name));
+        .map(|anchor| format!("{}: the page doesn't have a #{anchor}", chapter.name));
     // Links to other sites are allowed, but nothing may be loaded from them.
     let fetched = ["src=\"http", "src=\"//", "url(http", "@import"]
         .into_iter()
@@ -32,11 +33,31 @@ fn page_problems(chapter: &Page, html: &str) -> Vec<String> {
         .filter(|fetch| html.contains(fetch))
         .map(|fetch| {
             format!(
-                "{}: the page loads something from the network: {fetch}",
+                "{}: the page loads a resource from the network: {fetch}",
                 chapter.name
             )
         });
     missing.chain(fetched).collect()
+}
+
+/// Returns the chapter with its SVG figures inlined. Their files are in the folder `chapters`.
+pub fn inline_figures(markdown: &str, chapters: &Path) -> Result<String, PathError> {
+    let mut pictures = Vec::new();
+    for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
+        if let Event::Start(Tag::Image { dest_url, .. }) = event {
+            pictures.push((range, dest_url.to_string()));
+        }
+    }
+    let mut text = markdown.to_owned();
+    for (range, file) in pictures.into_iter().rev() {
+        if file.ends_with(".svg") {
+            let svg = files::read_to_string(chapters.join(file))?;
+            // Put the figure on one line, since an empty line would end the HTML block.
+            let lines: Vec<&str> = svg.lines().map(str::trim).collect();
+            text.replace_range(range, &format!("<figure>{}</figure>", lines.concat()));
+        }
+    }
+    Ok(text)
 }
 
 #[cfg(test)]
@@ -52,9 +73,21 @@ mod tests {
         assert_eq!(
             page_problems(&chapter, bad),
             [
-                "a.md: the page has no #two",
-                "a.md: the page loads something from the network: src=\"http"
+                "a.md: the page doesn't have a #two",
+                "a.md: the page loads a resource from the network: src=\"http"
             ]
+        );
+    }
+
+    #[test]
+    fn replaces_figures_by_their_drawings_and_keeps_other_pictures() {
+        let chapters = tempfile::tempdir().unwrap();
+        let svg = "<svg viewBox=\"0 0 1 1\">\n\n  <rect/>\n</svg>\n";
+        std::fs::write(chapters.path().join("a.svg"), svg).unwrap();
+        let text = inline_figures("![a](a.svg)\n\n![b](b.png)\n", chapters.path()).unwrap();
+        assert_eq!(
+            text,
+            "<figure><svg viewBox=\"0 0 1 1\"><rect/></svg></figure>\n\n![b](b.png)\n"
         );
     }
 }

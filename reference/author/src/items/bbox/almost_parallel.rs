@@ -1,5 +1,6 @@
-//! Rays that are almost parallel to a face of a box but still cross the plane of this face. The times
-//! are wrong if a small constant is added to the direction, or if a small component is treated as 0.
+//! Rays that are almost parallel to a face of a box but still cross the plane of this face. The
+//! times are wrong if a small constant is added to the direction, or if a small component is
+//! treated as 0.
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
@@ -12,9 +13,9 @@ use crate::seed::Rng;
 /// The number of rays that hit, and the number of rays that miss.
 const QUERIES_OF_EACH_KIND: usize = 12;
 
-/// Returns rays that hit a box, followed by as many that miss it.
+/// Creates a question with rays that hit a box, followed by the same number of rays that miss it.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
-    // The planes are so close to the origin that no usual formula loses digits.
+    // The planes are so close to the origin that no common formula loses digits.
     let mut corner = || rng.vector(0.2, 0.4).as_vec3().as_dvec3();
     let bounds = Bounds {
         min: -corner(),
@@ -30,8 +31,9 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     bbox_question(bounds, queries)
 }
 
-/// Returns a ray that is almost parallel to a face of the box. A hit crosses the plane of this face
-/// where it enters or leaves the box, a miss beside the box.
+/// Returns a ray that is almost parallel to a face of the box. A ray that hits the box crosses the
+/// plane of this face where it enters or leaves the box. A ray that misses crosses this plane
+/// beside the box.
 fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hit: bool) -> Ray {
     let (along, across) = (number % 3, (number + 1) % 3);
     let third = 3 - along - across;

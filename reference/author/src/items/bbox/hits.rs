@@ -1,10 +1,12 @@
 //! Items about hits and misses of rays from all sides.
 
+use judging::symptom::{PRESENCE, Symptom};
+
 use super::{almost_parallel, bbox_question, is_ordinary, questions};
 use crate::domains::bbox::BoxCall;
 use crate::domains::bbox::lines_and_a_point;
 use crate::domains::fields::{EVERY_SIZE, USUAL};
-use crate::items::{Declaration, groups};
+use crate::items::{Declaration, groups, paper};
 
 /// Returns whether the ray starts outside the box and the box isn't behind it.
 fn is_ahead(call: &BoxCall) -> bool {
@@ -25,15 +27,20 @@ pub(super) const THROUGH: Declaration = Declaration {
            common, or None if there is none.",
     section: "boxes.md#from-the-last-entry-to-the-first-exit",
     tests: &["Returns the part…"],
-    questions: |rng| questions(rng, USUAL, is_ahead),
+    questions: |rng| {
+        let drawn = questions(rng, USUAL, is_ahead);
+        let (bounds, queries) = paper::bbox(rng);
+        [vec![bbox_question(bounds, queries)], drawn].concat()
+    },
     ..Declaration::in_group(groups::BOXES)
 };
 
 pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
     id: "bbox.slab_after_slab",
     title: "a ray that is never in all three slabs at the same time misses",
-    look: "Compare the axes with each other, and with times: it is a miss if and only if the \
-           latest entry comes after the earliest exit, however small both are.",
+    look: "Compare the axes with each other, and with times: the ray misses if and only if the latest entry \
+        comes after the earliest exit, no matter how small both are.",
+    look_fits: &[Symptom::of(PRESENCE)],
     section: "boxes.md#the-slab-intervals-must-overlap",
     tests: &["Returns the part…"],
     questions: |rng| {
@@ -47,8 +54,10 @@ pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
 pub(super) const OCTANTS: Declaration = Declaration {
     id: "bbox.octants",
     title: "rays in all directions enter and leave at the right times",
-    look: "On an axis where the direction is negative, the ray reaches the larger plane first.",
-    section: "boxes.md#a-negative-direction-swaps-the-planes",
+    look: "On each axis, the smaller of the two times is the entry, even if the direction is \
+           negative. Work out all six for the ray shown, and clip the last entry and the first exit \
+           to the argument times.",
+    section: "boxes.md#from-the-last-entry-to-the-first-exit",
     tests: &["Returns the part…"],
     questions: |rng| questions(rng, USUAL, is_ordinary),
     ..Declaration::in_group(groups::BOXES)
@@ -57,9 +66,9 @@ pub(super) const OCTANTS: Declaration = Declaration {
 pub(super) const AXIS_PARALLEL: Declaration = Declaration {
     id: "bbox.axis_parallel",
     title: "directions with components 0, −0 and almost 0 work as well",
-    look: "A ray that does not move along an axis is always or never between its planes: dividing \
-           by zero gives infinities that say so, if your comparisons handle them. A component that \
-           is almost 0 still moves the ray.",
+    look: "A ray that does not move along an axis is either always or never between the planes of that \
+        axis. Dividing by zero gives infinities that express this, if your comparisons handle them. A \
+        component that is almost 0 still moves the ray.",
     section: "boxes.md#zero-and-minus-zero",
     tests: &["A component of `ray.dir`…", "Then the ray is parallel…"],
     questions: |rng| {
@@ -77,6 +86,7 @@ pub(super) const FLAT: Declaration = Declaration {
     title: "a box without thickness can be hit",
     look: "The box of an axis-parallel triangle is flat: the ray enters and leaves it at the same \
            time, and that is a hit.",
+    look_fits: &[Symptom::MISS],
     section: "boxes.md#flat-boxes-can-be-hit",
     tests: &["A flat box (`min…"],
     questions: |rng| {

@@ -1,5 +1,7 @@
 //! Items about the interval of times that is tested.
 
+use judging::symptom::Symptom;
+
 use super::{is_ordinary, questions};
 use crate::domains::fields::{EVERY_SIZE, USUAL};
 use crate::items::{Declaration, groups};
@@ -8,8 +10,9 @@ use crate::oracle::Ray64;
 pub(super) const BEHIND: Declaration = Declaration {
     id: "bbox.behind",
     title: "a box behind the ray is missed",
-    look: "Behind the origin the times are negative, so nothing of the ray's way through the box \
-           is within times. An interval that would end before it begins is a miss.",
+    look: "Behind the origin, times are negative, so no part of the ray's path through the box is within \
+        times. An interval that would end before it begins is a miss.",
+    look_fits: &[Symptom::HIT],
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
     tests: &["Returns the part…"],
     questions: |rng| {
@@ -25,6 +28,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
     title: "from inside, the interval starts at times.min, not behind the ray",
     look: "A ray that starts in the box has entered it at a negative time: clip the interval to \
            times.",
+    look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
     section: "boxes.md#clip-the-result-to-times",
     tests: &["The result is clipped…"],
     questions: |rng| {
@@ -54,8 +58,8 @@ pub(super) const CLIPPED: Declaration = Declaration {
 pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
     id: "bbox.wholly_inside",
     title: "if the ray is in the box during all of times, all of times is returned",
-    look: "The ray then crosses no plane within times, but it is a hit, from times.min to \
-           times.max.",
+    look: "Then the ray doesn't cross any plane within times, but it is still a hit, from times.min to times.max.",
+    look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
     section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
     tests: &["The result is clipped…"],
     questions: |rng| {

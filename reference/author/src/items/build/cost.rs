@@ -1,9 +1,10 @@
 //! Items about the cost of a tree.
 
 use judging::exam::{ExamQuestion, Key};
+use judging::symptom::Symptom;
 use protocol::{Question, Shape};
 
-use super::draw::place_of_size;
+use super::draw::transform_of_size;
 use crate::domains::fields;
 use crate::items::{Declaration, meshes};
 use crate::oracle::bbox::Bounds;
@@ -11,7 +12,7 @@ use crate::oracle::buckets::{self, BucketExtent, BucketedBuilder, SideRule};
 use crate::oracle::{scan, sweep};
 use crate::seed::Rng;
 
-/// Creates a question about a tree that is only judged by its cost.
+/// Creates a question about a tree that is judged only by its cost.
 pub(super) fn cost_question(shapes: Vec<Shape>, max_leaf_size: u32) -> ExamQuestion {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let sweep_cost = Some(sweep::cost(&boxes, max_leaf_size as usize));
@@ -27,9 +28,10 @@ const MAX_CORRECT_COST: f64 = 1.06;
 /// common mistake.
 const MIN_ADJACENT_COST: f64 = 1.2;
 
-/// Creates a question about a random mesh for each of these numbers of primitives and maximum leaf
-/// sizes. Their sizes and positions are drawn from the domain. On these meshes, correct builders come
-/// close to the exact sweep, but builders that compare only adjacent buckets don't.
+/// Creates a question about a random mesh for each of these pairs of a primitive count and a
+/// maximum leaf size. The meshes' sizes and positions are drawn from the domain. On these meshes,
+/// correct builders come close to the exact sweep, but builders that compare only adjacent buckets
+/// don't.
 fn cost_questions(
     rng: &mut Rng,
     mesh: fn(&mut Rng, usize) -> Vec<Shape>,
@@ -46,7 +48,7 @@ fn cost_questions(
                 return None;
             }
             let size = rng.index(fields::SIZES.len());
-            let shapes = place_of_size(rng, &shapes, size).shapes(&shapes);
+            let shapes = transform_of_size(rng, &shapes, size).shapes(&shapes);
             let question = cost_question(shapes, max_leaf_size);
             (highest_correct_cost(&question) <= MAX_CORRECT_COST).then_some(question)
         })
@@ -54,8 +56,8 @@ fn cost_questions(
     sizes.iter().map(question).collect()
 }
 
-/// Creates questions about trees as large as a scene can be. In each of the upper nodes, the box's area
-/// times the number of primitives is above 1e10.
+/// Creates questions about trees over scenes of the largest allowed extent. In each of the upper
+/// nodes, the box's area times the number of primitives is above 1e10.
 fn huge_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
     let question = |&(count, max_leaf_size): &(usize, u32)| {
         rng.retry(|rng| {
@@ -69,17 +71,19 @@ fn huge_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
     sizes.iter().map(question).collect()
 }
 
-/// Creates questions about a few clumps of spheres. Some clumps have many times as many spheres as others,
-/// which makes splitting by count expensive, even if only above the last levels or only below the root.
+/// Creates questions about a few clumps of spheres. Some clumps have many times as many spheres as
+/// others, which makes splitting by count expensive, even if a builder does so only above the last
+/// levels or only below the root.
 fn clumps_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
-    /// The minimum cost of a tree that is partly split by count, relative to the exact sweep's.
+    /// The minimum cost of a tree that is partly split by count, relative to the exact sweep's
+    /// tree.
     const LEAST: f64 = 1.25;
     let question = |&(count, max_leaf_size): &(usize, u32)| {
         rng.retry(|rng| {
             let shapes = meshes::clumps(rng, count);
             let shapes = meshes::number_shapes(rng.shuffled(shapes));
             let size = rng.index(fields::SIZES.len());
-            let shapes = place_of_size(rng, &shapes, size).shapes(&shapes);
+            let shapes = transform_of_size(rng, &shapes, size).shapes(&shapes);
             let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
             let most = max_leaf_size as usize;
             let builder = BucketedBuilder {
@@ -118,7 +122,7 @@ fn lanes_question(rng: &mut Rng, (count, max_leaf_size): (usize, u32)) -> ExamQu
         let shapes = meshes::lanes(rng, count);
         let shapes = meshes::number_shapes(rng.shuffled(shapes));
         let size = rng.index(fields::SIZES.len());
-        let shapes = place_of_size(rng, &shapes, size).shapes(&shapes);
+        let shapes = transform_of_size(rng, &shapes, size).shapes(&shapes);
         let question = cost_question(shapes, max_leaf_size);
         (highest_correct_cost(&question) <= MAX_CORRECT_COST).then_some(question)
     })
@@ -186,6 +190,7 @@ pub(super) const COST_STRANDS: Declaration = Declaration {
     look: "At every node, compare the partitions along all three axes by the same cost, which \
            depends on the areas of boxes around whole primitives and on their numbers. The \
            cheapest need not be along the longest axis.",
+    look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#try-all-three-axes-at-every-node",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],
     questions: |rng| cost_questions(rng, meshes::strands, &[(128, 1), (256, 2), (1023, 4)]),
@@ -197,6 +202,7 @@ pub(super) const COST_SHEETS: Declaration = Declaration {
     title: "the areas of both sides decide, for sheets stacked above each other",
     look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
            buckets from the left and from the right.",
+    look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#areas-and-counts-in-the-cost-formula",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],
     questions: |rng| {
@@ -212,6 +218,7 @@ pub(super) const COST_TOWN: Declaration = Declaration {
     title: "areas and counts decide together, for crowds on an open field",
     look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
            together with its cost.",
+    look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#keep-track-of-the-best-cost",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],
     questions: |rng| {

@@ -1,4 +1,4 @@
-//! Draws calls of `Bvh::build` from their domain.
+//! Draws calls to `Bvh::build` from their domain.
 
 use glam::DVec3;
 use judging::exam::{ExamQuestion, TreeCheck};
@@ -8,7 +8,7 @@ use crate::domains::Balance;
 use crate::domains::build::{BuildCall, DRAWN};
 use crate::domains::fields::{self, FURTHEST};
 use crate::items::meshes;
-use crate::items::place::Place;
+use crate::items::transform::Transform;
 use crate::seed::Rng;
 
 /// The arrangement of some of the primitives. All others are scattered.
@@ -30,16 +30,16 @@ pub(super) enum Arrangement {
     EqualPair,
     /// One primitive is far from all others.
     Outlier,
-    /// Most are much smaller than the largest.
+    /// Most primitives are much smaller than the largest one.
     DifferentSizes,
     /// Some primitives are triangles without area.
     WithoutArea,
-    /// All are triangles on a line along an axis.
+    /// All primitives are triangles on a line along an axis.
     Line,
 }
 
-/// Draws questions about `count` trees. Each has at most `most` primitives in one of these
-/// arrangements. Each class of each aspect occurs, except for calls that don't `belong`.
+/// Draws questions about `count` trees. Each tree has at most `most` primitives, which are in one
+/// of these arrangements. Each class of each aspect occurs, except in calls that `belongs` rejects.
 pub(super) fn questions(
     rng: &mut Rng,
     checks: &[TreeCheck],
@@ -71,17 +71,17 @@ fn call(rng: &mut Rng, arrangement: Arrangement, index: usize, most: usize) -> B
     let kind = rng.index(4);
     let shapes = arranged(rng, arrangement, kind, count, index % 3);
     let size = rng.index(fields::SIZES.len());
-    let mut place = place_of_size(rng, &shapes, size);
+    let mut transform = transform_of_size(rng, &shapes, size);
     if arrangement == Arrangement::Concentric {
-        place = place.exact();
+        transform = transform.exact();
     }
     BuildCall {
         max_leaf_size: leaf_size(rng, count),
-        shapes: place.shapes(&shapes),
+        shapes: transform.shapes(&shapes),
     }
 }
 
-/// Draws a number of primitives: from 0 to 10, or about a power of two.
+/// Draws a primitive count: from 0 to 10, or close to a power of two.
 pub(super) fn count(rng: &mut Rng, most: usize) -> usize {
     rng.retry(|rng| {
         let count = match rng.index(16) {
@@ -92,8 +92,8 @@ pub(super) fn count(rng: &mut Rng, most: usize) -> usize {
     })
 }
 
-/// Draws the maximum number of primitives in a leaf: any number, or one close to the number of
-/// primitives.
+/// Draws a random leaf size, i.e. the maximum number of primitives in a leaf: either any number, or
+/// one close to the primitive count.
 pub(super) fn leaf_size(rng: &mut Rng, count: usize) -> u32 {
     let count = count as u32;
     let size = match rng.index(11) {
@@ -112,18 +112,18 @@ pub(super) fn leaf_size(rng: &mut Rng, count: usize) -> u32 {
     size.clamp(1, 1000)
 }
 
-/// Draws a place for shapes that together have a size of this class.
-pub(super) fn place_of_size(rng: &mut Rng, shapes: &[Shape], size: usize) -> Place {
+/// Draws a transform that gives the shapes, taken together, a size in this class.
+pub(super) fn transform_of_size(rng: &mut Rng, shapes: &[Shape], size: usize) -> Transform {
     rng.retry(|rng| {
         let size = fields::size(rng, size);
         let center = fields::place(rng, size);
         let largest = center.abs().max_element() + size;
-        let place = Place::around(shapes, size, center);
-        (largest <= FURTHEST && place.keeps_digits(shapes)).then_some(place)
+        let transform = Transform::around(shapes, size, center);
+        (largest <= FURTHEST && transform.keeps_digits(shapes)).then_some(transform)
     })
 }
 
-/// Returns primitives of a kind in this arrangement, in a cube from −1 to 1.
+/// Returns primitives of this kind in this arrangement, inside the cube from −1 to 1.
 fn arranged(
     rng: &mut Rng,
     arrangement: Arrangement,
@@ -140,7 +140,7 @@ fn arranged(
     } else if arrangement == Arrangement::Concentric {
         axes = DVec3::ZERO;
     }
-    // Spheres have exactly these centres, but the boxes of triangles may have others.
+    // Spheres have exactly these centres, but the boxes of triangles may have other centres.
     let has_centers = matches!(
         arrangement,
         Arrangement::Plane | Arrangement::Row | Arrangement::Concentric
@@ -225,8 +225,8 @@ fn flat(rng: &mut Rng, kind: usize, center: DVec3, size: f64, axis: usize) -> Sh
     }
 }
 
-/// Returns one of many spheres around the origin. Their centres and radii are multiples of a power of
-/// two, so they still have a common centre after being moved.
+/// Returns one of many spheres around the origin. Their centres and radii are multiples of a power
+/// of two, so they still have a common centre after being moved.
 fn shell(index: usize) -> Shape {
     meshes::sphere(DVec3::ZERO, (index + 3) as f64 / 128.0)
 }

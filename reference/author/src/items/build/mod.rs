@@ -35,8 +35,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
         cost::COST_STRANDS,
         cost::COST_SHEETS,
         cost::COST_TOWN,
-        // Last, because builders that recurse infinitely on these are often correct otherwise, and
-        // a task is stopped after two crashes.
+        // This item comes last, because builders that recurse infinitely on its questions are often
+        // correct otherwise, and a task is stopped after two crashes.
         unusual_inputs::COINCIDENT,
         unusual_inputs::CONCENTRIC,
     ],
@@ -57,14 +57,14 @@ pub static TASK: AuthoredTask = AuthoredTask {
     points: POINTS,
 };
 
-/// Returns whether a question is about more than a thousand primitives.
+/// Returns whether a question is about more than 500 primitives.
 fn is_large(question: &ExamQuestion) -> bool {
-    matches!(&question.question, Question::Build { shapes, .. } if shapes.len() > 1000)
+    matches!(&question.question, Question::Build { shapes, .. } if shapes.len() > 500)
 }
 
-/// Returns the last question of every item. An answer is wrong if the tree is missing or has half of
-/// the primitives in one leaf. The primitives are far apart, so that no heuristic prefers to keep
-/// them together. The maximum leaf size is tested by a different item.
+/// Returns the question that comes last in every item. An answer is wrong if the tree is missing or
+/// has half of the primitives in one leaf. The primitives are far apart, so that no heuristic
+/// prefers to keep them together. The maximum leaf size is tested by a different item.
 fn control(seed: Seed) -> ExamQuestion {
     let soup = meshes::soup(&mut seed.rng("build.control"), 24, 2.0, 0.1);
     build_question(&[Partition, Split], soup, 4)

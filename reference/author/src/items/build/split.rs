@@ -1,12 +1,13 @@
-//! The item about a single split: primitives in a row for which one partition is by far the best. Each
-//! side fits in a leaf, but all primitives together don't.
+//! The item about a single split: primitives in a row for which one partition is by far the best.
+//! Each side fits in a leaf, but all primitives together don't.
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 use protocol::Shape;
 
 use super::cost::{cost_question, relative_cost};
-use super::draw::place_of_size;
+use super::draw::transform_of_size;
 use crate::domains::fields;
 use crate::items::{Declaration, meshes};
 use crate::oracle::bbox::Bounds;
@@ -21,13 +22,13 @@ struct Layout<'a> {
     clumps: &'a [(f64, f64, usize)],
     /// The size of the primitives in the first clump.
     first_size: f64,
-    /// The size of all others.
+    /// The size of all other primitives.
     size: f64,
-    /// How exactly the centres are in a row.
+    /// How exactly the centres line up.
     alignment: Alignment,
 }
 
-/// How exactly the centres of primitives are in a row.
+/// How exactly the centres of primitives line up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Alignment {
     /// Roughly in a row.
@@ -72,8 +73,8 @@ const GAP: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps, the largest one first. A builder whose counts are from different buckets than its boxes
-/// misses this clump and splits at the other gap.
+/// Clumps of which the first is the largest. A builder whose counts come from different buckets
+/// than its boxes misses this clump and splits at the other gap.
 const HEAVY_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
     first_size: SMALL,
@@ -81,8 +82,8 @@ const HEAVY_END: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps, the first of large primitives, so that it is best split off. The other gap is the wider
-/// one. A builder that treats primitives as points splits there.
+/// Clumps of which the first consists of large primitives, so that it is best to split off this
+/// clump. The other gap is wider, and a builder that treats primitives as points splits there.
 const LARGE_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)],
     first_size: 1.2,
@@ -96,25 +97,26 @@ pub(super) const ONE_SPLIT: Declaration = Declaration {
     look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
            areas and the counts of its sides: does your code try it, does it compute that cost, \
            and does your root have these two sides?",
+    look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#which-partitions-to-try",
     tests: &["Use 8 or more buckets…"],
     questions: one_split,
     ..Declaration::ALONE
 };
 
-/// A question before it has a size and a place.
-struct Drawn {
+/// A question that doesn't have a size and a position yet.
+struct UnplacedQuestion {
     shapes: Vec<Shape>,
     max_leaf_size: usize,
     /// The axis of the best split.
     axis: usize,
-    /// The smallest extent that decides.
+    /// The smallest extent that the best split depends on.
     detail: f64,
 }
 
-impl Drawn {
-    fn new(shapes: Vec<Shape>, max_leaf_size: usize, axis: usize) -> Drawn {
-        Drawn {
+impl UnplacedQuestion {
+    fn new(shapes: Vec<Shape>, max_leaf_size: usize, axis: usize) -> UnplacedQuestion {
+        UnplacedQuestion {
             shapes,
             max_leaf_size,
             axis,
@@ -122,16 +124,16 @@ impl Drawn {
         }
     }
 
-    /// Returns the question moved to a random place. The place is so near that coordinates in single
-    /// precision have enough digits for the detail, and the best split is still unambiguous. Returns
-    /// `None` if such places are rare or don't exist.
+    /// Returns the question moved to a random position. The position is so close to the origin that
+    /// coordinates in single precision have enough digits for the detail, and the best split is
+    /// still unambiguous. Returns `None` if such positions are rare or don't exist.
     fn question(&self, rng: &mut Rng, size: usize) -> Option<ExamQuestion> {
-        /// The largest coordinate, in extents of the detail.
+        /// The largest coordinate, as a multiple of the detail.
         const MOST: f64 = 1e5;
-        /// The maximum number of places that are tried.
+        /// The maximum number of positions to try.
         const ATTEMPTS: usize = 200;
         let shapes = rng.attempt(ATTEMPTS, |rng| {
-            let shapes = place_of_size(rng, &self.shapes, size).shapes(&self.shapes);
+            let shapes = transform_of_size(rng, &self.shapes, size).shapes(&self.shapes);
             let [before, after] =
                 [&self.shapes, &shapes].map(|all| Bounds::enclosing(all.iter().map(scan::bounds)));
             let detail = self.detail * after.diagonal() / before.diagonal();
@@ -143,7 +145,7 @@ impl Drawn {
 }
 
 /// Draws primitives with one best split.
-type Draw = Box<dyn Fn(&mut Rng) -> Drawn>;
+type Draw = Box<dyn Fn(&mut Rng) -> UnplacedQuestion>;
 
 fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
     let sizes = fields::SIZES.len();
@@ -153,6 +155,7 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
         of_a_few(),
         of_many(),
         of_outliers(),
+        of_dense_ends(),
         of_strips(),
     ];
     let kinds = kinds.into_iter().flatten().enumerate();
@@ -166,8 +169,8 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 /// Returns functions that draw each layout of clumps along each axis.
 fn in_clumps() -> Vec<Draw> {
-    /// The factors that multiply the layouts' numbers of primitives. One layout with a gap then has over
-    /// 1,024.
+    /// The factors by which the layouts' primitive counts are multiplied. One layout with a gap
+    /// then has over 1,024 primitives.
     const TIMES: [usize; 12] = [1, 5, 2, 20, 1, 96, 1, 5, 2, 20, 1, 50];
     let layouts = [CLUMPS, GAP, HEAVY_END, LARGE_END].into_iter().enumerate();
     let along_axes =
@@ -188,7 +191,7 @@ fn in_clumps() -> Vec<Draw> {
                 ..layout
             };
             let is_mirrored = (number + axis).is_multiple_of(2);
-            Drawn::new(row(rng, &layout, axis, is_mirrored), 8 * times, axis)
+            UnplacedQuestion::new(row(rng, &layout, axis, is_mirrored), 8 * times, axis)
         })
     };
     along_axes.enumerate().map(draw).collect()
@@ -196,8 +199,8 @@ fn in_clumps() -> Vec<Draw> {
 
 /// Returns functions that draw a few primitives: one more than fit in a leaf.
 fn of_a_few() -> Vec<Draw> {
-    let crowds = [3, 4, 5, 6, 8].into_iter().enumerate();
-    let crowds = crowds.map(|(index, count)| -> Draw {
+    let clusters = [3, 4, 5, 6, 8].into_iter().enumerate();
+    let clusters = clusters.map(|(index, count)| -> Draw {
         let alignment = match index % 2 {
             0 => Alignment::Loose,
             _ => ALIGNMENTS[index / 2 % ALIGNMENTS.len()],
@@ -205,42 +208,39 @@ fn of_a_few() -> Vec<Draw> {
         Box::new(move |rng| {
             let axis = rng.index(3);
             let shapes = few(rng, (count, alignment), axis, index % 2 == 0);
-            Drawn::new(shapes, count - 1, axis)
+            UnplacedQuestion::new(shapes, count - 1, axis)
         })
     });
     let spheres = (3..=6).map(|count| -> Draw {
         Box::new(move |rng| {
             let axis = rng.index(3);
-            Drawn::new(uneven(rng, count, axis), count - 1, axis)
+            UnplacedQuestion::new(uneven(rng, count, axis), count - 1, axis)
         })
     });
-    crowds.chain(spheres).collect()
+    clusters.chain(spheres).collect()
 }
 
-/// Returns functions that draw two crowds of many primitives.
+/// Returns functions that draw two clusters of many primitives.
 fn of_many() -> Vec<Draw> {
     let counts = [16_usize, 64, 129, 256, 513, 1100].into_iter();
     let draw = |count: usize| -> Draw {
         Box::new(move |rng| {
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
-            let largest = 6 * count / 10 + count.div_ceil(64);
+            let largest = 6 * count / 10 + chunk_size(count);
             let leaf_size = (largest + rng.index(count - largest)).min(1000);
-            Drawn::new(many(rng, count, axis, is_mirrored), leaf_size, axis)
+            UnplacedQuestion::new(many(rng, count, axis, is_mirrored), leaf_size, axis)
         })
     };
     counts.map(draw).collect()
 }
 
-/// Returns functions that draw a crowd and, far from it, less than a sixteenth as many primitives. Both
-/// numbers are multiples of a 64th of all, rounded up, so that builders with 64 equally large chunks find
-/// the gap too.
+/// Returns functions that draw a cluster and, far from it, less than a sixteenth as many
+/// primitives.
 fn of_outliers() -> Vec<Draw> {
     let counts = [(18, 60), (100, 180)].into_iter();
     let draw = |(least, most): (u32, u32)| -> Draw {
         Box::new(move |rng| {
-            let count = rng.integer(least, most) as usize;
-            let chunk = count.div_ceil(64);
-            let count = count / chunk * chunk;
+            let (count, chunk) = in_whole_chunks(rng.integer(least, most) as usize);
             let far = chunk * (1 + rng.index((count / (20 * chunk)).max(1)));
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
             let layout = Layout {
@@ -250,10 +250,45 @@ fn of_outliers() -> Vec<Draw> {
                 alignment: Alignment::Loose,
             };
             let leaf_size = count - 1 - rng.index(far);
-            Drawn::new(row(rng, &layout, axis, is_mirrored), leaf_size, axis)
+            UnplacedQuestion::new(row(rng, &layout, axis, is_mirrored), leaf_size, axis)
         })
     };
     counts.map(draw).collect()
+}
+
+/// Returns functions that draw a dense cluster at one end. The gap beside it ends just before a
+/// seventh of the row, so that no builder with fewer than 8 buckets has a plane there.
+fn of_dense_ends() -> Vec<Draw> {
+    let counts = [(12, 40), (41, 110), (111, 250), (251, 600)].into_iter();
+    let draw = |(least, most): (u32, u32)| -> Draw {
+        Box::new(move |rng| {
+            let (count, chunk) = in_whole_chunks(rng.integer(least, most) as usize);
+            let dense = 6 * count / 10 / chunk * chunk;
+            let (axis, is_mirrored) = (rng.index(3), rng.coin());
+            let layout = Layout {
+                clumps: &[(0.0, 5e-4, dense), (0.141, 1.0, count - dense)],
+                first_size: SMALL,
+                size: SMALL,
+                alignment: Alignment::Loose,
+            };
+            UnplacedQuestion::new(row(rng, &layout, axis, is_mirrored), dense, axis)
+        })
+    };
+    counts.map(draw).collect()
+}
+
+/// Returns the largest primitive count, up to `most`, that is a multiple of the chunk size, and
+/// this chunk size. If clusters consist of whole chunks, a chunk ends in the gap between them.
+fn in_whole_chunks(most: usize) -> (usize, usize) {
+    let numbers = (1..=most).rev().map(|count| (count, chunk_size(count)));
+    let mut whole = numbers.filter(|(count, chunk)| count % chunk == 0);
+    whole.next().unwrap_or((most, 1))
+}
+
+/// Returns the chunk size of a builder that, instead of buckets, tries up to 64 chunks with the
+/// same number of primitives. Such a builder is correct as well.
+fn chunk_size(count: usize) -> usize {
+    count.div_ceil(64)
 }
 
 /// Returns functions that draw strips in layers.
@@ -269,7 +304,7 @@ fn of_strips() -> Vec<Draw> {
     stacks.chain(layers).collect()
 }
 
-/// Returns a crowd and a primitive far from it.
+/// Returns a cluster of primitives and a single primitive far from it.
 fn few(
     rng: &mut Rng,
     (count, alignment): (usize, Alignment),
@@ -285,11 +320,10 @@ fn few(
     row(rng, &layout, axis, is_mirrored)
 }
 
-/// Returns two crowds. The smaller one is denser. Builders that try up to 64 chunks of equally many
-/// primitives instead of buckets find the gap as well: the first crowd along the axis consists of
+/// Returns two clusters. The smaller one is denser. The first cluster along the axis consists of
 /// whole chunks.
 fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shape> {
-    let chunk = count.div_ceil(64);
+    let chunk = chunk_size(count);
     let whole = |tenths: usize| tenths * count / 10 / chunk * chunk;
     let smaller = if is_mirrored {
         count - whole(6)
@@ -308,8 +342,8 @@ fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shap
 /// The size of a primitive that is far larger than the spaces between some others.
 const LARGE: f64 = 0.4;
 
-/// Returns triangles in a row along an axis, evenly spaced in each clump, so that one partition is the
-/// best.
+/// Returns primitives in a row along an axis, evenly spaced in each clump, so that one partition is
+/// the best.
 fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     rng.retry(|rng| {
         let shapes = any_row(rng, layout, axis, is_mirrored);
@@ -318,7 +352,8 @@ fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Sh
 }
 
 fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
-    /// From this number of primitives on, all are spheres, since these take less space in an exam.
+    /// A row with this many primitives or more consists only of spheres, since these take up less
+    /// space in an exam.
     const MANY: usize = 33;
     let start = rng.point(3.0);
     let length = rng.uniform(8.0, 12.0);
@@ -353,8 +388,8 @@ fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Ve
     meshes::number_shapes(rng.shuffled(shapes))
 }
 
-/// Returns a primitive of a kind whose box has this centre. Kinds from 4 are triangles in a plane across
-/// an axis.
+/// Returns a primitive of this kind. The centre of its box is `center`. Kinds from 4 on are
+/// triangles in a plane across an axis.
 fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shape {
     match kind {
         0 | 1 => meshes::random_triangle_with_box_around(rng, center, size),
@@ -370,8 +405,8 @@ fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shap
     }
 }
 
-/// Returns spheres roughly in a row. Builders with at most as many buckets as there are spheres don't have
-/// a plane in the best gap.
+/// Returns spheres roughly in a row. Builders with at most as many buckets as there are spheres
+/// don't have a plane in the best gap.
 fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
     rng.retry(|rng| {
         let start = rng.point(3.0);
@@ -394,9 +429,9 @@ fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
     })
 }
 
-/// Returns whether a builder with so few buckets builds a much more expensive tree.
+/// Returns whether a builder with only `count` buckets builds a much more expensive tree.
 fn is_missed(shapes: &[Shape], max_leaf_size: usize, count: usize) -> bool {
-    /// The minimum cost relative to the exact sweep's.
+    /// The minimum cost, relative to the exact sweep's tree.
     const LEAST: f64 = 1.25;
     let few = BucketedBuilder {
         count,
@@ -407,9 +442,11 @@ fn is_missed(shapes: &[Shape], max_leaf_size: usize, count: usize) -> bool {
     relative_cost(&question, few) >= LEAST
 }
 
-/// Numbers of strips in two layers, each with the minimum space between the layers in extents of the
-/// centres along the strips. The maximum is eight times that.
-const STACKS: [(usize, f64); 9] = [
+/// The number of strips in two layers, and the minimum space between the layers, as a multiple of
+/// the extent of the centres along the strips. The maximum space is eight times the minimum.
+const STACKS: [(usize, f64); 11] = [
+    (12, 0.0001),
+    (12, 0.0001),
     (12, 0.001),
     (12, 0.001),
     (12, 0.01),
@@ -421,7 +458,7 @@ const STACKS: [(usize, f64); 9] = [
     (8, 0.001),
 ];
 
-/// The extent of the centres of strips along the strips.
+/// The extent of the strips' centres in the direction of the strips.
 const SPREAD: f64 = 2.6;
 
 /// Returns strips along an axis whose centres have these heights along another axis.
@@ -451,8 +488,8 @@ fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape>
 }
 
 /// Returns two layers of strips that are much longer than the space between the layers. `ratio` is
-/// that space in extents of the centres along the strips.
-fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> Drawn {
+/// that space as a multiple of the extent of the centres along the strips.
+fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> UnplacedQuestion {
     let space = ratio * SPREAD;
     let shapes = rng.retry(|rng| {
         let heights = (0..count).map(|index| {
@@ -464,7 +501,7 @@ fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> Drawn {
         let shapes = strips(rng, &heights, 0.1 * space.min(0.2), axis);
         is_unambiguous(&shapes, axis).then_some(shapes)
     });
-    Drawn {
+    UnplacedQuestion {
         shapes,
         max_leaf_size: count.div_ceil(2),
         axis,
@@ -472,9 +509,10 @@ fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> Drawn {
     }
 }
 
-/// Returns layers of strips with unequal spaces between them. The stack is so low that a builder with
-/// buckets of the same size along all axes has few of them along this one and no plane in the best gap.
-fn layers(rng: &mut Rng) -> Drawn {
+/// Returns layers of strips with unequal spaces between the layers. The stack is so low that a
+/// builder with buckets of the same size along all axes has few buckets along the stack's height
+/// and no plane in the best gap.
+fn layers(rng: &mut Rng) -> UnplacedQuestion {
     /// The number of strips in each layer.
     const IN_EACH: usize = 4;
     /// The number of buckets along the longest axis.
@@ -491,7 +529,7 @@ fn layers(rng: &mut Rng) -> Drawn {
         let is_hard = is_unambiguous(&shapes, axis) && is_missed(&shapes, 4 * IN_EACH, count);
         is_hard.then_some(shapes)
     });
-    Drawn {
+    UnplacedQuestion {
         shapes,
         max_leaf_size: 4 * IN_EACH,
         axis,
@@ -499,14 +537,18 @@ fn layers(rng: &mut Rng) -> Drawn {
     }
 }
 
-/// Returns whether every builder with 8 to 64 buckets finds the best partition. The partition must
-/// be the best by a clear margin and split at a gap along this axis that contains a plane of every
-/// such builder.
+/// Returns whether every builder with 8 to 64 buckets, or 64 chunks, finds the best partition. The
+/// partition must be the best by a clear margin and split at a gap along this axis that contains a
+/// plane of every such builder.
 fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let Some(gap) = sweep::clear_gap(&boxes, axis) else {
         return false;
     };
+    let before = boxes.iter().filter(|it| it.center()[axis] <= gap.0);
+    if before.count() % chunk_size(boxes.len()) != 0 {
+        return false;
+    }
     let node_box = Bounds::enclosing(boxes.iter().copied());
     let center_box = Bounds::around(boxes.iter().map(Bounds::center));
     (8..=64).all(|count| {

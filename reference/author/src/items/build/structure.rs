@@ -3,6 +3,8 @@
 use glam::DVec3;
 use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Stops, Tight};
+use judging::symptom::Symptom;
+use protocol::{Question, Shape};
 
 use super::build_question;
 use super::draw;
@@ -10,7 +12,7 @@ use super::draw::Arrangement::{
     self, DifferentSizes, FlatBoxes, Line, Outlier, Plane, Row, Scattered, WithoutArea,
 };
 use crate::domains::build::BuildCall;
-use crate::items::place::Place;
+use crate::items::transform::Transform;
 use crate::items::{Declaration, groups, meshes};
 use crate::seed::Rng;
 
@@ -28,8 +30,8 @@ const ARRANGEMENTS: &[Arrangement] = &[
     Outlier,
 ];
 
-/// Draws questions from the domain about primitives in these arrangements, in addition to those that are
-/// given.
+/// Returns these questions and additional ones about primitives in these arrangements, which are
+/// drawn from the domain.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -52,9 +54,9 @@ fn is_in_small_leaves(call: &BuildCall) -> bool {
     call.shapes.len() > 3 * call.max_leaf_size as usize
 }
 
-/// Creates a question about small random triangles for each combination of triangle count and
-/// maximum leaf size. Up to seven more triangles are added. Every other question is far from the
-/// origin.
+/// Creates a question about small random triangles for each of these pairs of a triangle count and
+/// a maximum leaf size. Up to seven more triangles are added to each question. Every other question
+/// is far from the origin.
 fn soup_questions(
     rng: &mut Rng,
     checks: &[TreeCheck],
@@ -73,7 +75,7 @@ fn soup_questions_of_size(
     let question = |(index, &(count, max_leaf_size)): (usize, &(usize, u32))| {
         let count = count + rng.index(8);
         let shapes = meshes::soup(rng, count, 3.0, size);
-        let elsewhere = Place::elsewhere(rng);
+        let elsewhere = Transform::elsewhere(rng);
         let shapes = if index % 2 == 1 {
             elsewhere.shapes(&shapes)
         } else {
@@ -84,21 +86,48 @@ fn soup_questions_of_size(
     sizes.iter().enumerate().map(question).collect()
 }
 
-/// Creates two questions with the same number of spheres, the same common box and the same maximum leaf
-/// size. In the second, a sphere from the middle of the list is elsewhere inside this box.
-fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> [ExamQuestion; 2] {
+/// Creates questions with the same number of spheres, the same common box and the same maximum leaf
+/// size. In the second question, a sphere from the middle of the list is elsewhere inside this box.
+/// In the third, the spheres in the middle of the list have different radii. In the last, two of
+/// these spheres have swapped numbers.
+fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> Vec<ExamQuestion> {
     let count = rng.integer(8, 40) as usize;
     let corners = [-3.0, 3.0].map(|at| meshes::sphere(DVec3::splat(at), 0.3));
     let moved = rng.vector(1.0, 2.5);
     let mut inside: Vec<_> = (1..count)
         .map(|_| meshes::sphere(rng.point(2.5), 0.2))
         .collect();
-    [moved, -moved].map(|moved| {
-        inside[count / 2] = meshes::sphere(moved, 0.2);
+    let question = |inside: &[Shape]| {
         let [first, last] = corners;
         let spheres = std::iter::once(first).chain(inside.iter().copied());
         build_question(checks, spheres.chain([last]), 1)
-    })
+    };
+    let mut questions: Vec<ExamQuestion> = [moved, -moved]
+        .map(|moved| {
+            inside[count / 2] = meshes::sphere(moved, 0.2);
+            question(&inside)
+        })
+        .to_vec();
+    for shape in &mut inside {
+        if let Shape::Sphere { radius, .. } = shape {
+            *radius = rng.uniform(0.1, 0.4) as f32;
+        }
+    }
+    questions.push(question(&inside));
+    let mut exchanged = question(&inside);
+    if let Question::Build { shapes, .. } = &mut exchanged.question {
+        let numbers = [0, 2, 1].into_iter().chain(3..);
+        *shapes = meshes::with_numbers(shapes.iter().copied(), numbers);
+    }
+    questions.push(exchanged);
+    questions
+}
+
+/// Creates a question about several hundred spheres in leaves that may hold hundreds of them.
+fn large_leaves(rng: &mut Rng, checks: &[TreeCheck]) -> ExamQuestion {
+    let count = rng.integer(600, 760) as usize;
+    let spheres = meshes::many_spheres(rng, count);
+    build_question(checks, spheres, count as u32 - 1)
 }
 
 /// Creates a question about over 1,024 spheres, with a small maximum leaf size.
@@ -130,10 +159,17 @@ pub(super) const PARTITION: Declaration = Declaration {
     look: "Return a tree whose root is nodes[root]: from there, l and r, which are indices into \
            nodes, lead to the leaves. A leaf holds start..start + size of the list that you \
            return, and together the leaves hold each primitive once.",
+    look_fits: &[
+        Symptom::of("nodes"),
+        Symptom::of("root"),
+        Symptom::of("l"),
+        Symptom::of("r"),
+        Symptom::of("leaves"),
+    ],
     section: "building.md#a-leaf-is-a-slice-of-the-list",
     tests: &["Every primitive is…"],
     questions: |rng| {
-        let many = vec![large(rng, &[Partition])];
+        let many = vec![large(rng, &[Partition]), large_leaves(rng, &[Partition])];
         let arrangements = (8, &[Scattered, WithoutArea, DifferentSizes, Line] as &[_]);
         with_domain(many, rng, &[Partition], arrangements, |call| {
             call.shapes.len() > 2
@@ -148,10 +184,11 @@ pub(super) const CONTAINS: Declaration = Declaration {
     look: "A node's box encloses the whole boxes of all primitives below it. Those of a leaf are \
            start..start + size in the list that you return: compare a leaf's box with them, and \
            the boxes of the nodes above with those of their children.",
+    look_fits: &[Symptom::of("box too small")],
     section: "building.md#the-contract",
     tests: &["The box of a node…"],
     questions: |rng| {
-        let mut questions = vec![large(rng, &[Contains])];
+        let mut questions = vec![large(rng, &[Contains]), large_leaves(rng, &[Contains])];
         questions.extend(moved_inside(rng, &[Contains]));
         let arrangements = (7, &[WithoutArea, DifferentSizes, Line] as &[_]);
         with_domain(questions, rng, &[Contains], arrangements, |_| true)
@@ -164,10 +201,11 @@ pub(super) const TIGHT: Declaration = Declaration {
     title: "no box is larger than its contents need",
     look: "A node's box is the union of its primitives' boxes. A box that starts at the origin \
            instead of BBox::EMPTY, or is the parent's box, is too large.",
+    look_fits: &[Symptom::of("box too large")],
     section: "building.md#start-each-box-empty",
     tests: &["The box of a node…"],
     questions: |rng| {
-        let many = vec![large(rng, &[Tight])];
+        let many = vec![large(rng, &[Tight]), large_leaves(rng, &[Tight])];
         let arrangements = (2 * ARRANGEMENTS.len() + 2, ARRANGEMENTS);
         with_domain(many, rng, &[Tight], arrangements, is_split)
     },
@@ -179,6 +217,7 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
     title: "no leaf holds more than max_leaf_size primitives",
     look: "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
            cheaper by the heuristic.",
+    look_fits: &[Symptom::of("leaf size"), Symptom::less("splits")],
     section: "building.md#when-a-node-becomes-a-leaf",
     tests: &["A node is a leaf…"],
     questions: |rng| {
@@ -208,18 +247,19 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
 pub(super) const STOPS: Declaration = Declaration {
     id: "build.stops",
     title: "a node with at most max_leaf_size primitives is a leaf",
-    look: "A node is a leaf if and only if it has at most max_leaf_size primitives. That holds for \
-           every node, the root included, and for every max_leaf_size.",
+    look: "A node is a leaf if and only if it has at most max_leaf_size primitives. This applies to every \
+        node, including the root, and to every max_leaf_size.",
+    look_fits: &[Symptom::of("leaf size"), Symptom::more("splits")],
     section: "building.md#when-a-node-becomes-a-leaf",
     tests: &["A node is a leaf…"],
     questions: |rng| {
         let checks = [Stops, LeafSize];
         let mut questions = soup_questions(rng, &[Stops], &[(160, 8)]);
         questions.push(large(rng, &[Stops]));
-        // The same primitives again, with a different maximum leaf size. The root is a node like any
-        // other: one question has as many primitives as fit into a leaf, and one has one more.
+        // The same primitives again, with a different maximum leaf size. The root is a node like
+        // any other: one question has as many primitives as fit into a leaf, and one has one more.
         let small = rng.integer(5, 10) as usize;
-        for (count, most) in [(small, 130), (rng.integer(300, 999) as usize, 2)] {
+        for (count, most) in [(small, 130), (1000, 2)] {
             let balls = (0..count).map(|_| meshes::sphere(rng.point(3.0), 0.1));
             let balls: Vec<_> = balls.collect();
             let fits = count as u32;

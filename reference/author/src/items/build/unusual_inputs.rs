@@ -3,6 +3,7 @@
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
 use judging::exam::TreeCheck::{self, Contains, LeafSize, Partition, Split, Stops, Tight};
+use judging::symptom::Symptom;
 
 use super::build_question;
 use super::draw::Arrangement::{Concentric, Equal, EqualPair, Outlier, Plane, Row, Scattered};
@@ -14,9 +15,9 @@ use crate::seed::Rng;
 /// All properties of a tree except its cost.
 const ALL: &[TreeCheck] = &[Partition, Contains, Tight, LeafSize, Stops];
 
-/// Draws questions from the domain about primitives in these arrangements, in addition to those that
-/// are given. Judges how they are split, using [`Split`] if the exact size of leaves is tested by a
-/// different item.
+/// Returns these questions and additional ones about primitives in these arrangements, which are
+/// drawn from the domain. The additional questions judge how the primitives are split, using
+/// [`Split`] if a different item tests the exact size of leaves.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -24,7 +25,7 @@ fn with_domain(
     count: usize,
     arrangements: &[Arrangement],
 ) -> Vec<ExamQuestion> {
-    // Only the last two items ask about primitives with one centre.
+    // Only the last two items ask about primitives with a common centre.
     let checks: &[TreeCheck] = if split == Split {
         &[Partition, Split, Contains]
     } else {
@@ -43,6 +44,11 @@ pub(super) const NEGATIVE: Declaration = Declaration {
     title: "negative coordinates work as well",
     look: "A box that grows from zero never goes below zero, and a cast to usize turns negative \
            numbers into 0.",
+    look_fits: &[
+        Symptom::of("box too large"),
+        Symptom::of("leaves"),
+        Symptom::of("splits"),
+    ],
     section: "building.md#start-each-box-empty",
     tests: &["Every primitive is…", "The box of a node…"],
     questions: |rng| {
@@ -71,8 +77,14 @@ pub(super) const NEGATIVE: Declaration = Declaration {
 pub(super) const COINCIDENT: Declaration = Declaration {
     id: "build.coincident",
     title: "primitives with the same centre are split by count",
-    look: "If all centres coincide, no plane separates the primitives. A leaf with all of them is \
-           too large, and a side with none of them gets you no further: split them by count.",
+    look: "If all centres coincide, no plane separates the primitives. A leaf with all of them is too \
+        large, and a split where one side is empty doesn't help: split them by count.",
+    look_fits: &[
+        Symptom::of("nodes"),
+        Symptom::of("leaves"),
+        Symptom::of("splits"),
+        Symptom::of("leaf size"),
+    ],
     section: "building.md#when-all-centres-coincide",
     tests: &["If all centres coincide,…"],
     questions: |rng| {
@@ -91,7 +103,7 @@ pub(super) const COINCIDENT: Declaration = Declaration {
             build_question(&[Partition, Split], rng.shuffled(some), 2),
             build_question(ALL, many, 1),
         ];
-        // Different triangles with the same box.
+        // These are different triangles with the same box.
         questions.extend([1, 12].map(|count| {
             let mut shapes = meshes::rectangles(rng, count);
             shapes.push(meshes::sphere(rng.point(4.0), 0.3));
@@ -107,6 +119,12 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
     title: "spheres around one centre are split by count",
     look: "Their boxes differ, but their centres coincide, so no plane between buckets of centres \
            separates them on any axis. Split them by count.",
+    look_fits: &[
+        Symptom::of("nodes"),
+        Symptom::of("leaves"),
+        Symptom::of("splits"),
+        Symptom::of("leaf size"),
+    ],
     section: "building.md#when-all-centres-coincide",
     tests: &["If all centres coincide,…"],
     questions: |rng| {
@@ -131,6 +149,11 @@ pub(super) const COPLANAR: Declaration = Declaration {
     look: "Along one axis all centres coincide: no plane separates them there, and dividing by \
            their extent gives NaN. Both the search for the cheapest partition and the partition \
            itself need another axis.",
+    look_fits: &[
+        Symptom::of("nodes"),
+        Symptom::of("leaves"),
+        Symptom::of("splits"),
+    ],
     section: "building.md#an-axis-without-extent",
     tests: &["Every primitive is…", "The box of a node…"],
     questions: |rng| {
@@ -154,6 +177,11 @@ pub(super) const COLLINEAR: Declaration = Declaration {
     id: "build.collinear",
     title: "a row of primitives works as well, along any axis",
     look: "Along two axes all centres coincide. Find the third one, whether it is x, y or z.",
+    look_fits: &[
+        Symptom::of("nodes"),
+        Symptom::of("leaves"),
+        Symptom::of("splits"),
+    ],
     section: "building.md#an-axis-without-extent",
     tests: &["Every primitive is…", "The box of a node…"],
     questions: |rng| {
@@ -174,8 +202,9 @@ pub(super) const COLLINEAR: Declaration = Declaration {
 pub(super) const OUTLIER: Declaration = Declaration {
     id: "build.outlier",
     title: "one primitive far from all others does not spoil the tree",
-    look: "Most of the others are then in one bucket. The split still helps: they are in a smaller \
-           node, which gets buckets of its own.",
+    look: "Then most of the others are in one bucket. The split still helps: they end up in a smaller node \
+        with its own buckets.",
+    look_fits: &[Symptom::less("splits"), Symptom::of("leaf size")],
     section: "building.md#one-primitive-far-from-the-others",
     tests: &["Every primitive is…", "The box of a node…"],
     questions: outlier,
@@ -192,14 +221,14 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
     let checks = [Partition, Split, Contains];
     let question = |far: f64| build_question(&checks, crowd(far), 2);
     let mut questions = [100.0, 1000.0].map(question).to_vec();
-    // Each triangle is a quarter larger than the previous one, so the last is over 1000 times as
-    // large as the first.
+    // Each triangle is a quarter larger than the previous one, so the last one is over 1000 times
+    // as large as the first.
     let growing = (0..32).map(|i| {
         let size = 1e-3 * 1.25f64.powi(i);
         meshes::random_flat_triangle(rng, 4.0 * size * DVec3::ONE, size)
     });
     questions.push(build_question(&checks, growing, 1));
-    // So many primitives that nodes could be mistaken for the other kind.
+    // There are so many primitives that a builder could switch to a faster, less careful method.
     let mut many = meshes::many_spheres(rng, 1100);
     many.push(meshes::sphere((100.0 * rng.direction()).round(), 1.0));
     questions.push(build_question(ALL, rng.shuffled(many), 1));
@@ -211,6 +240,13 @@ pub(super) const ONE_OR_NONE: Declaration = Declaration {
     title: "trees of zero, one and two primitives are built",
     look: "For no primitives, build no nodes or one leaf of size 0. For one primitive, build one \
            leaf.",
+    look_fits: &[
+        Symptom::of("nodes"),
+        Symptom::of("root"),
+        Symptom::of("l"),
+        Symptom::of("r"),
+        Symptom::of("leaves"),
+    ],
     section: "building.md#very-small-inputs",
     tests: &["Without primitives, the…"],
     questions: |rng| {

@@ -1,8 +1,8 @@
 //! Items of task 1: cameras.
 //!
-//! A mistake in one quantity should not fail the items about other quantities. Most items therefore
-//! use the middle row of the film, where only x matters, and the centres of pixels. Film and sensor
-//! have the same aspect ratio, except in the items about the aspect ratio.
+//! A mistake in one quantity should not make the items about other quantities fail. Most items
+//! therefore use the middle row of the film, where only x matters, and the centres of pixels. The
+//! film and the sensor have the same aspect ratio, except in the items about the aspect ratio.
 
 mod ray;
 mod sensor;
@@ -39,7 +39,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
     untested: &[
         (
             "[`Ray::new`] sets both.",
-            "A way to do what the sentence before asks.",
+            "A way to do what the previous sentence asks.",
         ),
         (
             "Convert them with `as_vec2()` before you divide.",

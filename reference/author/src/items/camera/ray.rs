@@ -2,12 +2,13 @@
 
 use glam::{UVec2, Vec2, uvec2};
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 use protocol::{Rows, Sample};
 
 use super::{camera, camera_question, direction_question, middle_of, random_below};
 use crate::domains::camera::{
-    ASPECT_RATIOS, FIELDS_OF_VIEW, ROUND_ANGLES, almost_equal_cameras, cameras, drawn,
-    extreme_views, offset, sample, side,
+    ASPECT_RATIOS, FIELDS_OF_VIEW, ROUND_ANGLES, almost_equal_cameras, almost_usual_cameras,
+    cameras, drawn, extreme_views, offset, sample, side,
 };
 use crate::items::{Declaration, groups};
 use crate::seed::Rng;
@@ -16,7 +17,7 @@ pub(super) const OFFSET: Declaration = Declaration {
     id: "camera.offset",
     title: "the offset moves the ray within its pixel",
     look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) of the film, \
-           measured in pixels. Each component is used as it is given, on its own axis.",
+           measured in pixels. Use each component unchanged, on its own axis.",
     section: "camera.md#the-offset-is-measured-in-pixels",
     tests: &["`offset` is the position…"],
     questions: |rng| {
@@ -115,6 +116,7 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
         all[0].1 = more.chain(all[0].1.clone()).collect();
         all.push(wide);
         all.extend(extreme_views(rng));
+        all.extend(almost_usual_cameras(rng));
         all.extend(cameras(rng));
         let all = all.into_iter();
         all.map(|(camera, samples)| direction_question(camera, samples))
@@ -124,7 +126,7 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
 };
 
 /// Creates a question with very different directions, so that no constant answer passes an item
-/// about length, origin or range.
+/// about lengths, origins or ranges.
 fn spread_question(judged: &[&str], rng: &mut Rng) -> ExamQuestion {
     let film = UVec2::splat(rng.integer(7, 19));
     let samples = (0..16).map(|_| middle_of(random_below(rng, film.x), random_below(rng, film.y)));
@@ -151,8 +153,9 @@ fn questions_about_all_cameras(judged: &[&str], rng: &mut Rng) -> Vec<ExamQuesti
 pub(super) const UNIT_LENGTH: Declaration = Declaration {
     id: "camera.unit_length",
     title: "the direction has length one",
-    look: "Distances along a ray are measured in lengths of its direction. Ray::new normalises the \
-           direction; filling in the fields yourself does not.",
+    look: "Distances along a ray are measured in multiples of its direction. Ray::new normalises the \
+        direction, but if you fill in the fields yourself, nothing does.",
+    look_fits: &[Symptom::of("length of the direction")],
     section: "camera.md#the-direction-has-length-one",
     tests: &["The ray's `dir` has…"],
     questions: |rng| {
@@ -170,6 +173,7 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
     id: "camera.origin_and_range",
     title: "the ray starts at the camera and has no end",
     look: "The camera is at (0, 0, 0), not on the sensor, and the range of the ray is from 0 to ∞.",
+    look_fits: &[Symptom::of("origin"), Symptom::of("range")],
     section: "camera.md#the-ray-starts-at-the-camera",
     tests: &["The ray's `dir` has…"],
     questions: |rng| {

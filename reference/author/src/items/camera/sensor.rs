@@ -92,8 +92,7 @@ pub(super) const ASPECT_RATIO: Declaration = Declaration {
 pub(super) const OTHER_ASPECT: Declaration = Declaration {
     id: "camera.other_aspect",
     title: "the sensor's shape comes from aspect_ratio, not from the film",
-    look: "Pixels need not be square: the film only says how many pixels the sensor is divided \
-           into.",
+    look: "Pixels don't have to be square: the film only determines how many pixels the sensor is divided into.",
     section: "camera.md#the-aspect-ratio-is-not-that-of-the-film",
     tests: &["The sensor is the…"],
     questions: |rng| {
@@ -118,7 +117,7 @@ pub(super) const OTHER_ASPECT: Declaration = Declaration {
 pub(super) const FILM: Declaration = Declaration {
     id: "camera.film",
     title: "x is divided by the film's width, and y by its height",
-    look: "Neither the film nor the sensor need be square. (pixel.x + offset.x) / film.x is a \
+    look: "The film and the sensor don't have to be square. (pixel.x + offset.x) / film.x is a \
            fraction of the sensor's width, and (pixel.y + offset.y) / film.y is a fraction of its \
            height.",
     section: "camera.md#each-axis-has-its-own-size",

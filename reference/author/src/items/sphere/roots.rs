@@ -1,9 +1,11 @@
-//! Items about which of the two roots is the hit, if any.
+//! Items about which of the two roots is the hit, if either is.
+
+use judging::symptom::{PRESENCE, Symptom};
 
 use super::questions;
 use crate::domains::fields::{EVERY_SIZE, TINY, USUAL};
 use crate::domains::sphere::Line;
-use crate::items::{Declaration, groups};
+use crate::items::{Declaration, groups, paper};
 
 /// Returns whether the ray starts outside the sphere and has no end, and the sphere isn't behind
 /// it.
@@ -15,19 +17,23 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
     id: "sphere.near_side",
     title: "from outside, the near side is hit",
     look: "Work out both roots by hand for the ray shown, with one form of the formula from start \
-           to end, and compare them with those in your code. From outside, the smaller root is the \
-           distance; a negative discriminant is a miss.",
+           to end, and compare them with the values in your code. From outside, the smaller root is the \
+           distance. A negative discriminant means a miss.",
     section: "sphere.md#the-quadratic-equation",
     tests: &["Returns the ray's…"],
-    questions: |rng| questions(rng, &["distance"], USUAL, is_ahead),
+    questions: |rng| {
+        let drawn = questions(rng, &["distance"], USUAL, is_ahead);
+        [vec![paper::sphere(rng)], drawn].concat()
+    },
     ..Declaration::in_group(groups::SPHERE_HITS)
 };
 
 pub(super) const BESIDE: Declaration = Declaration {
     id: "sphere.beside",
     title: "a ray that passes beside the sphere misses it",
-    look: "Without a real root there is no hit, and with two there may be one: work out the value \
-           under the square root for the ray shown, before you take the root.",
+    look: "Without real roots, there is no hit. With two, there may be one. Work out the value under the \
+        square root for the ray shown, before you take the root.",
+    look_fits: &[Symptom::of(PRESENCE)],
     section: "sphere.md#the-square-root-of-a-negative-number",
     tests: &["Returns the ray's…"],
     questions: |rng| questions(rng, &[], USUAL, is_ahead),
@@ -39,6 +45,7 @@ pub(super) const RADIUS: Declaration = Declaration {
     title: "spheres of any radius are hit at the right distance",
     look: "The square of the radius is part of the quadratic's c. Spheres can be tiny, and so can \
            distances: compare each root with ray.range, not with a small constant.",
+    look_fits: &[Symptom::MISS, Symptom::of("distance")],
     section: "sphere.md#the-radius-is-not-always-one",
     tests: &["Returns the ray's…", "`distance` is the…"],
     questions: |rng| {
@@ -63,8 +70,8 @@ pub(super) const RADIUS: Declaration = Declaration {
 pub(super) const BEHIND: Declaration = Declaration {
     id: "sphere.behind",
     title: "a sphere behind the ray is missed",
-    look: "Behind the ray both roots are negative, and so outside ray.range; ahead of it both are \
-           positive. Work out both for the ray shown.",
+    look: "If the sphere is behind the ray, both roots are negative, so they are outside ray.range. If it \
+        is ahead, both are positive. Work out both for the ray shown.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     tests: &["Returns the ray's…"],
     questions: |rng| {
@@ -78,9 +85,8 @@ pub(super) const BEHIND: Declaration = Declaration {
 pub(super) const FROM_INSIDE: Declaration = Declaration {
     id: "sphere.from_inside",
     title: "from inside, the far side is hit",
-    look: "In every direction from inside, the near root is negative and the far one is positive. \
-           Nothing but the roots and ray.range decides whether there is a hit, and the root that \
-           is in the range is its distance.",
+    look: "From inside, the near root is negative and the far one is positive in every direction. Only the \
+        roots and ray.range decide whether there is a hit, and its distance is the root that is in the range.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     tests: &["If only the far intersection…"],
     questions: |rng| {
@@ -109,7 +115,7 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
 pub(super) const RANGE_MAX: Declaration = Declaration {
     id: "sphere.range_max",
     title: "only hits before the end of the range count",
-    look: "Compare each root by itself with both ends of ray.range. The ray can end before the \
+    look: "Compare each root separately with both ends of ray.range. The ray can end before the \
            sphere, inside it or behind it: which of the two roots are in the range of the ray \
            shown?",
     section: "sphere.md#check-each-root-by-itself",
@@ -125,9 +131,8 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
 pub(super) const RANGE_WITHIN: Declaration = Declaration {
     id: "sphere.range_within",
     title: "a ray whose range contains neither root misses",
-    look: "Between the roots the ray is inside the sphere and hits nothing; beyond both it has \
-           left the sphere. A root is a hit if and only if it is in ray.range, however small it \
-           is.",
+    look: "Between the roots, the ray is inside the sphere and hits nothing. Beyond both, it has left the \
+        sphere. A root is a hit if and only if it is in ray.range, no matter how small it is.",
     section: "sphere.md#check-each-root-by-itself",
     tests: &["`ray.range` includes both…"],
     questions: |rng| {

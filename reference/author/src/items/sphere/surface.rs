@@ -1,7 +1,8 @@
-//! Items about the quantities of a hit and the item with a picture of spheres.
+//! Items about the quantities of a hit, and the item with a picture of spheres.
 
 use glam::{DVec3, Vec3, dvec3};
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 
 use super::questions;
 use crate::domains::fields::{EVERY_SIZE, USUAL};
@@ -13,6 +14,7 @@ pub(super) const POSITION: Declaration = Declaration {
     title: "position is the point of the hit, in world space",
     look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
            is in world space, and as far from the centre as the radius.",
+    look_fits: &[Symptom::of("position")],
     section: "sphere.md#the-sphere-is-not-always-at-the-origin",
     tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["position"], EVERY_SIZE, |_| true),
@@ -21,9 +23,10 @@ pub(super) const POSITION: Declaration = Declaration {
 
 pub(super) const NORMAL: Declaration = Declaration {
     id: "sphere.normal",
-    title: "the normal points away from the centre and has length one, also from inside",
+    title: "the normal points away from the centre and has length one, even from inside",
     look: "Divide the vector from the centre to the hit by its length. The normal belongs to the \
            surface, so it is never flipped toward the ray.",
+    look_fits: &[Symptom::of("normal"), Symptom::of("length of the normal")],
     section: "sphere.md#the-normal-points-away-from-the-centre",
     tests: &["`normal` has length…"],
     questions: |rng| questions(rng, &["normal", "unit_normal"], EVERY_SIZE, |_| true),
@@ -36,6 +39,7 @@ pub(super) const UV: Declaration = Declaration {
     look: "The given Sphere::uv needs the direction from the centre to the hit, and its length \
            must be one. Check the vector that you pass: where does it start, which way does it \
            point, and how long is it?",
+    look_fits: &[Symptom::of("uv")],
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
     tests: &["`uv` is computed…"],
     questions: |rng| {
@@ -51,6 +55,7 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
     title: "uv does not depend on the radius",
     look: "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
            is as long as the radius.",
+    look_fits: &[Symptom::of("uv")],
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
     tests: &["`uv` is computed…"],
     questions: |rng| questions(rng, &["uv"], EVERY_SIZE, |_| true),
@@ -60,8 +65,9 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
 pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     id: "sphere.origin_and_material",
     title: "the trace holds the ray's origin and the sphere's shape",
-    look: "Copy both: the origin from the ray that you were given, even if you computed with a \
-           shifted one, and the shape's number from the sphere.",
+    look: "Copy both: the origin from the given ray, even if you used a shifted one in your calculation, \
+        and the shape's number from the sphere.",
+    look_fits: &[Symptom::of("origin"), Symptom::of("shape")],
     section: "sphere.md#what-to-return",
     tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["origin", "shape"], EVERY_SIZE, |_| true),
@@ -72,8 +78,8 @@ pub(super) const PICTURE: Declaration = Declaration {
     id: "sphere.picture",
     title: "a picture of spheres is correct in hits, depth, normals and uv",
     look: "Some spheres are seen from outside, and one from inside. If one sphere is wrong all \
-           over, how does it differ from the others: in its radius, in its centre, or in that the \
-           camera is inside it?",
+           over, how does it differ from the others: does it have a different radius or centre, or is the \
+           camera inside it?",
     section: "grading.md#reading-a-wrong-picture",
     tests: &["Returns the ray's…"],
     questions: picture,
@@ -87,7 +93,7 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
         meshes::sphere(center, radius * rng.uniform(0.9, 1.1))
     };
     let camera = |half, pixels| picture::camera_along(Vec3::ZERO, DVec3::NEG_Z, half, pixels);
-    // All spheres are near the middle height, so that no pole is visible.
+    // All spheres are close to the camera's height, so that no pole is visible.
     let from_outside = vec![
         sphere(0.2, 0.0, -5.0, 1.2),
         sphere(-1.6, 0.3, -4.0, 0.7),

@@ -1,5 +1,5 @@
-//! Trees of cells. Each cell is a small tree with one decoy, whose properties are distributed so that
-//! each reason not to test a decoy occurs with each kind of leaf, index, level and range.
+//! Trees of cells. Each cell is a small tree with one decoy, whose properties are distributed so
+//! that each reason not to test a decoy occurs with each kind of leaf, index, level and range.
 //!
 //! ```text
 //!   missed            missed with sibling       beyond               both beyond
@@ -11,8 +11,8 @@
 //!                        └──┘ here
 //! ```
 //!
-//! The cells are next to each other, so that a ray only hits something in its own cell. In the tree,
-//! they form a chain of almost 60 levels.
+//! The cells are next to each other, so that a ray hits something only in its own cell. In the
+//! tree, they form a chain of almost 60 levels.
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
@@ -29,29 +29,33 @@ use crate::tree::{Tree, decoy};
 
 /// The reason the decoy of a cell must not be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Reason {
-    /// The ray misses the box of its leaf.
+pub(super) enum CellSkipReason {
+    /// The ray misses the box of the decoy's leaf.
     Missed,
-    /// The ray misses that box and its sibling's, but not their parent's.
+    /// The ray misses the boxes of the decoy's leaf and of the leaf's sibling, but not the parent's
+    /// box.
     MissedWithSibling,
-    /// Its leaf begins beyond the closest hit.
+    /// The decoy's leaf begins beyond the closest hit.
     Beyond,
-    /// The same, and the previous ray is parallel and enters this leaf before its sibling.
+    /// The decoy's leaf begins beyond the closest hit, and the previous ray is parallel and enters
+    /// this leaf before its sibling.
     BeyondAfterParallel,
-    /// Its leaf and then the sibling begin beyond the closest hit. Their parent doesn't.
+    /// The decoy's leaf and the sibling after it begin beyond the closest hit. Their parent
+    /// doesn't.
     NearerOfTwoBeyond,
-    /// The same, but its leaf begins after its sibling.
+    /// The decoy's leaf and the sibling before it begin beyond the closest hit. Their parent
+    /// doesn't.
     FartherOfTwoBeyond,
 }
 
-/// The decoys of a question, for two or three reasons.
+/// The decoys in a question, which must not be tested for two or three different reasons.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Decoys<'a> {
-    pub(super) reasons: &'a [Reason],
-    /// Whether the leaf of a decoy is the left child. Either may be, if both siblings are beyond the
-    /// hit.
+    pub(super) reasons: &'a [CellSkipReason],
+    /// Whether the leaf of a decoy is the left child. If both siblings are beyond the hit, it may
+    /// be either child.
     pub(super) is_left: bool,
-    /// The answer of the slides' pseudo-code, taken literally, for all rays with a decoy.
+    /// The answer that the slides' pseudo-code, taken literally, gives for all rays with a decoy.
     pub(super) slides: SlidesAnswer,
 }
 
@@ -59,7 +63,8 @@ pub(super) struct Decoys<'a> {
 const DECOYS: usize = 12;
 /// The number of trees in the chain. The deepest leaf is two levels below the last of them.
 const CHAIN: usize = 58;
-/// The links of the chain where the decoy's level is in each class of its domain, in order.
+/// For each class of decoy levels, in order, the links of the chain whose decoys have a level in
+/// that class.
 const LINKS: [std::ops::Range<usize>; 4] = [0..9, 10..21, 22..37, 38..CHAIN];
 
 /// Creates a question about a chain of cells.
@@ -101,8 +106,8 @@ pub(super) fn question(rng: &mut Rng, decoys: Decoys) -> ExamQuestion {
     })
 }
 
-/// Returns whether no correct traversal tests a sphere. The spheres are decoys, so these questions are about
-/// triangles and boxes only.
+/// Returns whether no correct traversal tests a sphere. The spheres are decoys, so these questions
+/// are about triangles and boxes only.
 fn tests_no_sphere(tree: &Tree, ray: &Ray) -> bool {
     TraversalRule::all().into_iter().all(|rule| {
         let traversal = Traversal::correct(tree, &Ray64::from(ray), rule);
@@ -111,8 +116,8 @@ fn tests_no_sphere(tree: &Tree, ray: &Ray) -> bool {
     })
 }
 
-/// Returns a chain of cells, with a leaf at each link without a cell. Any child can be the left
-/// one.
+/// Returns a chain of cells, with a leaf at each link without a cell. At each node, either child
+/// can be the left one.
 fn chain(rng: &mut Rng, links: Vec<Option<Cell>>, axes: [DVec3; 3], places: &[usize]) -> Tree {
     let mut tree = Tree::default();
     let mut below = None;
@@ -159,12 +164,12 @@ fn first_number(link: usize) -> u32 {
 /// The properties of a decoy and of the ray toward it.
 #[derive(Clone, Copy, Debug)]
 struct Plan {
-    reason: Reason,
+    reason: CellSkipReason,
     is_left: bool,
     is_sphere: bool,
-    /// The number of primitives in its leaf, including itself.
+    /// The number of primitives in the decoy's leaf, including the decoy.
     leaf_size: usize,
-    /// Its index in its leaf.
+    /// The decoy's index in its leaf.
     place: usize,
     level: usize,
     is_flat: bool,
@@ -179,12 +184,15 @@ struct Plan {
 }
 
 impl Plan {
-    /// Returns one of `DECOYS` plans. Each class of each property occurs among them and even among the
-    /// first four, including a ray that hits nothing.
-    fn new(reason: Reason, is_left: bool, index: usize, start: usize) -> Self {
+    /// Returns one of `DECOYS` plans. Each class of each property occurs among them and even among
+    /// the first four, including a ray that hits nothing.
+    fn new(reason: CellSkipReason, is_left: bool, index: usize, start: usize) -> Self {
         let (group, in_group) = (index / 4, index % 4);
         let size = (in_group + start) % 4;
-        let is_missed = matches!(reason, Reason::Missed | Reason::MissedWithSibling);
+        let is_missed = matches!(
+            reason,
+            CellSkipReason::Missed | CellSkipReason::MissedWithSibling
+        );
         let many = if group == 2 || (is_missed && is_left && group == 0) {
             17 + start
         } else {
@@ -195,11 +203,11 @@ impl Plan {
         let places = [0, last / 2 + last % 2, last];
         let is_flat = (index / 2 + group + start).is_multiple_of(2);
         let is_line = is_missed && is_flat && !index.is_multiple_of(2);
-        let is_after_parallel = reason == Reason::BeyondAfterParallel;
+        let is_after_parallel = reason == CellSkipReason::BeyondAfterParallel;
         let is_after_a_hit_in_its_leaf =
             !is_after_parallel && leaf_size > 2 && !is_line && group < 2;
-        // The previous ray tests the decoy. The decoy isn't a sphere in that case, so that only
-        // triangles and boxes matter.
+        // If the decoy is tested for the previous ray, it isn't a sphere, so that only triangles
+        // and boxes matter.
         let is_tested_before = is_after_parallel || is_after_a_hit_in_its_leaf;
         Plan {
             reason,
@@ -212,14 +220,14 @@ impl Plan {
             is_line,
             range: (index + start) % RANGES.len(),
             hits_nothing: is_missed && group == 0,
-            starts_in_sibling: reason == Reason::Beyond && index.is_multiple_of(3),
+            starts_in_sibling: reason == CellSkipReason::Beyond && index.is_multiple_of(3),
             is_after_a_hit_in_its_leaf,
         }
     }
 }
 
-/// The position and orientation of a cell. In its own coordinates, it is between 0 and 10 along x, −3 and 7
-/// along y, and −1 and 1 along z.
+/// The position and orientation of a cell. In its own coordinates, the cell extends from 0 to 10
+/// along x, from −3 to 7 along y, and from −1 to 1 along z.
 #[derive(Clone, Copy, Debug)]
 struct Frame {
     axes: [DVec3; 3],
@@ -314,7 +322,7 @@ impl Cell {
             number: first_number(link),
             decoy: FIRST_DECOY + link as u32,
         };
-        let (ray, parallel) = if plan.reason == Reason::BeyondAfterParallel {
+        let (ray, parallel) = if plan.reason == CellSkipReason::BeyondAfterParallel {
             draft.add_crossing_leaves(rng)
         } else {
             draft.add_leaves(rng)
@@ -354,11 +362,11 @@ struct LeafOfDecoy {
     corners: [DVec3; 2],
     /// The axis along which a flat box is flat.
     flat: usize,
-    /// The distance of the decoy.
+    /// The distance to the decoy.
     ahead: f64,
 }
 
-/// A cell while it is drawn.
+/// A cell that is being drawn.
 struct Draft {
     tree: Tree,
     plan: Plan,
@@ -411,11 +419,11 @@ impl Draft {
         let (low, high) = (at(7.2).y, at(8.5).y);
         let any = rng.index(3);
         let (own, sibling, flat) = match self.plan.reason {
-            Reason::Missed => {
+            CellSkipReason::Missed => {
                 let above = [corner(2.5, 3.9) - z(0.6), corner(5.0, 5.1) + z(0.6)];
                 (above, None, any)
             }
-            Reason::MissedWithSibling => {
+            CellSkipReason::MissedWithSibling => {
                 let above = [corner(2.5, 3.7) - z(0.6), corner(4.5, 4.7) + z(0.6)];
                 let below = [corner(2.5, -1.4) - z(0.6), corner(4.5, -0.4) + z(0.6)];
                 if rng.coin() {
@@ -424,15 +432,15 @@ impl Draft {
                     (below, Some(above), any)
                 }
             }
-            Reason::Beyond | Reason::BeyondAfterParallel => {
+            CellSkipReason::Beyond | CellSkipReason::BeyondAfterParallel => {
                 let behind = [corner(7.2, low - 1.2), corner(9.0, low + 2.0)];
                 ([behind[0] - z(1.0), behind[1] + z(1.0)], None, 0)
             }
-            Reason::NearerOfTwoBeyond | Reason::FartherOfTwoBeyond => {
+            CellSkipReason::NearerOfTwoBeyond | CellSkipReason::FartherOfTwoBeyond => {
                 let nearer = [corner(5.2, low) - z(1.0), corner(9.0, low + 2.0) + z(1.0)];
                 let [min, max] = [corner(8.5, low - 1.2), corner(10.0, high + 2.0)];
                 let farther = [min - z(1.0), max + z(1.0)];
-                if self.plan.reason == Reason::NearerOfTwoBeyond {
+                if self.plan.reason == CellSkipReason::NearerOfTwoBeyond {
                     (nearer, Some(farther), 1)
                 } else {
                     (farther, Some(nearer), 0)
@@ -456,7 +464,7 @@ impl Draft {
                 others.push(self.frame.small(rng, min, max, number));
             }
         }
-        let is_missed = self.plan.reason == Reason::MissedWithSibling;
+        let is_missed = self.plan.reason == CellSkipReason::MissedWithSibling;
         let is_left = if is_missed {
             self.plan.is_left
         } else {
@@ -496,8 +504,8 @@ impl Draft {
         with_number(shape, self.next_number())
     }
 
-    /// Adds two leaves whose boxes form a cross. Returns the ray and a parallel one that enters them in
-    /// the other order.
+    /// Adds two leaves whose boxes form a cross. Returns the ray and a parallel one that enters the
+    /// boxes in the opposite order.
     fn add_crossing_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
         let dir = dvec3(1.0, -1.0, rng.uniform(-0.03, 0.03)).normalize();
         let shift = dvec3(3.0, 0.0, 0.0);
@@ -546,8 +554,8 @@ impl Draft {
         ray.within(min, max)
     }
 
-    /// Adds the leaf with the decoy, which is on the ray. A flat box is flat along `flat` and on the side
-    /// where the ray enters.
+    /// Adds the leaf with the decoy. The decoy is on the ray. A flat box is flat along `flat`, on
+    /// the side where the ray enters.
     fn add_leaf_of_decoy(&mut self, rng: &mut Rng, decoy: &LeafOfDecoy, ray: &Ray) -> usize {
         let LeafOfDecoy {
             corners: [min, mut max],
@@ -555,7 +563,7 @@ impl Draft {
             ahead,
         } = *decoy;
         if self.plan.is_line {
-            // With a fourth axis, the box is a point.
+            // If this isn't one of the three axes, the box is a point.
             let along = rng.index(4);
             for axis in (0..3).filter(|&axis| axis != along) {
                 max[axis] = min[axis];
@@ -592,7 +600,7 @@ impl Draft {
         leaf
     }
 
-    /// Adds a node above two others, which becomes the root.
+    /// Adds a node above two others and makes it the root.
     fn add_interior(&mut self, one: usize, other: usize, is_left: bool) -> usize {
         let (l, r) = if is_left { (one, other) } else { (other, one) };
         self.tree.root = self.tree.add_interior(l, r);
@@ -611,7 +619,7 @@ mod tests {
     #[test]
     fn the_plans_for_a_reason_have_all_properties() {
         for start in 0..DECOYS {
-            let plan = |index: usize| Plan::new(Reason::Missed, true, index, start);
+            let plan = |index: usize| Plan::new(CellSkipReason::Missed, true, index, start);
             let plans: Vec<Plan> = (0..DECOYS).map(plan).collect();
             let count = |property: fn(&Plan) -> usize| {
                 let values: BTreeSet<usize> = plans.iter().map(property).collect();
@@ -629,9 +637,9 @@ mod tests {
     #[test]
     fn every_reason_has_decoys_of_its_class() {
         let reasons = [
-            Reason::Missed,
-            Reason::MissedWithSibling,
-            Reason::NearerOfTwoBeyond,
+            CellSkipReason::Missed,
+            CellSkipReason::MissedWithSibling,
+            CellSkipReason::NearerOfTwoBeyond,
         ];
         let decoys = Decoys {
             reasons: &reasons,
@@ -642,7 +650,7 @@ mod tests {
         let aspects = traverse::TRAVERSE.aspects();
         let aspect = aspects.iter().position(|(name, _)| *name == "decoy");
         let aspect = aspect.expect("the domain has the aspect");
-        let calls = traverse::TRAVERSE.classes(&asked.question);
+        let calls = traverse::TRAVERSE.classes(&asked.question, None);
         let times = |class: usize| {
             let of_class = calls.iter().filter(|call| call[aspect] == Some(class));
             of_class.count()

@@ -2,6 +2,7 @@
 
 use glam::{DVec3, UVec2};
 use judging::exam::{ExamQuestion, Key};
+use judging::symptom::Symptom;
 use protocol::{Geometry, Question, Ray, Rows, Shape, Table};
 
 use super::{
@@ -15,10 +16,11 @@ use crate::tree::{Tree, construction};
 
 pub(super) const OWN_TREE: Declaration = Declaration {
     id: "traverse.own_tree",
-    title: "traversing your own tree finds the same hits as testing every primitive",
+    title: "traversal finds the closest hit in a leaf, even in the tree that you built",
     look: "Test all primitives with the ray shown, and find out where your traversal skips the \
            closest one or loses its hit. If all other items of both tasks pass, look for something \
            that your tree has and the exam's trees do not.",
+    look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#your-own-builder-and-your-own-traversal",
     tests: &["Returns the ray's…"],
     questions: own_tree,
@@ -90,8 +92,8 @@ fn built_tree_question(
     ExamQuestion::new(Question::hits(built, rays), key)
 }
 
-/// Creates a question about a row of as many triangles as a mesh has. Its rays enter every node, since
-/// they pass through a corner of every box, but only hit the larger triangle at the end.
+/// Creates a question about a row of as many triangles as a mesh has. Its rays enter every node,
+/// since they pass through a corner of every box, but hit only the larger triangle at the end.
 fn long_row(rng: &mut Rng) -> ExamQuestion {
     const COUNT: usize = 5000;
     const STEP: f64 = 0.02;
@@ -128,7 +130,7 @@ fn long_row(rng: &mut Rng) -> ExamQuestion {
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "traverse.picture",
-    title: "a picture through a tree is correct in hits, depth, normals and uv",
+    title: "a picture of what is in the leaves of a tree is correct in every quantity",
     look: "Follow the ray of one wrong pixel from the root: which nodes should it enter, and which \
            primitives should it test? If a piece is missing there, see whether your code skips it \
            or loses it to a farther hit.",
@@ -164,15 +166,16 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
 }
 
-/// The item that compares a path-traced picture with the reference's.
+/// The item that compares a picture in clay with the picture that the reference renders.
 pub(super) const RADIANCE: Declaration = Declaration {
     id: "traverse.radiance",
-    title: "all tasks together render the Cornell box",
-    look: "The framework draws every random number, so the picture must be the same except for a few \
-           pixels. If only this item fails, look at the output of cargo render.",
+    title: "all tasks together render the Cornell box in clay",
+    look: "All random numbers come from the framework, so the picture must be the same except for a few \
+           pixels. If only this item fails, look at the output of cargo render cornell-box --view \
+           clay.",
     section: "grading.md#reading-a-wrong-picture",
     tests: &["Returns the ray's…"],
-    questions: |rng| vec![path_traced_picture(rng), linear_scan_control(rng)],
+    questions: |rng| vec![clay_picture(rng), linear_scan_control(rng)],
     needs: &[
         groups::TRIANGLE_HITS,
         groups::BOXES,
@@ -183,21 +186,20 @@ pub(super) const RADIANCE: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Creates the question about a path-traced picture. The key is empty until the reference has
+/// Creates the question about a picture in clay. The key is empty until the reference has
 /// rendered the picture.
-fn path_traced_picture(rng: &Rng) -> ExamQuestion {
+fn clay_picture(rng: &Rng) -> ExamQuestion {
     const SCENE: &str = include_str!(concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../../scenes/cornell-box.json"
     ));
     /// The maximum number of the 1024 pixels that may differ. In measurements, other correct
-    /// formulas changed none, and cracks of 1e-4 between triangles changed 13.
+    /// formulas changed no pixels, and cracks of 1e-4 between triangles changed 13.
     const MAX_WRONG_PIXELS: u32 = 7;
     let question = Question::Radiance {
         scene: SCENE.to_owned(),
         film: UVec2::splat(32),
-        samples: 16,
-        bounces: 3,
+        samples: 32,
         seed: rng.sequence("traverse.radiance.seed").index(1 << 30) as u64,
     };
     let key = Key::Radiance {

@@ -12,15 +12,19 @@ use crate::seed::Rng;
 use crate::tree::{Tree, decoy};
 
 /// The number of pairs.
-const PAIRS: usize = 12;
+const PAIRS: usize = 18;
 /// The size of the triangles.
 const SIZE: f64 = 0.2;
+/// The extent of the pairs' positions. It is so large that both distances along a ray that starts
+/// nearby are tiny even compared to the coordinates of its start.
+const SPREAD: f64 = 52.0;
 /// The distance between the two triangles of a pair.
 const SPACE: f64 = 0.0175;
 
-/// Creates a question about pairs of triangles. They are so small that it isn't moved to other places. Half
-/// of the rays start so close to a pair that both distances are tiny compared to the size of the tree. The
-/// others start so far away that both are at almost the same distance.
+/// Creates a question about pairs of triangles. The triangles are so small that the question isn't
+/// moved to other places. A third of the rays start so close to a pair that both distances are tiny
+/// compared to the size of the tree. The others start so far away that both triangles, which are in
+/// one leaf or in two, are at almost the same distance.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     rng.retry(|rng| {
         let mut tree = Tree::default();
@@ -29,10 +33,10 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
         for index in 0..PAIRS {
             let place = dvec3(
                 (index % 3) as f64,
-                (index / 3 % 2) as f64,
-                (index / 6) as f64,
+                (index / 3 % 3) as f64,
+                (index / 9) as f64,
             );
-            let place = 18.0 * (place / dvec3(2.0, 1.0, 1.0) - 0.5) + rng.point(0.8);
+            let place = SPREAD * (place / dvec3(2.0, 2.0, 1.0) - 0.5) + rng.point(0.8);
             let axis = index % 3;
             let pair = Pair {
                 place,
@@ -40,11 +44,15 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
                 across: [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]),
                 number: 4 * index as u32,
             };
-            let (root, hit, miss) = if index / 3 % 2 == 0 {
-                pair.add_near(rng, &mut tree)
-            } else {
-                pair.add_far(rng, &mut tree)
+            let distance = match index / 3 % 3 {
+                0 => rng.uniform(0.0048, 0.0056),
+                _ => rng.uniform(20.0, 24.0),
             };
+            let root = match index / 3 % 3 {
+                2 => pair.add_leaf(&mut tree),
+                _ => pair.add_two_leaves(rng, &mut tree),
+            };
+            let (hit, miss) = pair.rays(rng, distance);
             roots.push(root);
             rays.extend([hit, miss]);
         }
@@ -78,14 +86,14 @@ struct Pair {
     place: DVec3,
     /// The direction from the front triangle to the other.
     normal: DVec3,
-    /// The axes of the triangles.
+    /// The axes along which the triangles extend.
     across: [DVec3; 2],
     /// The number of the first primitive.
     number: u32,
 }
 
 impl Pair {
-    /// Returns a triangle that is moved behind and sideways from the front one by these distances.
+    /// Returns a triangle at these distances behind and beside the front one.
     fn triangle(&self, behind: f64, aside: f64, number: u32) -> Shape {
         let [x, y] = self.across;
         let middle = self.place + behind * self.normal + aside * x;
@@ -105,30 +113,25 @@ impl Pair {
         (ray(target), ray(target - 3.0 * SIZE * y))
     }
 
-    /// Adds the two triangles in two leaves. The ray starts in the box of the rear one.
-    fn add_near(&self, rng: &mut Rng, tree: &mut Tree) -> (usize, Ray, Ray) {
+    /// Adds the two triangles in two leaves. The box of the rear triangle's leaf begins before the
+    /// front triangle.
+    fn add_two_leaves(&self, rng: &mut Rng, tree: &mut Tree) -> usize {
         let behind = self.triangle(SPACE, 0.0, 0);
         let corner = self.triangle(-0.4, 3.0 * SIZE, 1);
         let front = self.triangle(0.0, 0.0, 2);
         let around = tree.add_leaf(vec![behind, corner]);
         let front = tree.add_leaf(vec![front]);
-        let root = if rng.coin() {
+        if rng.coin() {
             tree.add_interior(around, front)
         } else {
             tree.add_interior(front, around)
-        };
-        let distance = rng.uniform(0.0048, 0.0056);
-        let (hit, miss) = self.rays(rng, distance);
-        (root, hit, miss)
+        }
     }
 
-    /// Adds the two triangles in one leaf, the rear one first. The ray starts far away.
-    fn add_far(&self, rng: &mut Rng, tree: &mut Tree) -> (usize, Ray, Ray) {
+    /// Adds the two triangles in one leaf, the rear one first.
+    fn add_leaf(&self, tree: &mut Tree) -> usize {
         let behind = self.triangle(SPACE, 0.0, 0);
         let front = self.triangle(0.0, 0.0, 1);
-        let root = tree.add_leaf(vec![behind, front]);
-        let distance = rng.uniform(20.0, 24.0);
-        let (hit, miss) = self.rays(rng, distance);
-        (root, hit, miss)
+        tree.add_leaf(vec![behind, front])
     }
 }

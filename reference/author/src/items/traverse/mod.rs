@@ -1,12 +1,12 @@
 //! Items of task 3, step 2: traversal of the exam's own trees, so that the result does not depend
 //! on a submission's `build`.
 //!
-//! Some rays have an unreferenced primitive (one that isn't in any leaf) in front of the correct hit.
-//! A linear scan over all primitives, which ignores the tree, returns this wrong primitive.
-//! [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that should have
-//! been skipped. `cells` distributes their kinds, leaves, levels and ranges. One item tests the
-//! position of the root. In all others, starting at the first or the last node also gives correct
-//! answers.
+//! Some rays have an unreferenced primitive (one that isn't in any leaf) in front of the correct
+//! hit. A linear scan over all primitives, which ignores the tree, returns this wrong primitive.
+//! [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that should
+//! have been skipped. `cells` spreads the decoys over all kinds, leaves, levels and ranges. One
+//! item tests the position of the root. In all other items, starting at the first or the last node
+//! also gives correct answers.
 
 mod cells;
 mod end_to_end;
@@ -68,7 +68,7 @@ const TRAVERSAL: Declaration = Declaration {
     ..Declaration::ALONE
 };
 
-/// The number of the first unreferenced primitive. Those of primitives in leaves start at 0.
+/// The number of the first unreferenced primitive. The numbers of primitives in leaves start at 0.
 const FIRST_UNREFERENCED: u32 = 10_000;
 
 /// Creates a question that asks for the closest hits of the rays in the tree. Only distances are
@@ -110,8 +110,8 @@ fn unambiguous_rays(
     rng.shuffled(rays)
 }
 
-/// Adds an unreferenced primitive in front of the correct hit of every third ray, as well as one that is
-/// almost as large as the tree.
+/// Adds an unreferenced primitive in front of the correct hit of every third ray, as well as one
+/// that is almost as large as the tree.
 fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     for (number, ray) in (FIRST_UNREFERENCED..).zip(rays.iter().step_by(3)) {
         let hit = tree.expected_hit(&Ray64::from(ray));
@@ -145,10 +145,10 @@ fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
     meshes::flat_triangle(corners, number)
 }
 
-/// Returns the rays. Some are followed by one that is almost the same but hits at a clearly different
-/// distance.
+/// Returns the rays and additional ones. Some of these are followed by a ray that is almost the
+/// same but hits at a clearly different distance.
 fn with_almost_the_same_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
-    /// The maximum number of rays drawn for each.
+    /// The maximum number of attempts to draw such a pair of rays.
     const ATTEMPTS: usize = 2000;
     /// The minimum difference between the distances.
     const LEAST: f64 = 7e-4;

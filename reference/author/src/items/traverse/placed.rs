@@ -1,5 +1,5 @@
-//! Questions about trees are drawn with sizes of about one, near the origin. Here they are moved to
-//! sizes and places from the domain.
+//! Questions about trees are drawn with sizes of about one, near the origin. Here, they get sizes
+//! and positions from the domain.
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
@@ -10,7 +10,7 @@ use crate::domains::fields::{self, FURTHEST, is_same_line};
 use crate::domains::shape::ShapeCall;
 use crate::domains::sphere::Line;
 use crate::items::hits_key;
-use crate::items::place::{Place, moved};
+use crate::items::transform::{Transform, moved};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::{Rng, Seed};
@@ -19,7 +19,7 @@ use crate::tree::{Tree, construction, decoy};
 /// Moves the questions, item by item, so that all sizes and octants occur equally often.
 pub(super) struct Mover {
     rng: Rng,
-    /// The number of places that have been drawn.
+    /// The number of transforms that have been drawn.
     count: usize,
 }
 
@@ -31,7 +31,7 @@ impl Mover {
     }
 
     /// Moves all questions of an item that are about lists of rays. A question that begins with the
-    /// previous question's last ray stays together with it.
+    /// last ray of the previous question stays together with that question.
     pub(super) fn move_all(&mut self, questions: &mut [ExamQuestion]) {
         let together = |a: &ExamQuestion, b: &ExamQuestion| {
             let (a, b) = (rays(a), rays(b));
@@ -46,7 +46,7 @@ impl Mover {
             if rays.is_none_or(|rays| rays.iter().any(is_far_away)) || is_dust(&group[0]) {
                 continue;
             }
-            /// The number of places that are tried at each size.
+            /// The number of transforms to try at each size.
             const ATTEMPTS: usize = 1000;
             let sizes = fields::SIZES.len();
             let size = self.count % sizes;
@@ -56,8 +56,8 @@ impl Mover {
             // used. A question that wouldn't be fair anywhere else isn't moved.
             let placed = (0..=size).rev().find_map(|size| {
                 self.rng.attempt(ATTEMPTS, |rng| {
-                    let place = place(rng, group, size, octant)?;
-                    let moved = group.iter().map(|asked| in_place(place, asked));
+                    let transform = transform(rng, group, size, octant)?;
+                    let moved = group.iter().map(|asked| transformed(transform, asked));
                     moved.collect::<Option<Vec<ExamQuestion>>>()
                 })
             });
@@ -68,10 +68,10 @@ impl Mover {
     }
 }
 
-/// Returns the same question shrunk to dust. It is just as fair: scaled by this power of two, correct
-/// code computes the same digits.
+/// Returns the same question shrunk to dust. It is just as fair, since correct code computes the
+/// same digits for numbers that are scaled by this power of two.
 pub(super) fn as_dust(asked: &ExamQuestion) -> ExamQuestion {
-    let dust = Place::new(1.0 / f64::from(1 << 22), DVec3::ZERO);
+    let dust = Transform::new(1.0 / f64::from(1 << 22), DVec3::ZERO);
     moved(dust, asked).expect("the question has a list of rows")
 }
 
@@ -81,7 +81,7 @@ fn is_dust(asked: &ExamQuestion) -> bool {
     bounds.diagonal() < 1e-4
 }
 
-/// Returns the rays of a question about a list of them.
+/// Returns the rays of a question about a list of rays.
 fn rays(asked: &ExamQuestion) -> Option<Vec<Ray>> {
     let Question::Hit(table) = &asked.question else {
         return None;
@@ -97,8 +97,8 @@ fn is_far_away(ray: &Ray) -> bool {
     f64::from(ray.origin.abs().max_element()) > 0.5 * FURTHEST
 }
 
-/// Returns a question at the largest size that keeps all rays and shapes in the scene, or `None` if it
-/// isn't fair there.
+/// Returns a question scaled to the largest size that keeps all rays and shapes in the scene, or
+/// `None` if it isn't fair there.
 pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
     let starts = rays(asked)?;
     let starts = starts.iter().map(|ray| {
@@ -107,16 +107,21 @@ pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
     });
     let all = Bounds::enclosing(starts.chain(shapes(asked).iter().map(scan::bounds)));
     let scale = 1.98 * FURTHEST / (all.max - all.min).max_element();
-    in_place(Place::new(scale, -scale * all.center()), asked)
+    transformed(Transform::new(scale, -scale * all.center()), asked)
 }
 
-/// Draws a place in an octant such that no coordinate is too large.
-fn place(rng: &mut Rng, group: &[ExamQuestion], size: usize, octant: usize) -> Option<Place> {
+/// Draws a transform that moves a question to an octant without making any coordinate too large.
+fn transform(
+    rng: &mut Rng,
+    group: &[ExamQuestion],
+    size: usize,
+    octant: usize,
+) -> Option<Transform> {
     let shapes: Vec<Shape> = group.iter().flat_map(shapes).copied().collect();
     let size = fields::size(rng, size);
     let signs = [0, 1, 2].map(|axis| if octant >> axis & 1 == 0 { 1.0 } else { -1.0 });
     let center = fields::place(rng, size).abs() * DVec3::from_array(signs);
-    let place = Place::around(&shapes, size, center);
+    let transform = Transform::around(&shapes, size, center);
     let starts = group
         .iter()
         .flat_map(|asked| rays(asked).unwrap_or_default());
@@ -125,8 +130,8 @@ fn place(rng: &mut Rng, group: &[ExamQuestion], size: usize, octant: usize) -> O
         let Bounds { min, max } = scan::bounds(shape);
         [min.as_vec3(), max.as_vec3()]
     });
-    let is_near = |point: Vec3| f64::from(place.point(point).abs().max_element()) <= FURTHEST;
-    (place.keeps_digits(&shapes) && points.chain(corners).all(is_near)).then_some(place)
+    let is_near = |point: Vec3| f64::from(transform.point(point).abs().max_element()) <= FURTHEST;
+    (transform.keeps_digits(&shapes) && points.chain(corners).all(is_near)).then_some(transform)
 }
 
 fn shapes(asked: &ExamQuestion) -> &[Shape] {
@@ -137,10 +142,10 @@ fn shapes(asked: &ExamQuestion) -> &[Shape] {
     }
 }
 
-/// Returns a question at a place, with a key for its new numbers. Returns `None` if it isn't fair
-/// there.
-pub(super) fn in_place(place: Place, asked: &ExamQuestion) -> Option<ExamQuestion> {
-    let asked = moved(place, asked)?;
+/// Returns a transformed question with a key for its new numbers, or `None` if the question isn't
+/// fair there.
+pub(super) fn transformed(transform: Transform, asked: &ExamQuestion) -> Option<ExamQuestion> {
+    let asked = moved(transform, asked)?;
     let (Question::Hit(table), Key::Table { judged, .. }) = (&asked.question, &asked.key) else {
         return None;
     };
@@ -172,8 +177,9 @@ pub(super) fn in_place(place: Place, asked: &ExamQuestion) -> Option<ExamQuestio
     })
 }
 
-/// Returns whether rays along an axis or in a plane of two axes avoid the planes of all faces of
-/// boxes, since whether such a ray hits the box isn't tested. Boxes of decoys don't matter.
+/// Returns whether rays along an axis or in a coordinate plane avoid the planes of all box faces,
+/// since no question tests whether a ray in the plane of a face hits the box. The boxes of decoys
+/// don't matter.
 pub(super) fn are_clear_of_faces(tree: &Tree, rays: &[Ray], margin: f64) -> bool {
     let ordinary = tree.ordinary_primitives();
     let shapes = tree.shapes.iter().zip(&ordinary);
@@ -194,25 +200,27 @@ pub(super) fn are_clear_of_faces(tree: &Tree, rays: &[Ray], margin: f64) -> bool
     })
 }
 
-/// Returns whether a ray is so clear of all faces that it still is after the tree has been moved.
+/// Returns whether a ray is so clear of all faces that it stays clear of them when the tree is
+/// moved.
 pub(super) fn is_clear_of_faces(tree: &Tree, ray: &Ray) -> bool {
     are_clear_of_faces(tree, &[*ray], 3.0 * FACE_MARGIN)
 }
 
-/// The minimum distance between the plane of a face and a ray parallel to it, in sides of the tree.
+/// The minimum distance between the plane of a face and a ray parallel to it, as a fraction of the
+/// tree's longest side.
 const FACE_MARGIN: f64 = 1e-4;
 
-/// Returns whether all correct formulas compute every quantity of a hit well within its tolerance, both
-/// here and as far away as most trees are moved.
+/// Returns whether all correct formulas compute every quantity of a hit well within its tolerance,
+/// both here and as far away as most trees are moved.
 pub(super) fn is_exact_elsewhere(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
-    let place = Place::around(&[], 1.0, DVec3::splat(50.0));
-    let (shapes, ray) = (place.shapes(shapes), place.ray(ray));
+    let transform = Transform::around(&[], 1.0, DVec3::splat(50.0));
+    let (shapes, ray) = (transform.shapes(shapes), transform.ray(ray));
     is_exact(&shapes, &ray, hit)
 }
 
 /// Returns whether all correct formulas compute every quantity of a hit well within its tolerance.
 fn is_exact(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
-    /// The largest coordinate, in sizes of a triangle.
+    /// The largest coordinate, as a multiple of a triangle's size.
     const MOST: f64 = 1000.0;
     let mut shapes = shapes.iter();
     let shape = *shapes

@@ -1,6 +1,7 @@
 //! The item about all quantities of a hit.
 
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 use protocol::{Ray, Shape};
 
 use super::placed::is_exact_elsewhere;
@@ -18,8 +19,15 @@ pub(super) const QUANTITIES: [&str; 6] =
 pub(super) const TRACE: Declaration = Declaration {
     id: "traverse.trace",
     title: "the trace of a hit is that of the primitive, for the ray that was asked",
-    look: "Primitive::hit returns the trace, and you may return it as it is. Its origin is that of \
-           the ray that you were given, and its normal does not depend on where the ray comes from.",
+    look: "Primitive::hit returns the trace, and you can return it unchanged. Its origin is the origin of \
+        the given ray, and its normal does not depend on where the ray comes from.",
+    look_fits: &[
+        Symptom::of("position"),
+        Symptom::of("normal"),
+        Symptom::of("uv"),
+        Symptom::of("origin"),
+        Symptom::of("shape"),
+    ],
     section: "traversal.md#the-algorithm",
     tests: &["Returns the ray's…"],
     questions: |rng| {
@@ -36,7 +44,7 @@ pub(super) const TRACE: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Creates a question about a tree of primitives of a kind, with random numbers.
+/// Creates a question about a tree of primitives of this kind, which have random numbers.
 pub(super) fn question(
     rng: &mut Rng,
     kind: usize,
@@ -52,7 +60,7 @@ pub(super) fn question(
     asked
 }
 
-/// Returns primitives of a kind: triangles, flat triangles, spheres, or all of them.
+/// Returns primitives of this kind: triangles, flat triangles, spheres, or a mix of all three.
 pub(super) fn shapes(rng: &mut Rng, kind: usize, count: usize) -> Vec<Shape> {
     let shapes: Vec<Shape> = (0..count)
         .map(|index| {
@@ -68,7 +76,8 @@ pub(super) fn shapes(rng: &mut Rng, kind: usize, count: usize) -> Vec<Shape> {
     meshes::with_numbers(shapes, numbers)
 }
 
-/// Draws a ray whose range may end, and may start later. All correct formulas agree on its hit.
+/// Draws a ray whose range may end before ∞ and start after 0. All correct formulas agree on its
+/// hit.
 pub(super) fn ray_with_range(rng: &mut Rng, tree: &Tree) -> Ray {
     rng.retry(|rng| {
         let ray = ray_from_around(rng, tree);

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 use protocol::{Ray, Shape, TreeNode};
 
 use super::{
@@ -86,6 +87,7 @@ pub(super) const NO_NODES: Declaration = Declaration {
     title: "an empty tree has no hits",
     look: "An empty tree has no nodes, or one leaf of size 0, for which l == r as for every leaf. \
            In the first case there is no node at index root, in the second no primitive at start.",
+    look_fits: &[Symptom::HIT],
     section: "traversal.md#an-empty-tree-has-no-nodes",
     tests: &["The tree can be 60…"],
     questions: no_nodes,
@@ -104,7 +106,7 @@ fn no_nodes(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut empty_question =
         |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(rng)).collect());
     let mut questions = vec![empty_question(&nothing), empty_question(&empty_leaf)];
-    // The smallest nonempty trees are a single leaf.
+    // The smallest nonempty trees consist of a single leaf.
     for count in [1, 5] {
         let tree = soup_tree(rng, count, 1.5, count);
         questions.push(question_without_decoys(rng, tree, [12, 6], ray_from_around));

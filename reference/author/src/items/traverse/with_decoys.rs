@@ -1,9 +1,10 @@
 //! Items whose trees contain decoys.
 
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 use protocol::Ray;
 
-use super::cells::{self, Decoys, Reason};
+use super::cells::{self, CellSkipReason, Decoys};
 use super::placed::as_dust;
 use super::{
     TRAVERSAL, add_unreferenced, ray_from_around, soup_tree, traversal_question, unambiguous_rays,
@@ -21,7 +22,7 @@ pub(super) fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
     Traversal::by_the_slides(tree, &ray64).closest == tree.expected_hit(&ray64)
 }
 
-/// The number of the first decoy. Those of unreferenced primitives are smaller.
+/// The number of the first decoy. The numbers of unreferenced primitives are smaller.
 pub(super) const FIRST_DECOY: u32 = 20_000;
 
 /// A filter for the leaves that may contain a decoy for a ray.
@@ -33,7 +34,7 @@ const OTHER_RAYS: [usize; 2] = [4, 4];
 /// The minimum number of decoys in a question. A question with fewer decoys is drawn again.
 const MIN_DECOYS: usize = 4;
 
-/// Creates a question where at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
+/// Creates a question in which at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
 /// accepts. Taken literally, the slides' pseudo-code gives the answer `slides` for rays with a
 /// decoy and the correct answer for all others.
 fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -> ExamQuestion {
@@ -49,7 +50,7 @@ fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -
     })
 }
 
-/// Returns rays with a leaf that `fits` accepts, followed by some other rays.
+/// Returns rays for which `fits` accepts some leaf, followed by some other rays.
 fn rays_with_candidate_leaves(rng: &mut Rng, tree: &Tree, fits: LeafFilter) -> Vec<Ray> {
     let mut chosen = unambiguous_rays(rng, tree, [RAYS_WITH_DECOYS, 0], |rng, tree| {
         rng.retry(|rng| {
@@ -104,13 +105,13 @@ pub(super) enum SlidesAnswer {
     Wrong,
 }
 
-/// Accepts the leaves that no correct traversal enters for this reason.
+/// Returns a filter for the leaves that no correct traversal enters, because of `reason`.
 fn skipped_for(reason: SkipReason) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| decoy::skip_reason(tree, leaf, ray64) == Some(reason)
 }
 
-/// Accepts the leaves that the ray misses and that are this child of a node whose other child's box
-/// it hits.
+/// Returns a filter for the leaves that are this child of a node, where the ray misses the leaf's
+/// box but hits the box of the other child.
 fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
         decoy::is_missed_child(tree, leaf, ray64, child)
@@ -118,8 +119,8 @@ fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     }
 }
 
-/// Accepts the leaves that the ray misses and that are this child of a node whose children's boxes
-/// it both misses.
+/// Returns a filter for the leaves that are this child of a node, where the ray misses the boxes of
+/// both children.
 fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
         decoy::is_missed_child(tree, leaf, ray64, child) && decoy::misses_sibling(tree, leaf, ray64)
@@ -131,12 +132,13 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
     title: "a node whose box the ray misses is not entered",
     look: "This is what the tree is for. In this exam, some leaves hold primitives outside their \
            boxes: a traversal that enters a missed box finds them.",
+    look_fits: &[Symptom::HIT, Symptom::less("distance")],
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
     tests: &["Do not enter a node whose box the…"],
     questions: |rng| {
         let fits = skipped_for(SkipReason::Missed);
-        // The slides enter the left child if both are missed, and may enter it if only the right one is
-        // hit: see `both_sides`.
+        // The slides' pseudo-code enters the left child if both are missed, and may enter it if
+        // only the right one is hit: see `both_sides`.
         let after_nothing = |tree: &Tree, leaf: usize, ray64: &Ray64| {
             missed_alone(|node| node.r)(tree, leaf, ray64)
                 && !decoy::hits_below_sibling(tree, leaf, ray64)
@@ -147,7 +149,7 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
             cells::question(
                 rng,
                 Decoys {
-                    reasons: &[Reason::Missed, Reason::MissedWithSibling],
+                    reasons: &[CellSkipReason::Missed, CellSkipReason::MissedWithSibling],
                     is_left: false,
                     slides: SlidesAnswer::Correct,
                 },
@@ -162,6 +164,7 @@ pub(super) const PRUNES: Declaration = Declaration {
     title: "a node that begins beyond the closest hit is not entered",
     look: "First search the child whose box the ray enters first. After that, if the entry of the \
            other box is beyond the closest hit so far, nothing in it can be nearer: skip it.",
+    look_fits: &[Symptom::less("distance")],
     section: "traversal.md#order-the-children-and-prune",
     tests: &["Do not enter a node whose box begins…"],
     questions: |rng| {
@@ -171,7 +174,7 @@ pub(super) const PRUNES: Declaration = Declaration {
             cells::question(
                 rng,
                 Decoys {
-                    reasons: &[Reason::Beyond, Reason::FartherOfTwoBeyond],
+                    reasons: &[CellSkipReason::Beyond, CellSkipReason::FartherOfTwoBeyond],
                     is_left: false,
                     slides: SlidesAnswer::Correct,
                 },
@@ -184,10 +187,11 @@ pub(super) const PRUNES: Declaration = Declaration {
 
 pub(super) const NEARER_FIRST: Declaration = Declaration {
     id: "traverse.nearer_first",
-    title: "the nearer child goes first, whether it is l or r, and the other is pruned",
-    look: "The child whose box the ray enters first goes first, be it l or r. After that, compare \
-           the entry of the other one with the closest hit: the slides' hit2.t is the entry of r, \
-           even where l comes second.",
+    title: "if the ray enters r first, r goes first, and l is then pruned by its own entry",
+    look: "The child whose box the ray enters first goes first, whether that is l or r. After that, compare \
+        the entry of the other one with the closest hit: the slides' hit2.t is the entry of r, even if l \
+        comes second.",
+    look_fits: &[Symptom::less("distance")],
     section: "traversal.md#compare-the-entry-of-the-second-child",
     tests: &[
         "If the ray hits the…",
@@ -218,7 +222,7 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
         cells::question(
             rng,
             Decoys {
-                reasons: &[Reason::Beyond, Reason::BeyondAfterParallel],
+                reasons: &[CellSkipReason::Beyond, CellSkipReason::BeyondAfterParallel],
                 is_left: true,
                 slides: SlidesAnswer::Wrong,
             },
@@ -230,9 +234,9 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
 pub(super) const BOTH_SIDES: Declaration = Declaration {
     id: "traverse.both_sides",
     title: "a child is entered only if its own box is hit, before the closest hit",
-    look: "Decide about each child by its own box: enter it only if the ray hits that box, and not \
-           beyond the closest hit so far. If both boxes are missed, enter neither, although the \
-           slides always enter `first`.",
+    look: "Look at each child's own box: enter the child only if the ray hits that box, and not beyond the \
+        closest hit so far. If both boxes are missed, enter neither, even though the slides always enter `first`.",
+    look_fits: &[Symptom::HIT, Symptom::less("distance")],
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
     tests: &[
         "Do not enter a node whose box the…",
@@ -254,9 +258,9 @@ pub(super) const BOTH_SIDES: Declaration = Declaration {
                 rng,
                 Decoys {
                     reasons: &[
-                        Reason::Missed,
-                        Reason::MissedWithSibling,
-                        Reason::NearerOfTwoBeyond,
+                        CellSkipReason::Missed,
+                        CellSkipReason::MissedWithSibling,
+                        CellSkipReason::NearerOfTwoBeyond,
                     ],
                     is_left: true,
                     slides: SlidesAnswer::Wrong,

@@ -2,17 +2,18 @@
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
-use protocol::Ray;
+use judging::symptom::Symptom;
+use protocol::{Ray, Shape};
 
 use super::placed::is_clear_of_faces;
 use super::trace;
 use super::{
-    TRAVERSAL, layers, placed, question_without_decoys, ray_from_around, soup_tree,
-    traversal_question, unambiguous_rays, with_almost_the_same_rays, with_unreferenced,
+    TRAVERSAL, add_unreferenced, layers, placed, question_without_decoys, ray_from_around,
+    soup_tree, traversal_question, unambiguous_rays, with_almost_the_same_rays, with_unreferenced,
 };
 use crate::domains::fields::FURTHEST;
 use crate::domains::traverse;
-use crate::items::place::Place;
+use crate::items::transform::Transform;
 use crate::items::{Declaration, groups, meshes, ray};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
@@ -21,10 +22,11 @@ use crate::tree::{Tree, construction, decoy};
 
 pub(super) const CLOSEST_HIT: Declaration = Declaration {
     id: "traverse.closest_hit",
-    title: "the closest hit counts, not the first one found",
+    title: "of all hits in leaves that the ray reaches, the closest counts",
     look: "Follow the ray shown through the tree from its root, box by box: which primitives need \
            to be tested, and which of their hits is the closest? Then see which primitives your \
            code tests, and which hit it keeps after each.",
+    look_fits: &[Symptom::MISS, Symptom::of("distance")],
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
     tests: &["Returns the ray's…", "Boxes overlap, so…"],
     questions: |rng| {
@@ -45,7 +47,7 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
             let rays = with_almost_the_same_rays(rng, &tree, rays);
             questions.push(with_unreferenced(rng, &mut tree, rays));
         }
-        questions.extend(same_rays_in_two_trees(rng));
+        questions.extend(same_rays_in_three_trees(rng));
         questions.push(across_the_scene(rng));
         questions.push(next_to_the_start(rng));
         questions.push(layers::question(rng));
@@ -54,34 +56,61 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Creates questions about two trees with the same rays. The last ray of the first question is the
-/// first of the second but has a different answer there. The trees have the same boxes down to the
-/// third level.
-fn same_rays_in_two_trees(rng: &mut Rng) -> [ExamQuestion; 2] {
+/// Creates questions about three trees with the same rays. The last ray in each question is the
+/// first one in the next but has a different answer there. The trees have the same boxes down to
+/// the third level, and the last two have the same nodes.
+fn same_rays_in_three_trees(rng: &mut Rng) -> [ExamQuestion; 3] {
     let first = soup_tree(rng, 48, 1.2, 1);
     let second = with_other_contents(rng, &first);
-    let mut trees = [first, second];
-    let other = trees[1].clone();
+    let third = mirrored_in_their_boxes(rng, &second);
+    let others = [second.clone(), third.clone()];
     let kind = |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {
             let ray = ray_from_around(rng, tree);
             let ray64 = Ray64::from(&ray);
             let distance = |tree: &Tree| tree.expected_hit(&ray64).map(|hit| hit.distance);
-            (distance(tree) != distance(&other)
-                && decoy::is_fair(&other, &[ray])
-                && is_clear_of_faces(&other, &ray))
-            .then_some(ray)
+            let is_fair =
+                |other: &Tree| decoy::is_fair(other, &[ray]) && is_clear_of_faces(other, &ray);
+            let distances = [tree, &others[0], &others[1]].map(distance);
+            let differ = distances[0] != distances[1] && distances[1] != distances[2];
+            (differ && others.iter().all(is_fair)).then_some(ray)
         })
     };
-    let mut rays = unambiguous_rays(rng, &trees[0], [24, 10], kind);
-    let [first, second] = &mut trees;
-    let first = with_unreferenced(rng, first, rays.clone());
-    rays.reverse();
-    [first, with_unreferenced(rng, second, rays)]
+    let mut rays = unambiguous_rays(rng, &first, [20, 8], kind);
+    [first, second, third].map(|mut tree| {
+        add_unreferenced(rng, &mut tree, &rays);
+        // The nodes of all three trees are in the same order.
+        let order = &mut rng.sequence("traverse.closest_hit.order");
+        let asked = traversal_question(&tree.with_roots_at_both_ends(order), rays.clone());
+        rays.reverse();
+        asked
+    })
 }
 
-/// Returns a tree with the same nodes but with primitives in different positions. Primitives at the faces of
-/// the third level's boxes stay, so that the boxes of the first three levels are the same.
+/// Returns the tree with each primitive mirrored along an axis, within its box.
+fn mirrored_in_their_boxes(rng: &mut Rng, tree: &Tree) -> Tree {
+    let mut other = tree.clone();
+    for shape in &mut other.shapes {
+        let axis = rng.index(3);
+        if let Shape::FlatTriangle { corners, .. } = shape {
+            let along = corners.map(|corner| corner[axis]);
+            let min = along.into_iter().fold(f32::INFINITY, f32::min);
+            let max = along.into_iter().fold(f32::NEG_INFINITY, f32::max);
+            for corner in corners {
+                // Rounding must not change the box.
+                corner[axis] = match corner[axis] {
+                    at if at == min => max,
+                    at if at == max => min,
+                    at => min + (max - at),
+                };
+            }
+        }
+    }
+    other
+}
+
+/// Returns a tree with the same nodes but with primitives in different positions. Primitives at the
+/// faces of the third level's boxes stay, so that the boxes of the first three levels are the same.
 fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
     const LEVELS: usize = 3;
     let mut other = tree.clone();
@@ -100,17 +129,17 @@ fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
             let half = 0.5 * (bounds.max - bounds.min);
             let room = 0.5 * (whole.max - whole.min) - half;
             let center = whole.center() + 0.99 * room * rng.point(1.0);
-            other.shapes[index] = Place::new(1.0, center - bounds.center()).shape(shape);
+            other.shapes[index] = Transform::new(1.0, center - bounds.center()).shape(shape);
         }
     }
     other.refit_below(&tops);
     other
 }
 
-/// Creates a question about a few triangles far from the origin. Half of the rays start so close to their
-/// hits that moving the start forward by a fraction of its coordinates would skip them.
+/// Creates a question about a few triangles far from the origin. Half of the rays start so close to
+/// their hits that moving the start forward by a fraction of its coordinates would skip them.
 fn next_to_the_start(rng: &mut Rng) -> ExamQuestion {
-    /// The largest coordinates, in sizes of the triangles.
+    /// The largest coordinates, as a multiple of the triangles' size.
     const COORDINATES: f64 = 5000.0;
     rng.retry(|rng| {
         let tree = soup_tree(rng, 5, 1.6, 1);
@@ -125,7 +154,7 @@ fn next_to_the_start(rng: &mut Rng) -> ExamQuestion {
         let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
         let mut offset = signs * rng.vector(0.3, 0.9);
         offset[rng.index(3)] = rng.sign();
-        let place = Place::new(scale, scale * distance * offset);
+        let transform = Transform::new(scale, scale * distance * offset);
         let mut count = 0;
         let kind = |rng: &mut Rng, tree: &Tree| {
             rng.retry(|rng| {
@@ -139,13 +168,13 @@ fn next_to_the_start(rng: &mut Rng) -> ExamQuestion {
                     ray.range.min = 0.0;
                 }
                 let asked = traversal_question(tree, vec![ray]);
-                placed::in_place(place, &asked)?;
+                placed::transformed(transform, &asked)?;
                 count += 1;
                 Some(ray)
             })
         };
         let rays = unambiguous_rays(rng, &tree, [24, 10], kind);
-        placed::in_place(place, &traversal_question(&tree, rays))
+        placed::transformed(transform, &traversal_question(&tree, rays))
     })
 }
 
@@ -182,6 +211,7 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     look: "Work out by hand what the two boxes and the primitives in them give for the ray shown. \
            Until something is hit, there is no closest hit to compare with, and no child may be \
            skipped because of one.",
+    look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
     tests: &["Boxes overlap, so…"],
     questions: |rng| {
@@ -198,7 +228,7 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Returns a function that draws rays. If possible, every third one hits something in a corner of
+/// Returns a function that draws rays. If possible, every third ray hits something in a corner of
 /// the boxes around it.
 fn ray_from_around_or_in_a_corner() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
@@ -221,8 +251,8 @@ pub(super) const RANGE: Declaration = Declaration {
     id: "traverse.range",
     title: "only hits within the ray's range count",
     look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞, and the \
-           closest such hit is the answer. Find all hits of the ray shown, and see where your code \
-           takes another one or none.",
+           closest such hit is the answer. Find all hits of the ray shown, and see where your code chooses \
+           a different one, or none.",
     section: "traversal.md#only-a-hit-shortens-the-ray",
     tests: &["Returns the ray's…"],
     questions: range,
@@ -256,7 +286,7 @@ fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
         })
     };
     let rays = unambiguous_rays(rng, &tree, [18, 8], kind);
-    // Every other ray is repeated without an end, either before or after it.
+    // Every other ray is repeated without an end, either just before or just after the original.
     let again = |(index, ray): (usize, &Ray)| {
         let whole = ray.within(0.0, f32::INFINITY);
         let is_clear = is_clear_of_faces(&tree, &whole) && decoy::is_fair(&tree, &[whole]);
@@ -273,8 +303,8 @@ fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
 pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
     id: "traverse.leaf_of_several",
     title: "every primitive of a leaf is tested",
-    look: "A leaf holds primitives[start..start + size]. The closest of all their hits counts, be \
-           it that of the first primitive, of the last one or of one in between.",
+    look: "A leaf holds primitives[start..start + size]. The closest of all their hits counts, whether it \
+        is on the first primitive, on the last one, or on one in between.",
     section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
     tests: &["Returns the ray's…"],
     questions: leaf_of_several,
@@ -292,11 +322,10 @@ fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
     trees.map(question).to_vec()
 }
 
-/// Returns a tree of two leaves, one with more than half of the primitives that a leaf may contain.
+/// Returns a tree of two leaves, one with as many primitives as a leaf may contain.
 fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
-    let count = rng.integer(560, 640) as usize;
-    let mut shapes = meshes::soup(rng, count + 20, 2.0, 0.3);
-    let few = shapes.split_off(count);
+    let mut shapes = meshes::soup(rng, 1000 + 20, 2.0, 0.3);
+    let few = shapes.split_off(1000);
     let mut tree = Tree::default();
     let l = tree.add_leaf(shapes);
     let r = tree.add_leaf(few);
@@ -304,8 +333,8 @@ fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     tree
 }
 
-/// Returns a function that draws rays. In turn, the closest of several hits in a leaf belongs to
-/// the first primitive, to the last one, or to any, and some rays hit nothing.
+/// Returns a function that draws rays. The closest of several hits in a leaf is on the first
+/// primitive, the last one, or any of them, in turn. Some rays hit nothing.
 fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {
@@ -348,6 +377,7 @@ pub(super) const DEEP: Declaration = Declaration {
     title: "a tree of 60 levels is traversed to the end",
     look: "A stack of fixed size must be large enough, and every node that is pushed must be \
            popped again.",
+    look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#deep-trees",
     tests: &["The tree can be 60…"],
     questions: deep,
@@ -368,7 +398,7 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
     for node in &mut mirrored.nodes {
         std::mem::swap(&mut node.l, &mut node.r);
     }
-    // Rays along the chain from both ends, and rays across it.
+    // Some rays go along the chain from either end, and others across it.
     let kind = |rng: &mut Rng, _: &Tree| {
         let target = DVec3::X * rng.uniform(0.0, 30.0) + rng.point(0.4);
         let away = match rng.index(3) {
@@ -379,7 +409,41 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
         ray(target + 6.0 * away, target)
     };
     let mut question = |tree| question_without_decoys(rng, tree, [24, 10], kind);
-    vec![question(tree), question(mirrored), question(less_deep)]
+    let questions = [tree, mirrored, less_deep].map(&mut question);
+    let along = along_the_chain(rng);
+    questions.into_iter().chain([along]).collect()
+}
+
+/// Creates a question about a chain whose first leaves are the farthest ones. Most rays enter
+/// almost all boxes, so that almost all leaves wait until the end of the chain has been traversed.
+fn along_the_chain(rng: &mut Rng) -> ExamQuestion {
+    const LEVELS: usize = 60;
+    /// The minimum number of boxes that a ray enters.
+    const LEAST: usize = 56;
+    let triangles = (0..LEVELS).map(|i| {
+        let center = DVec3::X * (0.5 * i as f64) + rng.point(0.1);
+        meshes::random_flat_triangle(rng, center, 0.9)
+    });
+    let tree = construction::chain(meshes::number_shapes(triangles));
+    let boxes: Vec<_> = tree.shapes.iter().map(scan::bounds).collect();
+    let kind = |rng: &mut Rng, tree: &Tree| {
+        let end = DVec3::X * (0.5 * LEVELS as f64 + rng.uniform(1.0, 3.0));
+        let is_along = rng.index(4) > 0;
+        rng.retry(|rng| {
+            let start = end + rng.vector(-0.4, 0.4);
+            let target = if is_along {
+                start * (DVec3::ONE - DVec3::X) + 0.05 * rng.point(1.0)
+            } else {
+                3.0 * rng.point(1.0)
+            };
+            let ray = ray(start, target);
+            let ray64 = Ray64::from(&ray);
+            let entered = boxes.iter().filter(|it| it.span(&ray64).is_some());
+            let is_as_planned = !is_along || entered.count() >= LEAST;
+            (is_as_planned && is_clear_of_faces(tree, &ray)).then_some(ray)
+        })
+    };
+    question_without_decoys(rng, tree.clone(), [18, 4], kind)
 }
 
 pub(super) const FLAT: Declaration = Declaration {
@@ -387,6 +451,7 @@ pub(super) const FLAT: Declaration = Declaration {
     title: "leaves with flat boxes are entered",
     look: "A ray enters and leaves a flat box at the same time. If your box test is correct, check \
            how you use its result: an interval of one point is not empty.",
+    look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#a-flat-box-has-equal-entry-and-exit",
     tests: &["Returns the ray's…"],
     questions: |rng| {
@@ -413,6 +478,7 @@ pub(super) const MIXED: Declaration = Declaration {
     id: "traverse.mixed",
     title: "a tree can hold spheres and triangles",
     look: "Primitive::hit tests either kind, and their distances are compared in the same way.",
+    look_fits: &[Symptom::MISS, Symptom::of("distance")],
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
     tests: &["Returns the ray's…"],
     questions: |rng| {
@@ -435,7 +501,8 @@ pub(super) const MIXED: Declaration = Declaration {
             })
         };
         let distances = question_without_decoys(rng, tree, [28, 10], kind);
-        // Spheres first, then all kinds.
+        // The first of these questions is about spheres only, the second about all kinds of
+        // primitives.
         let traces = [(2, 5, 1), (3, 24, 2)]
             .map(|(kind, count, max_leaf_size)| trace::question(rng, kind, count, max_leaf_size));
         [vec![distances], traces.to_vec()].concat()

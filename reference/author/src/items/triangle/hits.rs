@@ -1,21 +1,22 @@
-//! Items about whether and at which distance a ray hits.
+//! Items about whether a ray hits a triangle, and at which distance.
 
 use glam::{Vec2, Vec3, vec3};
 use judging::exam::ExamQuestion;
+use judging::symptom::{PRESENCE, Symptom};
 use protocol::{Ray, Shape, Vertex};
 
 use super::{is_steep, is_well_inside, questions};
 use crate::domains::fields::{EVERY_SIZE, SMALL, USUAL};
 use crate::domains::triangle::Plane;
-use crate::items::{Declaration, groups, shape_question};
+use crate::items::{Declaration, groups, paper, shape_question};
 use crate::seed::Rng;
 
-/// Returns whether the hit only depends on the point where the ray crosses the plane.
+/// Returns whether the hit depends only on the point where the ray crosses the plane.
 fn is_ahead(plane: &Plane) -> bool {
     plane.is_unlimited() && plane.distance > 0.0
 }
 
-/// Returns whether the hit only depends on the range.
+/// Returns whether the hit depends only on the range.
 fn is_through(plane: &Plane) -> bool {
     is_steep(plane) && plane.is_inside() && is_well_inside(plane)
 }
@@ -23,8 +24,8 @@ fn is_through(plane: &Plane) -> bool {
 pub(super) const INSIDE: Declaration = Declaration {
     id: "triangle.inside",
     title: "a ray through the inside hits the triangle at distance t",
-    look: "Work out u, v and t by hand for the ray shown, and compare them with those in your \
-           code. It is a hit if u, v and 1 − u − v are all at least 0 and t is in ray.range, and \
+    look: "Work out u, v and t by hand for the ray shown, and compare them with the values in your code. It \
+        is a hit if u, v and 1 − u − v are all at least 0 and t is in ray.range, and \
            then t is the distance.",
     section: "triangle.md#three-equations-for-three-unknowns",
     tests: &[
@@ -33,9 +34,10 @@ pub(super) const INSIDE: Declaration = Declaration {
         "`distance` is the…",
     ],
     questions: |rng| {
-        questions(rng, &["distance"], USUAL, |plane| {
+        let drawn = questions(rng, &["distance"], USUAL, |plane| {
             is_ahead(plane) && plane.slope < 0.0 && is_steep(plane) && is_well_inside(plane)
-        })
+        });
+        [vec![paper::triangle(rng)], drawn].concat()
     },
     ..Declaration::in_group(groups::TRIANGLE_HITS)
 };
@@ -45,6 +47,7 @@ pub(super) const OUTSIDE: Declaration = Declaration {
     title: "a ray that crosses the plane beyond an edge misses",
     look: "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three edges, the \
            weight of the opposite corner is negative.",
+    look_fits: &[Symptom::HIT],
     section: "triangle.md#test-the-third-weight-too",
     tests: &["Returns the ray's…", "The triangle can…"],
     questions: |rng| {
@@ -58,7 +61,8 @@ pub(super) const OUTSIDE: Declaration = Declaration {
 pub(super) const FROM_BEHIND: Declaration = Declaration {
     id: "triangle.from_behind",
     title: "a triangle is hit from behind as well",
-    look: "Seen from behind, the determinant has the other sign, which is no reason for a miss.",
+    look: "Seen from behind, the determinant has the opposite sign, but that doesn't make it a miss.",
+    look_fits: &[Symptom::MISS],
     section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
     tests: &["The triangle can…"],
     questions: |rng| {
@@ -72,8 +76,9 @@ pub(super) const FROM_BEHIND: Declaration = Declaration {
 pub(super) const RANGE_MAX: Declaration = Declaration {
     id: "triangle.range_max",
     title: "there is no hit beyond the end of the ray's range",
-    look: "A ray through the triangle hits it if and only if t is in ray.range, however small the \
-           triangle is. Which comparison in your code decides about the ray shown?",
+    look: "A ray through the triangle hits it if and only if t is in ray.range, no matter how small the \
+        triangle is. Which comparison in your code decides this for the ray shown?",
+    look_fits: &[Symptom::of(PRESENCE)],
     section: "triangle.md#check-both-ends-of-the-range",
     tests: &["`ray.range` includes both…"],
     questions: |rng| {
@@ -87,8 +92,9 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
 pub(super) const RANGE_MIN: Declaration = Declaration {
     id: "triangle.range_min",
     title: "there is no hit before the start of the ray's range",
-    look: "The range has two ends, and its start need not be 0. Compare t with these two, and with \
-           no constant, however small.",
+    look: "The range has two ends, and it doesn't have to start at 0. Compare t with these two ends, not \
+        with a constant, no matter how small.",
+    look_fits: &[Symptom::of(PRESENCE)],
     section: "triangle.md#check-both-ends-of-the-range",
     tests: &["`ray.range` includes both…"],
     questions: |rng| {
@@ -102,8 +108,8 @@ pub(super) const RANGE_MIN: Declaration = Declaration {
 pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
     id: "triangle.behind_the_ray",
     title: "a triangle behind the ray is missed",
-    look: "Work out t for the ray shown. Behind the ray it is negative, although the weights look \
-           like those of a hit; ahead of the ray it is in ray.range.",
+    look: "Work out t for the ray shown. If the triangle is behind the ray, t is negative, even though the \
+        weights look like those of a hit. If it is ahead, t is in ray.range.",
     section: "triangle.md#hits-behind-the-origin-do-not-count",
     tests: &["Returns the ray's…"],
     questions: |rng| {
@@ -119,8 +125,9 @@ pub(super) const TINY: Declaration = Declaration {
     title: "a triangle with edges of 1e-3 is hit like any other",
     look: "The determinant is small for small triangles too, not only for parallel rays: compare \
            it with zero, not with a small number.",
+    look_fits: &[Symptom::MISS],
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
-    tests: &["Triangles of every…"],
+    tests: &["Triangles can be any…"],
     questions: |rng| {
         let all = ["distance", "position", "normal", "uv", "origin", "shape"];
         questions(rng, &all, &[SMALL; 3].concat(), |plane| {
@@ -130,8 +137,8 @@ pub(super) const TINY: Declaration = Declaration {
     ..Declaration::ALONE
 };
 
-/// A coordinate system along the axes, with small integers as its origin: the axes are permuted, and
-/// some are reversed.
+/// A coordinate system along the world's axes, which are permuted and in part reversed. The
+/// coordinates of its origin are small integers.
 struct Frame {
     origin: Vec3,
     axes: [Vec3; 3],
@@ -158,10 +165,11 @@ impl Frame {
 pub(super) const GRAZING: Declaration = Declaration {
     id: "triangle.grazing",
     title: "a ray that grazes a triangle hits it like any other",
-    look: "The determinant is small if the ray is almost parallel to the triangle. That is no reason \
-           for a miss: only zero is.",
+    look: "The determinant is small if the ray is almost parallel to the triangle. That doesn't make it a \
+        miss, unless it is exactly zero.",
+    look_fits: &[Symptom::MISS],
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
-    tests: &["Triangles of every…"],
+    tests: &["Triangles can be any…"],
     questions: |rng| {
         let all = ["distance", "position", "origin", "shape", "normal", "uv"];
         // At the smallest cosines, rounding spoils the weights.
@@ -179,12 +187,13 @@ pub(super) const GRAZING: Declaration = Declaration {
     ..Declaration::ALONE
 };
 
-/// Returns the item about degenerate triangles. Its coordinates are small integers, so that the
-/// determinant is exactly zero in every correct formula.
+/// The item about degenerate triangles. Its coordinates are small integers, so that the determinant
+/// is exactly zero in every correct formula.
 pub(super) const DEGENERATE: Declaration = Declaration {
     id: "triangle.degenerate",
     title: "a triangle that has no area or is parallel to the ray is missed",
     look: "The determinant is then zero, and dividing by it gives no usable number: return a miss.",
+    look_fits: &[Symptom::HIT],
     section: "triangle.md#when-the-denominator-is-zero",
     tests: &["A triangle without…"],
     questions: degenerate,
@@ -209,7 +218,8 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
     let point = flat([[1.0, 1.0]; 3]);
     let coinciding_corners = flat([[1.0, 2.0], [1.0, 2.0], [3.0, 2.0]]);
     let half_square = flat([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]);
-    // Parallel to the plane at several distances, both over the triangle and beside it.
+    // These rays are parallel to the plane at several distances, both over the triangle and beside
+    // it.
     let beside = [1.0, 2.0, 3.0, -1.0, 5.0].into_iter();
     let parallel = beside.flat_map(|y| [2.0, -2.0, 1.0, -1.0].map(|z| along(y, z)));
     let parallel = parallel.collect();
@@ -222,7 +232,8 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
         question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
         question(coinciding_corners, vec![down(2.0, 2.0), down(1.0, 2.0)]),
         question(half_square, vec![along(1.0, 0.0), along(-1.0, 0.0)]),
-        // On both sides of the plane, because t = z / 0 is +∞ on one side and −∞ on the other.
+        // These rays are on both sides of the plane, because t = z / 0 is +∞ on one side and −∞ on
+        // the other.
         question(half_square, parallel),
     ];
     [degenerate, control].concat()

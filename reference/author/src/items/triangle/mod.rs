@@ -32,7 +32,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
     ],
     domain: Some(&TRIANGLE),
     untested: &[(
-        "It does not have to have length one.",
+        "It need not have length one.",
         "The answer is normalised before it is compared.",
     )],
     points: POINTS,
@@ -40,7 +40,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
 };
 
 /// Creates questions about triangles of these sizes. Their rays fit an item's idea, and every other
-/// one is a hit.
+/// ray is a hit.
 fn questions(
     rng: &mut Rng,
     judged: &[&str],

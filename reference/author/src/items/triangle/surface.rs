@@ -1,5 +1,7 @@
 //! Items about the quantities of a hit.
 
+use judging::symptom::Symptom;
+
 use super::{is_steep, is_well_inside, questions};
 use crate::domains::fields::{EVERY_SIZE, USUAL};
 use crate::domains::triangle::Plane;
@@ -10,7 +12,7 @@ fn is_from_the_front(plane: &Plane) -> bool {
     is_from_either_side(plane) && plane.slope < 0.0
 }
 
-/// Returns whether the ray is well inside the triangle, or well outside.
+/// Returns whether the ray passes well inside the triangle or well outside it.
 fn is_from_either_side(plane: &Plane) -> bool {
     is_steep(plane) && is_well_inside(plane)
 }
@@ -18,7 +20,8 @@ fn is_from_either_side(plane: &Plane) -> bool {
 pub(super) const POSITION: Declaration = Declaration {
     id: "triangle.position",
     title: "position is the point where the ray hits the triangle",
-    look: "It is the ray's point at t, or the weighted sum of the corners: both are the same.",
+    look: "It is the ray's point at t, or the weighted sum of the corners, which is the same point.",
+    look_fits: &[Symptom::of("position")],
     section: "triangle.md#what-to-return",
     tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["position"], EVERY_SIZE, is_from_the_front),
@@ -30,6 +33,7 @@ pub(super) const NORMAL: Declaration = Declaration {
     title: "the normal is interpolated between the corners' normals",
     look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at p0, p1 and \
            p2, and w = 1 − u − v. The normal of the flat face is not used.",
+    look_fits: &[Symptom::of("normal")],
     section: "triangle.md#interpolate-the-given-normals",
     tests: &["`normal` and `uv`…"],
     questions: |rng| questions(rng, &["normal"], USUAL, is_from_the_front),
@@ -41,6 +45,7 @@ pub(super) const UV: Declaration = Declaration {
     title: "uv is interpolated between the corners' texture coordinates",
     look: "It is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at p0, p1 and p2, \
            and w = 1 − u − v. The barycentric u and v are only its weights.",
+    look_fits: &[Symptom::of("uv")],
     section: "triangle.md#the-weights-are-not-the-texture-coordinates",
     tests: &["`normal` and `uv`…"],
     questions: |rng| questions(rng, &["uv"], EVERY_SIZE, is_from_the_front),
@@ -52,11 +57,12 @@ pub(super) const UV_CORNERS: Declaration = Declaration {
     title: "near a corner, that corner's texture coordinates count most",
     look: "Close to a corner, that corner's weight is nearly 1 and the two others are nearly 0. w \
            = 1 − u − v belongs to p0, u to p1 and v to p2.",
+    look_fits: &[Symptom::of("uv")],
     section: "triangle.md#each-weight-belongs-to-its-corner",
     tests: &["`normal` and `uv`…"],
     questions: |rng| {
         questions(rng, &["uv"], USUAL, |plane| {
-            // Also close to an edge, where small weights matter.
+            // The point may be close to an edge, where small weights matter.
             if plane.is_inside() {
                 let is_near_a_corner = plane.weights.iter().any(|&weight| weight > 0.8);
                 is_near_a_corner && is_steep(plane) && plane.slope < 0.0
@@ -70,9 +76,10 @@ pub(super) const UV_CORNERS: Declaration = Declaration {
 
 pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
     id: "triangle.normal_from_behind",
-    title: "seen from behind, the normal stays as it is",
+    title: "seen from behind, the normal stays the same",
     look: "The normal belongs to the surface, not to the ray, so it is never flipped toward the \
            ray.",
+    look_fits: &[Symptom::of("normal")],
     section: "triangle.md#do-not-flip-the-normal",
     tests: &["Do not flip the normal…"],
     questions: |rng| questions(rng, &["normal"], USUAL, is_from_either_side),
@@ -83,6 +90,7 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     id: "triangle.origin_and_material",
     title: "the trace holds the ray's origin and the triangle's shape",
     look: "Copy both: the origin from the ray, and the shape's number from the triangle.",
+    look_fits: &[Symptom::of("origin"), Symptom::of("shape")],
     section: "triangle.md#what-to-return",
     tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["origin", "shape"], EVERY_SIZE, is_from_either_side),

@@ -21,7 +21,7 @@ const PROXY_SCRIPT: &str = include_str!("../templates/trial/rust_proxy.sh");
 const LIMIT_SCRIPT: &str = include_str!("../templates/trial/limits.sh");
 /// The folders with the system's programs.
 const SYSTEM_PATH: &str = "/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin";
-/// The arguments of `unshare` for the machine's own namespaces.
+/// The arguments for `unshare` that give the machine its own namespaces.
 const NAMESPACES: [&str; 5] = ["--mount", "--net", "--pid", "--fork", "--kill-child"];
 const NO_CARGO: &str = "CARGO is not set: run `cargo author package … --check`";
 /// The exit code of [`LIMIT_SCRIPT`] if control groups cannot be used.
@@ -118,12 +118,12 @@ impl Machine {
         Ok(command.status().map(drop).at("remove", folder)?)
     }
 
-    /// Runs a command in a folder on the machine, with the platform's environment variables
-    /// `NAME=value`.
+    /// Runs a command in a folder on the machine. `variables` are the platform's environment
+    /// variables, each in the form `NAME=value`.
     ///
     /// `user` is `container`, i.e. root with the capabilities of a Docker container, or `runner`,
-    /// the user of GitHub's runners. With limits, the command gets half a core and 768 MiB. A
-    /// platform builds an image without limits.
+    /// the user of GitHub's runners. With limits, the command gets half a core and 768 MiB.
+    /// Platforms build images without limits.
     pub fn run(
         &self,
         user: &str,
@@ -144,7 +144,7 @@ impl Machine {
             .args(["sh", "-c", ENTER_SCRIPT, "sh"])
             .args([&self.root, &self.toolchain])
             .args([user, folder, "LANG=C.UTF-8"])
-            // `env -i` would remove it.
+            // This is an argument because `env -i` would remove the variable.
             .arg(format!(
                 "PATH={}/bin:{SYSTEM_PATH}",
                 self.toolchain.display()
@@ -188,8 +188,8 @@ impl ResourceUsage {
     }
 }
 
-/// Reports that (part of) the trial is skipped for this reason. Returns an error instead if `CI` is
-/// set.
+/// Reports that the trial, or a part of it, is skipped for this reason. Returns an error instead if
+/// `CI` is set.
 fn skip_or_fail(reason: &str) -> Result<()> {
     match env::var_os("CI") {
         Some(_) => bail!("{reason}; trials are not skipped while CI is set"),

@@ -1,5 +1,5 @@
-//! Trials of packages. Each package is set up and run as on its platform, with submissions of known
-//! points.
+//! Trials of packages. Each package is set up and run as it would be on its platform, with
+//! submissions whose points are known.
 
 mod machine;
 mod setup;
@@ -64,9 +64,9 @@ pub fn check(
     Ok(problems)
 }
 
-/// Prints the time a submission took. Returns a problem if it is more than half of the platform's
-/// limit. The time is estimated from the CPU time for half a core, so it doesn't depend on this
-/// machine's load.
+/// Prints the time a submission took. Returns a problem if the time is more than half of the
+/// platform's limit. The time on half a core is estimated from the CPU time, so it doesn't depend
+/// on this machine's load.
 fn time_problem(name: &str, job: &JobResult, limit: Duration) -> Option<String> {
     let wall_time = job.wall_time.as_secs_f64();
     let Some(usage) = job.usage else {
@@ -78,12 +78,12 @@ fn time_problem(name: &str, job: &JobResult, limit: Duration) -> Option<String> 
         format!(", {} MiB peak memory", bytes >> 20)
     });
     println!(
-        "{:6.1} s at half a core ({wall_time:.1} s wall time){memory}: {name}",
+        "{:6.1} s on half a core ({wall_time:.1} s wall time){memory}: {name}",
         time.as_secs_f64(),
     );
     (time > limit / 2).then(|| {
         format!(
-            "{name} took {time:.0?} at half a core, which is more than half of the platform's \
+            "{name} took {time:.0?} on half a core, which is more than half of the platform's \
              limit of {limit:.0?}"
         )
     })
@@ -107,7 +107,7 @@ fn problem(
     if job.code != Some(code) || points(&result) != submission.points {
         let expected = submission.points.unwrap_or(0);
         return Some(format!(
-            "{} should have {expected} points: {result:.300}\n{output}",
+            "{} should get {expected} points: {result:.300}\n{output}",
             submission.name
         ));
     }
@@ -125,8 +125,8 @@ fn harmless_attack(machine: &Machine, setup: &Setup) -> Result<Option<String>> {
     let is_harmless = !files::read_to_string(score)?.contains(REACHED);
     Ok(is_harmless.then(|| {
         format!(
-            "the attacking submission reads nothing even without isolation, so its failure proves \
-             nothing: adapt the assignment's attacks\n{}",
+            "the malicious submission can't read anything even without isolation, so its failure \
+             doesn't prove anything: update the assignment's attacks\n{}",
             job.output
         )
     }))

@@ -55,9 +55,9 @@ pub struct PlatformRun {
     pub folder: &'static str,
     /// The folders to empty before each submission.
     pub cleared: [&'static str; 2],
-    /// The folder of the submission's task files.
+    /// The folder for the submission's task files.
     pub task_files: &'static str,
-    /// The file with the points that the platform reads.
+    /// The file that the platform reads the points from.
     pub result: &'static str,
     /// The exit code when there is nothing to grade.
     pub empty_code: i32,
@@ -157,7 +157,8 @@ impl Setup {
         Ok(setup)
     }
 
-    /// Sets up a runner with the crates that the grader needs, for a command that grades a checkout.
+    /// Sets up a runner for a command that grades a checkout. The runner gets the crates that the
+    /// grader needs.
     fn runner(machine: &Machine, run: PlatformRun, grader: &Bundle, command: &str) -> Result<Self> {
         let registry = machine.host_path("/home/runner/.cargo/registry");
         let lock = grader.text("Cargo.lock").unwrap_or_default();
@@ -187,7 +188,7 @@ impl Setup {
 }
 
 /// Returns the points in a complete `results.json` or `result.json`, or in the heading of a
-/// summary. `None` if nothing was graded.
+/// summary. Returns `None` if nothing was graded.
 pub fn points(result: &str) -> Option<u64> {
     if let Some(summary) = result.strip_prefix("## ") {
         return summary.split_once(" of 100 points")?.0.parse().ok();

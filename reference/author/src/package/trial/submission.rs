@@ -11,7 +11,7 @@ use crate::package::Platform;
 
 /// The folder of the corpus of hostile submissions.
 const CORPUS: &str = "grader/tests/hostile/entries";
-/// The files that the attacks look for, by their placeholders in the corpus.
+/// The placeholders in the corpus, and the files they stand for, which the attacks look for.
 const TARGETS: [(&str, &str); 2] = [
     ("@KEY@", "/opt/pathtracing/exam.json"),
     ("@OUT@", "/opt/pathtracing/target/graded"),
@@ -19,10 +19,10 @@ const TARGETS: [(&str, &str); 2] = [
 /// The text that an attack prints if it has read a file.
 pub const REACHED: &str = "reached: ";
 
-/// A submission of a trial.
+/// A submission in a trial.
 #[derive(Clone, Debug)]
 pub struct TrialSubmission {
-    /// The name of the submission for messages.
+    /// The submission's name in messages.
     pub name: &'static str,
     /// The points that the submission must get, or `None` if there is nothing to grade.
     pub points: Option<u64>,
@@ -30,8 +30,8 @@ pub struct TrialSubmission {
     pub files: Vec<(&'static str, String)>,
 }
 
-/// Returns the submissions of a platform's trial: the reference, the starter, one without any task
-/// file and, if the exam is secret, one that tries to steal it.
+/// Returns the submissions for a platform's trial: the reference, the starter, a submission without
+/// any task files and, if the exam is secret, one that tries to steal it.
 pub fn submissions(
     authoring: &Authoring,
     workspace: &Path,
@@ -63,7 +63,7 @@ pub fn submissions(
     ];
     if platform == Platform::Gradescope {
         let files = with_attacks(starter, authoring.attacks, workspace)?;
-        submissions.push(submission("an attacking submission", Some(0), files));
+        submissions.push(submission("a malicious submission", Some(0), files));
     }
     Ok(submissions)
 }

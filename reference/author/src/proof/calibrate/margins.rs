@@ -1,5 +1,5 @@
-//! The margins of every threshold, i.e. how far it is from the answers of correct solutions and of
-//! mistakes.
+//! The margins of every threshold, i.e. how far the threshold is from the answers of correct
+//! solutions and of mistakes.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,7 +10,7 @@ use judging::judge::{Deviation, Threshold};
 /// to a wrong result.
 pub const MIN_MARGIN: f64 = 1.5;
 
-/// The deviation of one solution in one item of one exam.
+/// One solution's deviation for one item in one exam.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeviationSample {
     /// The deviation of the solution's answers.
@@ -60,46 +60,46 @@ impl Margin {
 
 /// The purpose of keeping a sample. For each purpose, only the nearest sample is kept.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum KeptFor {
+enum SamplePurpose {
     /// The largest deviation of a correct solution.
     WorstCorrect(Threshold),
     /// The smallest deviation of a mistake that the threshold catches.
     MildestMistake(Threshold),
-    /// A correct solution that fails an item for a reason without a threshold: the ids of the
-    /// solution and the item.
+    /// A correct solution fails an item for a reason without a threshold. The fields are the ids
+    /// of the solution and the item.
     FailedVariant(String, String),
-    /// A mistake that an item it must fail catches with too small a margin or not at all: the ids
-    /// of the mistake and the item.
+    /// An item that must catch a mistake catches it with too small a margin or not at all. The
+    /// fields are the ids of the mistake and the item.
     WeakDetection(String, String),
 }
 
 /// The margins of all thresholds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Margins {
-    nearest: BTreeMap<KeptFor, DeviationSample>,
+    nearest: BTreeMap<SamplePurpose, DeviationSample>,
 }
 
 impl Margins {
     /// Returns the margin of one threshold.
     pub fn margin(&self, threshold: Threshold) -> Margin {
-        let kept = |kept_for: KeptFor| self.nearest.get(&kept_for).cloned();
+        let kept = |purpose: SamplePurpose| self.nearest.get(&purpose).cloned();
         Margin {
-            worst_correct: kept(KeptFor::WorstCorrect(threshold)),
-            mildest_mistake: kept(KeptFor::MildestMistake(threshold)),
+            worst_correct: kept(SamplePurpose::WorstCorrect(threshold)),
+            mildest_mistake: kept(SamplePurpose::MildestMistake(threshold)),
         }
     }
 
     /// Adds a deviation of a correct solution.
     pub fn add_correct(&mut self, sample: DeviationSample) {
-        let kept_for = match sample.deviation.threshold {
+        let purpose = match sample.deviation.threshold {
             None if sample.deviation.is_right() => return,
-            None => KeptFor::FailedVariant(sample.solution.clone(), sample.item.clone()),
-            Some(threshold) => KeptFor::WorstCorrect(threshold),
+            None => SamplePurpose::FailedVariant(sample.solution.clone(), sample.item.clone()),
+            Some(threshold) => SamplePurpose::WorstCorrect(threshold),
         };
-        self.keep_nearest(kept_for, sample);
+        self.keep_nearest(purpose, sample);
     }
 
-    /// Adds a mistake's deciding deviations in one exam, for the items it must fail. Items that
+    /// Adds a mistake's deciding deviations for the items it must fail in one exam. Items that
     /// barely catch the mistake are only considered if no other item catches it clearly, because
     /// the lists of items are generated and also contain items about something else.
     pub fn add_mistake_of_exam(&mut self, samples: Vec<DeviationSample>) {
@@ -110,34 +110,34 @@ impl Margins {
         counted.for_each(|sample| self.add_mistake(sample));
     }
 
-    /// Adds a mistake's deciding deviation in an item it must fail.
+    /// Adds the deviation by which a mistake fails an item that it must fail.
     fn add_mistake(&mut self, sample: DeviationSample) {
         let Deviation { threshold, value } = sample.deviation;
         if value < MIN_MARGIN {
             let (mistake, item) = (sample.solution.clone(), sample.item.clone());
-            self.keep_nearest(KeptFor::WeakDetection(mistake, item), sample.clone());
+            self.keep_nearest(SamplePurpose::WeakDetection(mistake, item), sample.clone());
         }
         if let Some(threshold) = threshold.filter(|_| value > 1.0 && value.is_finite()) {
-            self.keep_nearest(KeptFor::MildestMistake(threshold), sample);
+            self.keep_nearest(SamplePurpose::MildestMistake(threshold), sample);
         }
     }
 
     /// Keeps the sample unless one that is at least as near is already kept.
-    fn keep_nearest(&mut self, kept_for: KeptFor, sample: DeviationSample) {
+    fn keep_nearest(&mut self, purpose: SamplePurpose, sample: DeviationSample) {
         let is_nearer = |known: &DeviationSample| {
             let (new, old) = (sample.deviation.value, known.deviation.value);
-            let is_correct = matches!(kept_for, KeptFor::WorstCorrect(_));
+            let is_correct = matches!(purpose, SamplePurpose::WorstCorrect(_));
             if is_correct { new > old } else { new < old }
         };
-        if self.nearest.get(&kept_for).is_none_or(is_nearer) {
-            self.nearest.insert(kept_for, sample);
+        if self.nearest.get(&purpose).is_none_or(is_nearer) {
+            self.nearest.insert(purpose, sample);
         }
     }
 
     /// Returns the margins for both sets of samples combined.
     pub fn merge(mut self, other: Margins) -> Margins {
-        for (kept_for, sample) in other.nearest {
-            self.keep_nearest(kept_for, sample);
+        for (purpose, sample) in other.nearest {
+            self.keep_nearest(purpose, sample);
         }
         self
     }
@@ -150,12 +150,12 @@ impl Margins {
             (margin.correct_margin() < MIN_MARGIN).then(|| too_near(threshold, worst))
         });
         let wrong = self.nearest.iter();
-        let wrong = wrong.filter_map(|(kept_for, sample)| match kept_for {
-            KeptFor::WorstCorrect(_) | KeptFor::MildestMistake(_) => None,
-            KeptFor::FailedVariant(..) => Some(format!(
+        let wrong = wrong.filter_map(|(purpose, sample)| match purpose {
+            SamplePurpose::WorstCorrect(_) | SamplePurpose::MildestMistake(_) => None,
+            SamplePurpose::FailedVariant(..) => Some(format!(
                 "{sample} is correct but fails: run `cargo author prove`"
             )),
-            KeptFor::WeakDetection(..) => Some(too_mild(sample)),
+            SamplePurpose::WeakDetection(..) => Some(too_mild(sample)),
         });
         near.chain(wrong).collect()
     }
@@ -163,8 +163,9 @@ impl Margins {
 
 fn too_near(threshold: Threshold, worst: &DeviationSample) -> String {
     format!(
-        "{worst} is correct but reaches {:.2} of the threshold for {} ({}); at most {:.2} is \
-         allowed: ask a question with a more precise answer, or tolerate more in {}",
+        "{worst} is correct but reaches {:.2} times the threshold for {} ({}); at most {:.2} is \
+         allowed: add a question that can be answered more precisely, or increase the tolerance in \
+         {}",
         worst.deviation.value,
         threshold.title(),
         threshold.limit(),
@@ -181,8 +182,8 @@ fn too_mild(mistake: &DeviationSample) -> String {
     };
     let caught = if value > 1.0 { "barely" } else { "not" };
     format!(
-        "{mistake} is {caught} caught: it reaches {value:.2} of {threshold}, and at least \
-         {MIN_MARGIN:.2} is required: ask a question that the mistake gets more wrong"
+        "{mistake} is {caught} caught: it reaches {value:.2} times {threshold}, and at least \
+         {MIN_MARGIN:.2} is required: add a question where the mistake's answer is further off"
     )
 }
 
@@ -258,16 +259,16 @@ mod tests {
         let wrong = [sample(UV, 1.4, 8), sample(UV, 1.25, 9), uncaught];
         let problems = margins(&right, &wrong).problems();
         let expected = [
-            "`sphere.some` in `sphere.uv`, seed 7 is correct but reaches 0.75 of the threshold for \
-             uv in a picture (2e-3); at most 0.67 is allowed: ask a question with a more precise \
-             answer, or tolerate more in types/uv.rs: TOLERANCE",
+            "`sphere.some` in `sphere.uv`, seed 7 is correct but reaches 0.75 times the threshold \
+             for uv in a picture (2e-3); at most 0.67 is allowed: add a question that can be \
+             answered more precisely, or increase the tolerance in types/uv.rs: TOLERANCE",
             "`sphere.some` in `sphere.uv`, seed 8 is correct but fails: run `cargo author prove`",
-            "`sphere.some` in `sphere.uv`, seed 9 is barely caught: it reaches 1.25 of the \
-             threshold for uv in a picture, and at least 1.50 is required: ask a question that the \
-             mistake gets more wrong",
-            "`sphere.some` in `sphere.uv_radius`, seed 10 is not caught: it reaches 0.00 of any \
-             threshold, and at least 1.50 is required: ask a question that the mistake gets more \
-             wrong",
+            "`sphere.some` in `sphere.uv`, seed 9 is barely caught: it reaches 1.25 times the \
+             threshold for uv in a picture, and at least 1.50 is required: add a question where \
+             the mistake's answer is further off",
+            "`sphere.some` in `sphere.uv_radius`, seed 10 is not caught: it reaches 0.00 times any \
+             threshold, and at least 1.50 is required: add a question where the mistake's answer \
+             is further off",
         ];
         assert_eq!(problems, expected);
     }

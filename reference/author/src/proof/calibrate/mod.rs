@@ -63,8 +63,8 @@ impl Calibration {
     }
 }
 
-/// Measures the margins with the exams of these seeds. All variants are graded with every exam, and
-/// all mistakes with the first `with_mistakes` of them.
+/// Measures the margins with the exams for these seeds. All variants are graded with every exam,
+/// and all mistakes with the first `with_mistakes` of them.
 pub fn calibrate(
     solutions: &Solutions,
     seeds: Range<u64>,
@@ -95,7 +95,7 @@ pub fn calibrate(
     })
 }
 
-/// Measures the margins with the exam of one seed.
+/// Measures the margins with the exam for one seed.
 fn margins(
     seed: u64,
     exam: &Exam,

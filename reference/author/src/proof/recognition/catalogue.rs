@@ -10,7 +10,7 @@ use judging::signatures::ObservedAnswer;
 
 use super::{Recognition, answers, hints, list};
 use crate::hints::observed_answers;
-use crate::proof::grade::Graded;
+use crate::proof::grade::GradedSolution;
 use crate::proof::run::run;
 use crate::solutions::Solutions;
 use crate::solutions::catalogue::{independent_mistakes, other_causes, unknown_mistakes};
@@ -28,10 +28,10 @@ struct ReportedMistake {
     false_hints: BTreeSet<String>,
     /// If the report says that state is kept between calls, whether that is true.
     names_state: Option<bool>,
-    /// If it gets no true hint, the items where its answers differ from those of the same mistake
-    /// in the reference.
+    /// If the mistake gets no true hint, the items where its answers differ from those of the same
+    /// mistake in the reference.
     unlike: Vec<String>,
-    /// A message if the code loses no points in its task, or points in another task.
+    /// A message if the code loses no points in its task or loses points in another task.
     problems: Vec<String>,
 }
 
@@ -43,7 +43,7 @@ fn report(
 ) -> Result<Vec<ReportedMistake>> {
     let workbench = &solutions.workbench;
     run(workbench, mistakes, "mistakes", |mistake, built| {
-        let graded = Graded::new(mistake, &built, exam)?;
+        let graded = GradedSolution::new(mistake, &built, exam)?;
         let mut clues = graded.score.items().filter_map(|item| item.clue.as_deref());
         let names_state = clues.any(|clue| clue == KEPT_STATE);
         let made = &mistake.expected.true_hints;
@@ -69,8 +69,8 @@ fn report(
     })
 }
 
-/// Grades every independent mistake, and other code with the answers of known mistakes. Determines
-/// their hints.
+/// Grades every independent mistake, and the code that gives the same answers as known mistakes for
+/// other reasons. Determines their hints.
 pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     let all = [independent_mistakes(solutions)?, other_causes(solutions)?].concat();
     let rows = report(solutions, &all, exam)?;
@@ -82,11 +82,11 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
         let id = row.id;
         let is_named = !row.true_hints.is_empty() || row.names_state == Some(true);
         recognition.lines.push(if !row.false_hints.is_empty() {
-            recognition.misled += 1;
+            recognition.with_false_hint += 1;
             format!("{id}: false hint {}", list(&row.false_hints))
         } else if row.names_state == Some(false) {
-            recognition.misled += 1;
-            format!("{id}: said to keep state, which it does not")
+            recognition.with_false_hint += 1;
+            format!("{id}: falsely reported as keeping state")
         } else if is_named {
             recognition.recognised += 1;
             format!("{id}: recognised")
@@ -96,13 +96,13 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
         });
         recognition.problems.extend(row.problems);
     }
-    let (count, misled) = (recognition.count, recognition.misled);
+    let (count, with_false_hint) = (recognition.count, recognition.with_false_hint);
     let recognised = recognition.recognised;
     recognition.summary_line = format!(
         "mistakes in other solutions: {recognised} of {count} recognised ({:.0} %), {} get no hint, \
-         {misled} a false one",
+         {with_false_hint} a false one",
         100.0 * recognised as f64 / count.max(1) as f64,
-        count - recognised - misled,
+        count - recognised - with_false_hint,
     );
     Ok(recognition)
 }
@@ -111,17 +111,17 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
 pub fn recognise_unknown(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     let all = [unknown_mistakes(solutions)?, wrong_methods(solutions)?].concat();
     let rows = report(solutions, &all, exam)?;
-    let misled = rows.iter().filter(|row| !row.false_hints.is_empty());
-    let lines: Vec<String> = misled
+    let with_false_hint = rows.iter().filter(|row| !row.false_hints.is_empty());
+    let lines: Vec<String> = with_false_hint
         .map(|row| format!("{}: false hint {}", row.id, list(&row.false_hints)))
         .collect();
     let hinted = rows.iter().filter(|row| !row.true_hints.is_empty());
     Ok(Recognition {
         count: rows.len(),
         recognised: hinted.count(),
-        misled: lines.len(),
+        with_false_hint: lines.len(),
         summary_line: format!(
-            "mistakes of no known kind: {}, {} get a hint that is false",
+            "mistakes of no known kind: {}, {} get a false hint",
             rows.len(),
             lines.len()
         ),
@@ -131,7 +131,7 @@ pub fn recognise_unknown(solutions: &Solutions, exam: &Exam) -> Result<Recogniti
 }
 
 /// Returns the items where a solution's answers differ from those the exam has recorded for a known
-/// mistake, each with the number of different answers.
+/// mistake, each with the number of answers that differ.
 fn items_unlike_signature(exam: &Exam, mistake: &str, answers: &[(&Item, Answers)]) -> Vec<String> {
     let mut known = exam.mistakes.iter();
     let index = known.position(|known| known.id == mistake);

@@ -1,5 +1,5 @@
-//! Known mistakes in the reference: one at a time, both known to the exam and removed from it, and
-//! two at once.
+//! Known mistakes in the reference: one at a time, with the full exam and with the mistake removed
+//! from the exam, and two at once.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -35,7 +35,7 @@ pub fn recognise(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     Ok(summary(solutions, &known_hints(solutions, exam)?))
 }
 
-/// Like [`recognise`], but with the final exams of some seeds. Adds up the results.
+/// Like [`recognise`], but with the final exams for some seeds. Adds up the results.
 pub fn recognise_with_seeds(solutions: &Solutions, seeds: Range<u64>) -> Result<Recognition> {
     let mut all = Vec::new();
     for seed in seeds {
@@ -69,7 +69,7 @@ fn has_signature(exam: &Exam, id: &str) -> bool {
     index.is_some_and(|index| answers.any(|answers| answers.mistakes.contains(&(index as u32))))
 }
 
-/// Returns the exam without the signatures of this mistake and those that share its hint.
+/// Returns the exam without the signatures of this mistake and of those that share its hint.
 fn without_hint(solutions: &Solutions, exam: &Exam, id: &str) -> Exam {
     let mut exam = exam.clone();
     let mistakes = exam.mistakes.iter();
@@ -93,28 +93,34 @@ fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
     let (recognised, others): (Vec<_>, Vec<_>) = rows.iter().partition(is_recognised);
     let (others, without_signature): (Vec<_>, Vec<_>) =
         others.into_iter().partition(|row| row.has_signature);
-    let misled = rows.iter().filter(|row| !row.if_unknown.is_empty());
-    let (count, misled_count) = (recognised.len() + others.len(), misled.clone().count());
+    let with_false_hint = rows.iter().filter(|row| !row.if_unknown.is_empty());
+    let (count, false_hint_count) = (
+        recognised.len() + others.len(),
+        with_false_hint.clone().count(),
+    );
 
     let others = others.into_iter().map(|row| match row.hints.len() {
         0 => format!("{} gets no hint", row.id),
         _ => format!("{} gets the hint {}", row.id, list(&row.hints)),
     });
-    let misled = misled.map(|row| {
+    let with_false_hint = with_false_hint.map(|row| {
         let hints = list(&row.if_unknown);
-        format!("{}, if unknown, gets the false hint {hints}", row.id)
+        format!(
+            "{} gets the false hint {hints} if its own is left out",
+            row.id
+        )
     });
     let unmarked = without_signature.iter();
     let unmarked = unmarked.map(|row| format!("{} has no signature", row.id));
     Recognition {
         count,
         recognised: recognised.len(),
-        misled: misled_count,
+        with_false_hint: false_hint_count,
         problems: Vec::new(),
-        lines: others.chain(misled).chain(unmarked).collect(),
+        lines: others.chain(with_false_hint).chain(unmarked).collect(),
         summary_line: format!(
-            "hints: {} of {count} mistakes recognised ({:.0} %), {} more without a \
-             signature; when its hint is left out, {misled_count} of {} get one that is false",
+            "hints: {} of {count} mistakes recognised ({:.0} %), {} more without a signature; when \
+             its hint is left out, {false_hint_count} of {} get a false one",
             recognised.len(),
             100.0 * recognised.len() as f64 / count.max(1) as f64,
             without_signature.len(),
@@ -159,10 +165,10 @@ pub fn recognise_pairs(
         rows.into_iter().flatten().collect();
     let with_true_hint = compiled.iter().filter(|(_, fits, _)| !fits.is_empty());
     let with_true_hint = with_true_hint.count();
-    let (mut without, mut misled) = (Vec::new(), Vec::new());
+    let (mut without, mut with_false_hint) = (Vec::new(), Vec::new());
     for (id, fits, others) in &compiled {
         if !others.is_empty() {
-            misled.push(format!("{id} get the false hint {}", list(others)));
+            with_false_hint.push(format!("{id} get the false hint {}", list(others)));
         } else if fits.is_empty() {
             without.push(format!("{id} get no hint"));
         }
@@ -170,16 +176,16 @@ pub fn recognise_pairs(
     Ok(Recognition {
         count: compiled.len(),
         recognised: with_true_hint,
-        misled: misled.len(),
+        with_false_hint: with_false_hint.len(),
         problems: Vec::new(),
         summary_line: format!(
             "pairs: {with_true_hint} get a true hint, {} no hint, {} a false one; {} change the same \
              code",
             without.len(),
-            misled.len(),
+            with_false_hint.len(),
             both.len() - compiled.len(),
         ),
-        lines: [without, misled].concat(),
+        lines: [without, with_false_hint].concat(),
     })
 }
 

@@ -25,10 +25,10 @@ pub struct Recognition {
     pub count: usize,
     /// The number of solutions that get a true hint and no false hint.
     pub recognised: usize,
-    /// The number of solutions that get a false hint. For known mistakes, their own hint is removed
-    /// first.
-    pub misled: usize,
-    /// The solutions that lose no points in their task, or points in another task, one line each.
+    /// The number of solutions that get a false hint. A known mistake's own hint is removed first.
+    pub with_false_hint: usize,
+    /// The solutions that lose no points in their task or lose points in another task, one line
+    /// each.
     pub problems: Vec<String>,
     /// The solutions worth listing, one line each.
     pub lines: Vec<String>,
@@ -56,8 +56,8 @@ fn answers<'e>(
     items.map(|item| Ok((item, built.answers(item)?))).collect()
 }
 
-/// Returns the ids of the mistakes whose hints appear at any item with these answers. `exam` is the
-/// items' exam, possibly without some hints.
+/// Returns the ids of the mistakes whose hints these answers produce for any item. `exam` is the
+/// exam that contains the items, possibly without some hints.
 fn hints(answers: &[(&Item, Answers)], exam: &Exam) -> BTreeSet<String> {
     let mut observations = Observations::default();
     for (item, answers) in answers {

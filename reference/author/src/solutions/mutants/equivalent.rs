@@ -1,4 +1,4 @@
-//! The list of mutants that are equivalent to the reference, with reasons. It is written by hand.
+//! The mutants that are equivalent to the reference, and the reasons. The list is written by hand.
 
 use std::path::Path;
 
@@ -17,11 +17,11 @@ pub const FILE: &str = "mutants/equivalent.toml";
 pub struct EquivalentMutant {
     /// The mutant's name in the list of all mutants.
     pub name: String,
-    /// Why no answer differs, or why the contract allows the different answers.
+    /// The reason that no answer differs, or that the contract allows the answers that do.
     pub why: String,
 }
 
-/// Reads the list of an assignment in the workspace at `root`.
+/// Reads an assignment's list from the workspace at `root`.
 pub fn equivalent_mutants(root: &Path, handed_out: &HandedOut) -> Result<Vec<EquivalentMutant>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]

@@ -27,10 +27,10 @@ pub(super) struct Change {
     pub function: String,
 }
 
-/// The sizes of an absolute epsilon.
+/// The values of an absolute epsilon.
 pub(super) const EPSILONS: [&str; 4] = ["1e-3", "1e-4", "1e-5", "1e-6"];
 
-/// Returns all changes to a file, in the order of the file. Operators and bodies are changed
+/// Returns all changes to a file, sorted by their position. Operators and bodies are changed
 /// everywhere except in tests. Everything else is only changed in the code that students write.
 pub(super) fn changes(file: &str) -> syn::Result<Vec<Change>> {
     let mut visitor = Visitor {
@@ -50,7 +50,7 @@ pub(super) fn changes(file: &str) -> syn::Result<Vec<Change>> {
     Ok(found)
 }
 
-/// Returns the bytes of the code that students write: everything between two marked lines.
+/// Returns the byte ranges of the code that students write, which is between marked lines.
 fn own_code(file: &str) -> Vec<Range<usize>> {
     let mut own = Vec::new();
     let (mut start, mut begin) = (0, None);
@@ -74,7 +74,7 @@ pub(super) struct Visitor<'a> {
     found: Vec<Change>,
 }
 
-/// Returns the bytes of a syntax tree node.
+/// Returns the byte range of a syntax tree node.
 pub(super) fn bytes(node: &impl Spanned) -> Range<usize> {
     node.span().byte_range()
 }
@@ -106,7 +106,7 @@ impl<'a> Visitor<'a> {
         }
     }
 
-    /// Visits an item. Its changes are named after it.
+    /// Visits an item. The changes inside it are named after it.
     pub(super) fn visit_item_named(&mut self, name: &Ident, visit: impl FnOnce(&mut Self)) {
         let outer = std::mem::replace(&mut self.function, name.to_string());
         visit(self);

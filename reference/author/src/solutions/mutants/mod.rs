@@ -49,8 +49,7 @@ pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
     Ok(found)
 }
 
-/// Returns the task whose method this function is. If it is no task's method, returns all tasks of
-/// its file.
+/// Returns the task whose method is this function. If there is none, returns all tasks in the file.
 fn tasks_of(assignment: &Assignment, file: &str, function: &str) -> Vec<Task> {
     let in_file = || assignment.tasks.iter().filter(|task| task.file == file);
     let own = in_file().find(|task| task.method == function);

@@ -5,14 +5,14 @@ use std::ops::Range;
 use syn::spanned::Spanned;
 use syn::{FnArg, Signature};
 
-/// Types that can be copied to keep a value, whether it is passed by reference or by value.
+/// Types whose values can be kept as copies, whether they are passed by reference or by value.
 const COPIED: [&str; 6] = ["Ray", "Interval", "UVec2", "Vec2", "usize", "f32"];
 
 /// A description, the bytes to replace and the replacement.
 type StateChange = (String, Range<usize>, String);
 
-/// Returns all changes that keep state in a method with the code `body` and the return type
-/// `returns`.
+/// Returns all changes that keep state in a method. `body` is the range of its code, and `returns`
+/// is its return type.
 pub(super) fn changes(
     file: &str,
     signature: &Signature,
@@ -34,7 +34,7 @@ pub(super) fn changes(
     changes
 }
 
-/// Replaces an argument with that of the first or the previous call.
+/// Replaces an argument with the one from the first or the previous call.
 fn kept_argument(name: &str, of_type: &str) -> Vec<(String, String)> {
     let value_type = of_type.trim_start_matches('&');
     if !COPIED.contains(&value_type) {

@@ -114,9 +114,9 @@ impl Canvas {
                 .filter(|y| self.lock(*y).samples > 0)
                 .count();
             let rows = self.size.y;
-            return format!("{path}: stopped, with {done} of {rows} rows of pixels");
+            return format!("{path}: stopped after {done} of {rows} rows of pixels");
         }
-        format!("{path}: stopped, with {samples} of {total} samples per pixel")
+        format!("{path}: stopped after {samples} of {total} samples per pixel")
     }
 }
 
@@ -155,10 +155,10 @@ mod tests {
         assert_eq!(film.pixels, [Vec3::ZERO, Vec3::splat(2.0)]);
         assert_eq!(samples, 0);
         let stopped = canvas.stopped(Path::new("a.png"), samples, 8);
-        assert_eq!(stopped, "a.png: stopped, with 1 of 2 rows of pixels");
+        assert_eq!(stopped, "a.png: stopped after 1 of 2 rows of pixels");
         assert_eq!(
             canvas.stopped(Path::new("a.png"), 3, 8),
-            "a.png: stopped, with 3 of 8 samples per pixel"
+            "a.png: stopped after 3 of 8 samples per pixel"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Errors of the render command, as shown to the user.
+//! Errors from the render command, as shown to the user.
 
 use std::fmt;
 use std::process::ExitCode;
@@ -14,7 +14,7 @@ use crate::scene::SceneError;
 pub(super) enum RenderError {
     /// The submission's code panicked.
     Panicked(SubmissionPanic),
-    /// Anything else, e.g. a scene that doesn't exist, with the message.
+    /// The message for any other error, such as a scene that doesn't exist.
     Other(String),
 }
 

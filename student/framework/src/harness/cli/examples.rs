@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use clap::Parser;
 
-use crate::harness::cli::notice::Notice;
+use crate::harness::cli::progress::Notice;
 use crate::suggestion::suggestion;
 
 /// The time after which a student should know that an example has not finished.
@@ -17,22 +17,22 @@ const LONG: Duration = Duration::from_secs(5);
 
 /// Runs the worked examples in your task files
 ///
-/// Exit codes: 0 all right; 101 an example fails, or a file does not compile; 2 no example has such a
-/// name.
+/// Exit codes: 0 all examples pass; 101 an example fails, or a file does not compile; 2 no example
+/// has this name.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo examples", bin_name = "cargo examples")]
 struct Arguments {
-    /// A file, such as `sphere`, or a part of an example's name; default: all examples
+    /// A file or task, such as `sphere`, or part of an example's name; default: all examples
     #[arg(value_name = "NAME")]
     names: Vec<String>,
 
-    /// Show what your code prints, even if the example is right
+    /// Show what your code prints, even if the example passes
     #[arg(long)]
     nocapture: bool,
 }
 
-/// Runs the examples in the named files, the examples whose paths contain one of the names, or all
-/// examples. Exit codes: 2 if no example has such a name, else cargo's.
+/// Runs the examples in the specified files, those whose paths contain a specified name, or all
+/// examples. The exit code is 2 if no example has such a name, otherwise that of cargo.
 pub fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(code) => code,
@@ -52,15 +52,16 @@ fn run(arguments: &Arguments) -> io::Result<ExitCode> {
         return Ok(exit_code(list.status.code()));
     }
     let known = example_paths(&list);
-    let mut names = arguments.names.iter();
-    if let Some(message) = names.find_map(|name| unknown_name(name, &known)) {
+    let names = || arguments.names.iter().map(|name| file_of_task(name));
+    if let Some(message) = names().find_map(|name| unknown_name(name, &known)) {
         eprintln!("{message}");
         return Ok(ExitCode::from(2));
     }
-    let names = arguments.names.iter().map(|name| filter(name, &known));
+    let names = names().map(|name| filter(name, &known));
     let notice = Notice::after(
         LONG,
-        "still running: an example that is not listed above may loop without end (Ctrl-C)"
+        "still running: an example that isn't listed above may be in an infinite loop (Ctrl-C stops \
+         it)"
             .to_owned(),
     );
     let status = cargo_test()
@@ -86,6 +87,15 @@ fn example_paths(list: &Output) -> Vec<String> {
     let list = String::from_utf8_lossy(&list.stdout);
     let paths = list.lines().filter_map(|line| line.strip_suffix(": test"));
     paths.map(str::to_owned).collect()
+}
+
+/// Returns a name without `.rs`. If it is the name of a task and the task's file has a different
+/// name, returns the file's name.
+fn file_of_task(name: &str) -> &str {
+    match name.trim_end_matches(".rs") {
+        "build" | "traverse" => "bvh",
+        name => name,
+    }
 }
 
 /// Returns the harness's filter for a name. A file's name selects the examples in that file, but

@@ -3,8 +3,11 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
+use glam::UVec2;
+
 use super::error::RenderError;
 use super::options::Options;
+use super::parallel::RenderPool;
 use crate::suggestion::suggestion;
 
 /// The name of the scenes' folder. Its parent folder is assumed to be the workspace's root.
@@ -14,7 +17,7 @@ const SCENES: &str = "scenes";
 /// root and its folder of scenes. `.json` can be omitted.
 pub(super) fn find_scene(scene: &Path) -> Result<PathBuf, RenderError> {
     let here = env::current_dir().unwrap_or_default();
-    let root = here.ancestors().find(|folder| folder.join(SCENES).is_dir());
+    let root = workspace_root(&here);
     let mut candidates = vec![scene.to_owned()];
     if let Some(root) = root {
         candidates.extend([root.join(scene), root.join(SCENES).join(scene)]);
@@ -30,10 +33,15 @@ pub(super) fn find_scene(scene: &Path) -> Result<PathBuf, RenderError> {
         let mut message = format!("cannot find the scene {}", scene.display());
         if !known.is_empty() {
             let (suggestion, known) = (suggestion(&name, &known), known.join(", "));
-            message += &format!("{suggestion}; the folder `scenes` contains: {known}");
+            message += &format!("{suggestion}; the `scenes` folder contains: {known}");
         }
         RenderError::Other(message)
     })
+}
+
+fn workspace_root(here: &Path) -> Option<&Path> {
+    let mut folders = here.ancestors();
+    folders.find(|folder| folder.join(SCENES).is_dir())
 }
 
 /// Returns the sorted names of the scenes in a workspace.
@@ -49,6 +57,17 @@ fn scene_names(root: &Path) -> Vec<String> {
         .collect();
     names.sort();
     names
+}
+
+/// Returns the path of the file that stores a scene's last measurement at this size and with this
+/// number of threads. The file is in the workspace's target folder.
+pub(super) fn bench_file(scene: &Path, pool: &RenderPool) -> PathBuf {
+    let here = env::current_dir().unwrap_or_default();
+    let root = workspace_root(&here).unwrap_or(&here);
+    let name = scene.file_stem().unwrap_or_default().to_string_lossy();
+    let (UVec2 { x, y }, threads) = (pool.size(), pool.threads());
+    let file = format!("{name}-{x}x{y}-{threads}.txt");
+    root.join("target/bench").join(file)
 }
 
 /// Returns the path of the picture, after checking its format and its folder. Call this before

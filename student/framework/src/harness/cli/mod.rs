@@ -1,15 +1,16 @@
 //! The command that renders a scene with a submission's code.
 
+mod bench;
 mod canvas;
 mod error;
 pub mod examples;
 mod files;
 mod image_file;
-mod notice;
 mod options;
 mod parallel;
 mod pixel;
 mod progress;
+mod slow;
 mod stages;
 
 use std::path::Path;
@@ -32,12 +33,9 @@ use crate::harness::cli::parallel::RenderPool;
 use crate::harness::cli::progress::Progress;
 use crate::harness::view::{self, ViewMode};
 use crate::render::film::{Film, Tone};
-use crate::render::integrator::{Integrator, RenderStats};
+use crate::render::renderer::{RenderStats, Renderer};
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
-
-/// The number of primitives above which a picture without a tree takes a long time.
-const MANY_PRIMITIVES: usize = 200;
 
 /// Runs the command. Exit codes: 0 for success, 1 if the submission's code panicked, 2 for invalid
 /// input, 130 after Ctrl-C.
@@ -65,7 +63,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     }
 }
 
-/// The events while a picture is rendered.
+/// The events that occur while a picture is rendered.
 struct Events {
     sender: Sender<Event>,
     receiver: Receiver<Event>,
@@ -86,7 +84,8 @@ impl Events {
     fn keep_picture_on_ctrl_c(&self) -> Result<(), RenderError> {
         let (sender, has_picture) = (self.sender.clone(), Arc::clone(&self.has_picture));
         ctrlc::set_handler(move || {
-            // Only keep it the first time, so that a second Ctrl-C always ends the process.
+            // Only keep the picture the first time, so that a second Ctrl-C always ends the
+            // process.
             let is_kept = has_picture.swap(false, Ordering::Relaxed);
             if !is_kept || sender.send(Event::Interrupted).is_err() {
                 std::process::exit(canvas::INTERRUPTED);
@@ -123,16 +122,8 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
     // only message.
     let corner = UVec2::ZERO;
     call(Some(corner), || first_hit(scene, world, corner))?;
-    if tree.nodes.is_empty() && !scene.shapes.is_empty() {
-        let count = scene.shapes.len();
-        let quick = if count > MANY_PRIMITIVES {
-            "; `--samples 4` is enough for a first look"
-        } else {
-            ""
-        };
-        eprintln!(
-            "note: task 3, build: no tree yet, so each ray may test all {count} primitives{quick}"
-        );
+    if let Some(note) = slow::note(submission, scene, tree) {
+        eprintln!("{note}");
     }
     let job = Job {
         options,
@@ -142,22 +133,36 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
         pool,
         out,
     };
+    let renderer = options.renderer(scene, world);
+    if let (true, Some(renderer)) = (options.bench, &renderer) {
+        let measured = bench::measure(&job, renderer.as_ref())?;
+        println!("{}", measured.compare(&files::bench_file(&path, pool))?);
+        return Ok(());
+    }
     let started = Instant::now();
-    let (film, stats) = render(&job, events)?;
+    let (film, stats) = match renderer {
+        Some(renderer) => render_light(&job, renderer.as_ref(), events)?,
+        None => render_hits(&job)?,
+    };
     let time = started.elapsed();
     image_file::write(&film, options.tone(), out)?;
     println!("{}", progress::summary(out, film.size, stats, time));
     if stats.invalid_paths > 0 {
+        let paths = match stats.invalid_paths {
+            1 => "path is",
+            _ => "paths are",
+        };
         eprintln!(
-            "note: paths that are black, because a hit contains NaN or infinity, a normal of \
-             length zero, or an unknown shape: {}",
+            "note: {} {paths} black because a hit contains NaN or infinity, a normal of length \
+             zero, or an unknown shape",
             stats.invalid_paths
         );
     }
     Ok(())
 }
 
-fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError> {
+/// Renders a picture of first hits.
+fn render_hits(job: &Job) -> Result<(Film, RenderStats), RenderError> {
     let Job {
         options,
         scene,
@@ -165,10 +170,6 @@ fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError
         ..
     } = *job;
     let size = scene.camera.pinhole.film;
-    if options.view == ViewMode::Shaded {
-        let integrator = Integrator::new(scene, world, options.settings(size));
-        return render_light(job, &integrator, events);
-    }
     let progress = Progress::new(u64::from(size.y), "");
     let first = |pixel, stats: &mut RenderStats| {
         stats.rays += 1;
@@ -185,7 +186,7 @@ fn render(job: &Job, events: &Events) -> Result<(Film, RenderStats), RenderError
 /// Renders the picture in passes and writes it every second.
 fn render_light(
     job: &Job,
-    integrator: &Integrator,
+    renderer: &dyn Renderer,
     events: &Events,
 ) -> Result<(Film, RenderStats), RenderError> {
     let Job { options, out, .. } = *job;
@@ -204,7 +205,7 @@ fn render_light(
         has_picture.store(true, Ordering::Relaxed);
         let rendering = scope.spawn(move || {
             let sample = |pixel, sample, stats: &mut RenderStats| {
-                integrator.sample_radiance(pixel, sample, stats)
+                renderer.sample_radiance(pixel, sample, stats)
             };
             let rendered = job.pool.accumulate(progress, canvas, samples, sample);
             // The receiver below is still alive.
@@ -231,7 +232,7 @@ fn first_hit(scene: &Scene, world: &World, pixel: UVec2) -> Option<Trace> {
 impl Options {
     fn tone(&self) -> Tone {
         match self.view {
-            ViewMode::Shaded => Tone::Light {
+            ViewMode::Shaded | ViewMode::Clay => Tone::Light {
                 stops: self.exposure,
             },
             ViewMode::Normals | ViewMode::Depth | ViewMode::Uv | ViewMode::Bvh => Tone::Data,

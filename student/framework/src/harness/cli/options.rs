@@ -6,8 +6,11 @@ use clap::Parser;
 use glam::UVec2;
 
 use crate::harness::view::ViewMode;
-use crate::render::integrator::RenderSettings;
-use crate::scene::MAX_FILM_SIDE;
+use crate::render::clay::Clay;
+use crate::render::integrator::{Integrator, PathSettings};
+use crate::render::renderer::Renderer;
+use crate::scene::{MAX_FILM_SIDE, Scene};
+use crate::submission::World;
 
 /// Renders a scene with your code
 #[derive(Debug, Parser)]
@@ -18,7 +21,7 @@ use crate::scene::MAX_FILM_SIDE;
     max_term_width = 100
 )]
 pub(super) struct Options {
-    /// A scene file, or the name of one in the folder `scenes`
+    /// A scene file, or the name of one in the `scenes` folder
     pub(super) scene: PathBuf,
 
     /// The picture to write: .png for screens, .exr for linear floats [default: the scene's name
@@ -29,7 +32,7 @@ pub(super) struct Options {
     #[arg(long = "out", value_name = "OUT", conflicts_with = "out")]
     pub(super) out_option: Option<PathBuf>,
 
-    /// Number of pixels across and up [default: as in the scene]
+    /// Width and height in pixels [default: as in the scene]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(super) size: Option<UVec2>,
 
@@ -37,7 +40,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) samples: u32,
 
-    /// Maximum number of times that a path is scattered
+    /// Maximum number of bounces per path
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(..=10_000))]
     pub(super) bounces: u32,
 
@@ -45,7 +48,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(super) seed: u64,
 
-    /// Number of threads; the picture does not depend on it [default: one per core]
+    /// Number of threads, which doesn't affect the picture [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
 
@@ -63,20 +66,33 @@ pub(super) struct Options {
     )]
     pub(super) exposure: f32,
 
-    /// Print the hit and the radiance of this pixel, counted from the bottom left, instead of
-    /// writing a picture
+    /// Instead of writing a picture, print the hit and the radiance of this pixel, counted from the
+    /// bottom left
     #[arg(long, value_name = "X,Y", value_parser = pixel)]
     pub(super) pixel: Option<UVec2>,
+
+    /// Instead of writing a picture, measure rays per second with one path per pixel and compare
+    /// the result with that of the last run
+    #[arg(long, conflicts_with_all = ["out", "out_option", "pixel", "view", "samples"])]
+    pub(super) bench: bool,
 }
 
 impl Options {
-    /// Returns the settings for a picture of this size.
-    pub(super) fn settings(&self, film: UVec2) -> RenderSettings {
-        RenderSettings {
-            film,
-            samples: self.samples,
-            bounces: self.bounces,
-            seed: self.seed,
+    /// Returns the renderer for the view, or `None` for a view of first hits. `world` must be made
+    /// from `scene`.
+    pub(super) fn renderer<'a>(
+        &self,
+        scene: &'a Scene,
+        world: &'a World,
+    ) -> Option<Box<dyn Renderer + 'a>> {
+        let Options { bounces, seed, .. } = *self;
+        match self.view {
+            ViewMode::Shaded => {
+                let settings = PathSettings { bounces, seed };
+                Some(Box::new(Integrator::new(scene, world, settings)))
+            }
+            ViewMode::Clay => Some(Box::new(Clay::new(scene, world, seed))),
+            ViewMode::Normals | ViewMode::Depth | ViewMode::Uv | ViewMode::Bvh => None,
         }
     }
 }
@@ -93,7 +109,7 @@ fn size(text: &str) -> Result<UVec2, String> {
 
 fn stops(text: &str) -> Result<f32, String> {
     let stops = text.parse().ok().filter(|stops: &f32| stops.abs() <= 100.0);
-    stops.ok_or_else(|| "expected a number of stops such as 1.5, from -100 to 100".to_owned())
+    stops.ok_or_else(|| "expected an exposure in stops, such as 1.5, from -100 to 100".to_owned())
 }
 
 fn pixel(text: &str) -> Result<UVec2, String> {

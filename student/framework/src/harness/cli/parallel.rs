@@ -8,7 +8,7 @@ use super::canvas::{Canvas, passes};
 use super::error::{RenderError, call};
 use super::progress::Progress;
 use crate::harness::probe::STACK_BYTES;
-use crate::render::integrator::RenderStats;
+use crate::render::renderer::RenderStats;
 
 /// The name of the threads, which appears in the message about a stack overflow.
 const THREAD_NAME: &str = "a ray, in Camera::sample_ray, Bvh::hit, BBox::hit, Triangle::hit or \
@@ -21,7 +21,7 @@ pub(super) struct RenderPool {
 }
 
 impl RenderPool {
-    /// Starts the given number of threads, or one per core.
+    /// Starts this many threads, or one per core if `threads` is `None`.
     pub(super) fn new(size: UVec2, threads: Option<u16>) -> Result<Self, RenderError> {
         let threads = ThreadPoolBuilder::new()
             .num_threads(threads.map_or(0, usize::from))
@@ -30,6 +30,16 @@ impl RenderPool {
             .build()
             .map_err(RenderError::threads)?;
         Ok(RenderPool { size, threads })
+    }
+
+    /// Returns the width and height of the film, in pixels.
+    pub(super) fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// Returns the number of threads.
+    pub(super) fn threads(&self) -> usize {
+        self.threads.current_num_threads()
     }
 
     /// Calls `pixel` for each pixel and returns the results, row by row from the bottom. A panic

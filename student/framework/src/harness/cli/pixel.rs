@@ -1,4 +1,5 @@
-//! Prints one pixel: the shape that is hit at its centre, and its radiance.
+//! Prints one pixel: the shape that is hit at its centre and, if the view shows light, its
+//! radiance.
 
 use std::fmt::Write;
 
@@ -8,12 +9,12 @@ use protocol::{Shape, Trace};
 use super::error::{RenderError, call};
 use super::first_hit;
 use super::options::Options;
-use crate::render::integrator::{Integrator, RenderStats};
+use crate::render::renderer::RenderStats;
 use crate::scene::{Material, Scene};
 use crate::submission::World;
 
-/// Prints the hit and the radiance of one pixel without rendering anything else. This is useful in
-/// a debugger.
+/// Prints the hit and the radiance, if any, of one pixel without rendering anything else. This is
+/// useful in a debugger.
 pub(super) fn print(
     pixel: UVec2,
     options: &Options,
@@ -30,14 +31,16 @@ pub(super) fn print(
     let hit = call(Some(pixel), || first_hit(scene, world, pixel))?;
     print!("{}", description(pixel, scene, names, hit.as_ref()));
 
-    let integrator = Integrator::new(scene, world, options.settings(size));
+    let Some(renderer) = options.renderer(scene, world) else {
+        return Ok(());
+    };
     let mut stats = RenderStats {
         rays: 1,
         ..RenderStats::default()
     };
-    let radiance = || integrator.pixel_radiance(pixel, &mut stats);
-    let light = call(Some(pixel), radiance)?;
     let samples = options.samples;
+    let radiance = || renderer.pixel_radiance(pixel, samples, &mut stats);
+    let light = call(Some(pixel), radiance)?;
     println!(
         "  radiance  {light}, from {samples} samples and {} rays",
         stats.rays
@@ -71,7 +74,7 @@ fn description(pixel: UVec2, scene: &Scene, names: &[String], hit: Option<&Trace
 
 fn shape_name(scene: &Scene, number: u32) -> String {
     let Some(shape) = scene.shapes.get(number as usize) else {
-        return "unknown, because the hit's number is not that of a shape".to_owned();
+        return "unknown, because no shape has the hit's number".to_owned();
     };
     let triangle = |[a, b, c]: [Vec3; 3]| format!("a triangle with corners {a}, {b} and {c}");
     let name = match *shape {

@@ -1,14 +1,16 @@
-//! Shows a progress bar while rendering and a summary afterwards.
+//! Shows a progress bar while rendering and a summary afterwards, and messages if something takes a
+//! long time.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use glam::UVec2;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::harness::cli::notice::Notice;
-use crate::render::integrator::RenderStats;
+use crate::render::renderer::RenderStats;
 
 /// How long rendering without a progress bar stays silent before it says that it is still running.
 const LONG: Duration = Duration::from_secs(10);
@@ -41,7 +43,7 @@ impl Progress {
         }
     }
 
-    /// Records that one more row has got this many samples.
+    /// Records that this many samples have been added to one more row.
     pub(super) fn finish_row(&self, stats: RenderStats, samples: u64) {
         let rays = self.rays.fetch_add(stats.rays, Ordering::Relaxed) + stats.rays;
         self.invalid_paths
@@ -55,6 +57,7 @@ impl Progress {
         RenderStats {
             rays: self.rays.load(Ordering::Relaxed),
             invalid_paths: self.invalid_paths.load(Ordering::Relaxed),
+            ..RenderStats::default()
         }
     }
 }
@@ -81,4 +84,22 @@ pub(super) fn summary(path: &Path, size: UVec2, stats: RenderStats, time: Durati
 fn rate(rays: u64, time: Duration) -> String {
     let seconds = time.as_secs_f64().max(1e-9);
     format!("{:.2} Mrays/s", rays as f64 * 1e-6 / seconds)
+}
+
+/// A message that is printed to standard error if this value still exists after a certain time.
+pub(super) struct Notice {
+    /// Dropping this ends the waiting thread.
+    _ended: Sender<()>,
+}
+
+impl Notice {
+    pub(super) fn after(time: Duration, message: String) -> Self {
+        let (ended, receiver) = channel();
+        thread::spawn(move || {
+            if receiver.recv_timeout(time) == Err(RecvTimeoutError::Timeout) {
+                eprintln!("{message}");
+            }
+        });
+        Notice { _ended: ended }
+    }
 }

@@ -1,6 +1,6 @@
-//! The steps before the first pixel. Each step prints what it is doing, since an endless loop would
-//! otherwise look like a large scene. Each runs on a thread named after the task, since the message
-//! about a stack overflow contains only the thread's name.
+//! The steps before the first pixel. Each step prints what it is doing, since an infinite loop
+//! would otherwise look like a large scene. Each runs on a thread named after the task, since the
+//! message about a stack overflow contains only the thread's name.
 
 use std::thread;
 use std::time::Duration;
@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use protocol::{Interval, Ray, Shape, Tree};
 
 use super::error::{RenderError, call};
-use super::notice::Notice;
+use super::progress::Notice;
 use crate::harness::attempt::attempt;
 use crate::harness::probe::STACK_BYTES;
 use crate::scene::Scene;
@@ -36,7 +36,7 @@ pub(super) fn show<T>(step: &str, code: impl FnOnce() -> T) -> T {
     value
 }
 
-/// Runs a step of the submission's code on a separate thread named after the task.
+/// Runs a step that calls the submission's code, on a separate thread named after the task.
 fn run<T: Send>(
     task: &str,
     step: &str,
@@ -118,13 +118,13 @@ pub(super) fn try_methods(
     })
 }
 
-/// Returns a message if a camera ray contains NaN or infinity. Otherwise, only its hits would look
-/// wrong.
+/// Returns a message if a camera ray contains NaN or infinity. Without this message, only the ray's
+/// hits would look wrong.
 fn not_numbers(ray: &Ray) -> Option<String> {
     let is_finite = ray.origin.is_finite() && ray.dir.is_finite();
     (!is_finite).then(|| {
         format!(
-            "note: task 1, camera: the ray through the middle of the film is not made of numbers, so it \
+            "note: task 1, camera: the ray through the middle of the film contains NaN or infinity, so it \
              hits nothing: origin {}, dir {}",
             ray.origin, ray.dir
         )

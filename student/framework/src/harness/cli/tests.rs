@@ -28,8 +28,8 @@ const SCENE: &str = r#"{
   ]
 }"#;
 
-/// Runs the command with the output file `out` and more arguments. Returns the bytes of the file,
-/// or the error message.
+/// Runs the command with the output file `out` and the additional arguments `more`. Returns the
+/// bytes of the file, or the error message.
 fn render(submission: &dyn Submission, out: &str, more: &str) -> Result<Vec<u8>, String> {
     let folder = Folder::new();
     let scene = folder.write("spheres.json", SCENE).display().to_string();
@@ -68,7 +68,7 @@ fn the_upper_rows_of_the_picture_come_first_in_the_file() {
 
 #[test]
 fn every_view_can_be_rendered() {
-    for view in ["shaded", "normals", "depth", "uv", "bvh"] {
+    for view in ["shaded", "clay", "normals", "depth", "uv", "bvh"] {
         picture("a.png", &format!("--samples 1 --view {view}"));
     }
 }
@@ -79,7 +79,7 @@ fn reports_bad_input_before_rendering() {
     assert!(error("a.jpg", "").ends_with("use a file name that ends in .png or .exr"));
     assert!(error("none/a.png", "").ends_with("none: it does not exist"));
     assert!(error("a.png", "--size 0x4").contains("each side must be from 1 to 16384"));
-    assert!(error("a.png", "--view heat").contains("possible values: shaded, normals"));
+    assert!(error("a.png", "--view heat").contains("possible values: shaded, clay"));
     assert!(error("a.png", "--pixel 12,0").contains("outside the film, which has 12 x 8"));
 }
 

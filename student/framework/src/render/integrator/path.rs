@@ -1,46 +1,27 @@
 //! Traces one path, starting at the camera.
 
-use glam::{UVec2, Vec2, Vec3};
-use protocol::{Interval, Ray, Shape};
+use glam::{UVec2, Vec3};
+use protocol::Ray;
 
-use super::offset;
-use super::optics::{interface, reflect};
-use super::{Integrator, RenderStats};
-use crate::render::frame::{Frame, sample_cosine_hemisphere};
-use crate::render::sampler::{Purpose, Sampler};
+use super::Integrator;
+use super::material::{Glass, Lambertian, Mirror, Scattered};
+use crate::render::frame::Frame;
+use crate::render::light::{LightSample, LightSource};
+use crate::render::offset;
+use crate::render::renderer::{InvalidSample, RenderStats, Renderer};
+use crate::render::sampler::{Purpose, RandomNumbers, Sampler};
+use crate::render::tracer::Surface;
 use crate::scene::{Material, checker};
 
-/// An error returned if a sample's path contains an unusable hit from the submission, such as one
-/// with NaN.
-pub(super) struct InvalidSample;
+/// The first bounce after which a path may end by chance.
+const ROULETTE_START: u32 = 3;
 
-/// The surface at the point where a path hits it.
-struct Surface<'a> {
-    shape: &'a Shape,
-    /// The origin of the ray that hit the surface.
-    eye: Vec3,
-    position: Vec3,
-    /// The normal, of length one, on the side that the ray comes from.
-    normal: Vec3,
-    /// Whether the submission's normal also points to that side.
-    outside: bool,
-    uv: Vec2,
-    material: Material,
-}
+/// The limits of the probability that a path survives.
+const SURVIVAL: (f32, f32) = (0.05, 0.95);
 
-/// The continuation of a path after it is scattered.
-struct Scattered {
-    direction: Vec3,
-    /// The factor applied to light that arrives from `direction`.
-    attenuation: Vec3,
-    /// Whether light sampling already accounts for direct light. If so, a light that the path hits
-    /// by chance must not be added again.
-    direct_light_sampled: bool,
-}
-
-impl Integrator<'_> {
+impl Renderer for Integrator<'_> {
     /// Returns the radiance along one path.
-    pub(super) fn trace_path(
+    fn trace_sample(
         &self,
         pixel: UVec2,
         sample: u32,
@@ -48,40 +29,50 @@ impl Integrator<'_> {
     ) -> Result<Vec3, InvalidSample> {
         let sampler = Sampler::new(self.settings.seed, pixel, sample);
         let offset = sampler.pair(0, Purpose::Pixel);
-        let camera_ray = self.world.camera.ray(pixel, offset);
-        let mut ray = self.scene.camera.placement.to_world(&camera_ray);
-
+        let mut ray = self.tracer.camera_ray(pixel, offset);
         let mut light = Vec3::ZERO;
         let mut throughput = Vec3::ONE;
-        let mut direct_light_sampled = false;
+        // Where the path was last scattered by a matte surface, and the probability density of the
+        // direction. `None` after the camera, a mirror or glass.
+        let mut from: Option<(Vec3, f32)> = None;
         for bounce in 0..=self.settings.bounces {
-            let Some(surface) = self.intersect(&ray, stats)? else {
-                light += throughput * self.scene.environment;
+            let Some(surface) = self.tracer.intersect(&ray, stats)? else {
+                let weight = self.weight(from, LightSource::Environment, &ray, f32::INFINITY);
+                light += throughput * weight * self.tracer.scene.environment.radiance(ray.dir);
                 break;
             };
-            if let Some(radiance) = surface.material.emitted()
-                && surface.outside
-                && !direct_light_sampled
-            {
-                light += throughput * radiance;
+            let material = self.material(&surface)?;
+            if let Some(radiance) = material.emitted().filter(|_| surface.outside) {
+                let source = LightSource::Shape(surface.shape.number());
+                let distance = surface.eye.distance(surface.position);
+                light += throughput * self.weight(from, source, &ray, distance) * radiance;
             }
             if bounce == self.settings.bounces {
                 break;
             }
-            let direct = self.direct_light(&surface, bounce, &sampler, stats)?;
-            light += throughput * direct;
-            let Some(scattered) = surface.scatter(ray.dir, bounce, &sampler) else {
+            let numbers = sampler.numbers(bounce);
+            let frame = frame(material, &surface);
+            let matte = matte(material, &surface);
+            if let Some(matte) = matte {
+                light += throughput * self.direct_light(&surface, frame, matte, &numbers, stats)?;
+            }
+            let Some(scattered) = scatter(material, matte, &numbers, frame.to_local(surface.out))
+            else {
                 break;
             };
             throughput *= scattered.attenuation;
-            direct_light_sampled = scattered.direct_light_sampled;
-            // After a matte surface, the last ray can only add light from the environment.
-            let last = bounce + 1 == self.settings.bounces;
-            let dark = self.scene.environment == Vec3::ZERO;
-            if throughput == Vec3::ZERO || last && direct_light_sampled && dark {
+            if bounce >= ROULETTE_START {
+                let survival = throughput.max_element().clamp(SURVIVAL.0, SURVIVAL.1);
+                if numbers.survive >= survival {
+                    break;
+                }
+                throughput /= survival;
+            }
+            if throughput == Vec3::ZERO {
                 break;
             }
-            ray = surface.leave(scattered.direction, f32::INFINITY);
+            ray = surface.leave(frame.to_world(scattered.direction), f32::INFINITY);
+            from = scattered.pdf.map(|pdf| (surface.position, pdf));
         }
         if light.is_finite() {
             Ok(light)
@@ -89,131 +80,113 @@ impl Integrator<'_> {
             Err(InvalidSample)
         }
     }
+}
 
-    /// Returns the direct light from one sampled light that the surface scatters back along the
+impl Integrator<'_> {
+    /// Returns the material of a surface.
+    fn material(&self, surface: &Surface) -> Result<&Material, InvalidSample> {
+        let material = self.tracer.scene.material_of(surface.shape.number());
+        material.ok_or(InvalidSample)
+    }
+
+    /// Returns the direct light from one sampled light that a matte surface scatters back along the
     /// path.
+    ///
+    /// The path itself can also reach this light by chance. So there are two samples of the light,
+    /// and each is divided by the sum of both densities: the balance heuristic. The light sample
+    /// decides where a light is small or far away, and the scattering sample where it is large or
+    /// close. See Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo
+    /// Rendering", SIGGRAPH 1995, section 3.2.
     fn direct_light(
         &self,
         surface: &Surface,
-        bounce: u32,
-        sampler: &Sampler,
+        frame: Frame,
+        matte: Lambertian,
+        numbers: &RandomNumbers,
         stats: &mut RenderStats,
     ) -> Result<Vec3, InvalidSample> {
-        let Some(albedo) = surface.albedo() else {
+        let from = surface.position;
+        let Some(sample) = self.lights.sample(from, numbers.light, numbers.on_light) else {
             return Ok(Vec3::ZERO);
         };
-        let choice = sampler.one(bounce, Purpose::Light);
-        let position = sampler.pair(bounce, Purpose::PointOnLight);
-        let Some(sample) = self.lights.sample(surface.position, choice, position) else {
-            return Ok(Vec3::ZERO);
-        };
-        let cosine = sample.direction.dot(surface.normal);
-        // The ray ends just before the light, so that the light doesn't block itself.
-        let light = &self.scene.shapes[sample.shape as usize];
-        let on_light = surface.position + sample.distance * sample.direction;
-        let end = offset::along_ray(light, surface.position, on_light, sample.direction);
-        let shadow = surface.leave(sample.direction, sample.distance - end);
-        if cosine <= 0.0 || shadow.range.is_empty() {
+        let LightSample {
+            source,
+            direction,
+            distance,
+            radiance,
+        } = sample;
+        let (out, incoming) = (frame.to_local(surface.out), frame.to_local(direction));
+        let shadow = surface.leave(direction, distance - self.margin(&sample, from));
+        let value = matte.evaluate(out, incoming);
+        if value == Vec3::ZERO || shadow.range.is_empty() {
             return Ok(Vec3::ZERO);
         }
-        match self.intersect(&shadow, stats)? {
-            Some(_) => Ok(Vec3::ZERO),
-            None => Ok(albedo * std::f32::consts::FRAC_1_PI * cosine * sample.radiance),
+        if self.tracer.intersect(&shadow, stats)?.is_some() {
+            return Ok(Vec3::ZERO);
         }
+        let light_pdf = self.lights.pdf(source, from, direction, distance);
+        Ok(value * radiance / (light_pdf + matte.pdf(out, incoming)))
     }
 
-    /// Traces a ray with the submission's code and checks the result before it is used.
-    fn intersect(
+    /// Returns how far before a light a ray toward it must end, so that the light doesn't block
+    /// itself.
+    fn margin(&self, sample: &LightSample, from: Vec3) -> f32 {
+        let LightSource::Shape(index) = sample.source else {
+            return 0.0;
+        };
+        let shape = &self.tracer.scene.shapes[index as usize];
+        let on_light = from + sample.distance * sample.direction;
+        offset::along_ray(shape, from, on_light, sample.direction)
+    }
+
+    /// Returns the weight of light that a path reaches by chance, from 0 to 1. The rest was added by
+    /// [`Integrator::direct_light`].
+    fn weight(
         &self,
+        from: Option<(Vec3, f32)>,
+        source: LightSource,
         ray: &Ray,
-        stats: &mut RenderStats,
-    ) -> Result<Option<Surface<'_>>, InvalidSample> {
-        stats.rays += 1;
-        if !ray.origin.is_finite() || !ray.dir.is_finite() {
-            return Err(InvalidSample);
-        }
-        let Some(trace) = self.world.bvh.closest_hit(ray) else {
-            return Ok(None);
-        };
-        // In a scene, a shape's number is its index.
-        let shape = self.scene.shapes.get(trace.shape as usize);
-        let material = self.scene.material_of(trace.shape);
-        let normal = trace.normal.try_normalize();
-        let (Some(shape), Some(&material), Some(normal)) = (shape, material, normal) else {
-            return Err(InvalidSample);
-        };
-        if !trace.position.is_finite() || !trace.uv.is_finite() {
-            return Err(InvalidSample);
-        }
-        let outside = ray.dir.dot(normal) < 0.0;
-        Ok(Some(Surface {
-            shape,
-            eye: ray.origin,
-            position: trace.position,
-            normal: if outside { normal } else { -normal },
-            outside,
-            uv: trace.uv,
-            material,
-        }))
+        distance: f32,
+    ) -> f32 {
+        from.map_or(1.0, |(position, pdf)| {
+            pdf / (pdf + self.lights.pdf(source, position, ray.dir, distance))
+        })
     }
 }
 
-impl Surface<'_> {
-    /// Returns the ray that leaves the surface in direction `dir` and ends at distance `max`. It
-    /// starts far enough away not to hit the surface itself.
-    fn leave(&self, dir: Vec3, max: f32) -> Ray {
-        let min = offset::along_ray(self.shape, self.eye, self.position, dir);
-        Ray {
-            origin: self.position,
-            dir,
-            range: Interval::new(min, max),
-        }
-    }
+/// Returns how a matte surface scatters, or `None` for other materials.
+fn matte(material: &Material, surface: &Surface) -> Option<Lambertian> {
+    let albedo = match *material {
+        Material::Lambertian { albedo } => albedo,
+        Material::Checker { a, b, scale } => checker(a, b, scale, surface.uv),
+        Material::Mirror { .. } | Material::Glass { .. } | Material::Emitter { .. } => return None,
+    };
+    Some(Lambertian { albedo })
+}
 
-    /// Returns the albedo of a matte surface, or `None` for other materials.
-    fn albedo(&self) -> Option<Vec3> {
-        match self.material {
-            Material::Lambertian { albedo } => Some(albedo),
-            Material::Checker { a, b, scale } => Some(checker(a, b, scale, self.uv)),
-            Material::Mirror { .. } | Material::Glass { .. } | Material::Emitter { .. } => None,
-        }
-    }
+/// Returns the frame of a surface, as the materials expect it.
+fn frame(material: &Material, surface: &Surface) -> Frame {
+    let is_inside_glass = matches!(material, Material::Glass { .. }) && !surface.outside;
+    Frame::from_z(if is_inside_glass {
+        -surface.normal
+    } else {
+        surface.normal
+    })
+}
 
-    /// Samples the continuation of a path, or returns `None` if the path ends at this surface.
-    fn scatter(&self, incoming: Vec3, bounce: u32, sampler: &Sampler) -> Option<Scattered> {
-        match self.material {
-            Material::Lambertian { .. } | Material::Checker { .. } => {
-                let around_normal =
-                    sample_cosine_hemisphere(sampler.pair(bounce, Purpose::Direction));
-                Some(Scattered {
-                    direction: Frame::from_z(self.normal).to_world(around_normal),
-                    // The cosine and the 1/π of the BRDF cancel with the probability density.
-                    attenuation: self.albedo()?,
-                    direct_light_sampled: true,
-                })
-            }
-            Material::Mirror { reflectance } => Some(Scattered {
-                direction: reflect(incoming, self.normal),
-                attenuation: reflectance,
-                direct_light_sampled: false,
-            }),
-            Material::Glass { ior } => {
-                let eta = if self.outside { ior } else { 1.0 / ior };
-                let interface = interface(incoming, self.normal, eta);
-                let choice = sampler.one(bounce, Purpose::ReflectOrRefract);
-                let direction = interface
-                    .refracted
-                    .filter(|_| choice >= interface.reflectance);
-                Some(Scattered {
-                    direction: direction.unwrap_or_else(|| reflect(incoming, self.normal)),
-                    // The probability of each direction equals its share of the light, so the two
-                    // cancel. Radiance should grow by eta² on entry and shrink by it on exit, so
-                    // the factor is left out both times.
-                    attenuation: Vec3::ONE,
-                    direct_light_sampled: false,
-                })
-            }
-            Material::Emitter { .. } => None,
+/// Samples the continuation of a path in the surface's frame. Returns `None` if the path ends there.
+fn scatter(
+    material: &Material,
+    matte: Option<Lambertian>,
+    numbers: &RandomNumbers,
+    out: Vec3,
+) -> Option<Scattered> {
+    match *material {
+        Material::Lambertian { .. } | Material::Checker { .. } => {
+            matte.map(|matte| matte.scatter(out, numbers.scatter))
         }
+        Material::Mirror { reflectance } => Some(Mirror { reflectance }.scatter(out)),
+        Material::Glass { ior } => Some(Glass { ior }.scatter(out, numbers.reflect)),
+        Material::Emitter { .. } => None,
     }
 }

@@ -20,14 +20,6 @@ pub(super) enum LightShape {
     Sphere { center: Vec3, radius: f32 },
 }
 
-/// A point on a light, as seen from a given point.
-pub(super) struct ShapeSample {
-    pub(super) direction: Vec3,
-    pub(super) distance: f32,
-    /// The inverse of the probability density of this direction.
-    pub(super) solid_angle: f32,
-}
-
 impl LightShape {
     /// Creates the light's shape from a shape of the scene.
     pub(super) fn of(shape: &Shape) -> Self {
@@ -66,60 +58,76 @@ impl LightShape {
         }
     }
 
-    /// Samples a point on the light with two random numbers in `[0, 1)`. Returns `None` if the
-    /// light doesn't emit from there toward `point`.
-    pub(super) fn sample(&self, point: Vec3, random: Vec2) -> Option<ShapeSample> {
+    /// Samples a direction from `from` toward the light with two random numbers in `[0, 1)`. Returns
+    /// the direction and the distance to the light. Returns `None` if the light doesn't emit in that
+    /// direction.
+    pub(super) fn sample(&self, from: Vec3, random: Vec2) -> Option<(Vec3, f32)> {
         match *self {
             LightShape::Triangle {
                 corners: [p0, p1, p2],
                 normal,
-                area,
+                ..
             } => {
                 // See Turk, "Generating Random Points in Triangles", Graphics Gems, 1990.
                 let root = random.x.sqrt();
                 let on_light = p0 * (1.0 - root) + (p1 * (1.0 - random.y) + p2 * random.y) * root;
-                let to_light = on_light - point;
-                let distance = to_light.length();
-                let direction = to_light / distance;
-                let cosine = -direction.dot(normal);
-                (cosine > 0.0 && distance > 0.0).then_some(ShapeSample {
-                    direction,
-                    distance,
-                    solid_angle: area * cosine / (distance * distance),
-                })
+                let distance = from.distance(on_light);
+                let direction = (on_light - from) / distance;
+                (direction.dot(normal) < 0.0).then_some((direction, distance))
             }
-            LightShape::Sphere { center, radius } => sample_cone(center, radius, point, random),
+            LightShape::Sphere { center, radius } => {
+                let (to_center, span) = cone(center, radius, from)?;
+                let (direction, sine) = sample_cone(to_center, span, random);
+                // Half of the chord that the ray cuts from the sphere. It is 0 at the silhouette.
+                let squared = from.distance_squared(center);
+                let half_chord = (radius * radius - squared * sine * sine).max(0.0).sqrt();
+                Some((direction, direction.dot(center - from) - half_chord))
+            }
+        }
+    }
+
+    /// Returns the probability density, per solid angle, with which [`LightShape::sample`] returns
+    /// this direction, which leads to the light and has length one. `distance` is the distance to
+    /// the light.
+    pub(super) fn pdf(&self, from: Vec3, direction: Vec3, distance: f32) -> f32 {
+        match *self {
+            LightShape::Triangle { normal, area, .. } => {
+                let cosine = -direction.dot(normal);
+                if cosine > 0.0 {
+                    distance * distance / (cosine * area)
+                } else {
+                    0.0
+                }
+            }
+            LightShape::Sphere { center, radius } => {
+                cone(center, radius, from).map_or(0.0, |(_, span)| 1.0 / (TAU * span))
+            }
         }
     }
 }
 
-/// Samples a direction in the cone that a sphere subtends, seen from outside. See Shirley, Wang and
-/// Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1), 1996.
-fn sample_cone(center: Vec3, radius: f32, point: Vec3, random: Vec2) -> Option<ShapeSample> {
-    let to_center = center - point;
+/// Returns the cone that a sphere subtends: the direction to its centre, and 1 − the cosine of its
+/// half angle. Returns `None` inside the sphere, since spheres emit outward.
+fn cone(center: Vec3, radius: f32, from: Vec3) -> Option<(Vec3, f32)> {
+    let to_center = center - from;
     let squared = to_center.length_squared();
-    // A point inside the sphere gets no light, because spheres emit outward.
     if squared <= radius * radius {
         return None;
     }
     let sine_squared = (radius * radius / squared).min(1.0);
-    // 1 − cos of the cone's half angle, computed without cancellation for a sphere far away.
+    // Computed without cancellation for a sphere far away.
     let span = sine_squared / (1.0 + (1.0 - sine_squared).sqrt());
+    Some((to_center / squared.sqrt(), span))
+}
+
+/// Samples a direction in a cone. Also returns the sine of its angle to the axis. See Shirley, Wang and Zimmerman, "Monte Carlo Techniques for
+/// Direct Lighting Calculations", ACM TOG 15(1), 1996.
+fn sample_cone(axis: Vec3, span: f32, random: Vec2) -> (Vec3, f32) {
     let rise = random.x * span;
-    let cosine = 1.0 - rise;
     let sine = (rise * (2.0 - rise)).max(0.0).sqrt();
     let (sin, cos) = sin_cos(TAU * random.y);
-    let center_distance = squared.sqrt();
-    let frame = Frame::from_z(to_center / center_distance);
-    let direction = frame.to_world(Vec3::new(sine * cos, sine * sin, cosine));
-
-    // Half of the chord that the ray cuts from the sphere. It is 0 at the silhouette.
-    let half_chord = (radius * radius - squared * sine * sine).max(0.0).sqrt();
-    Some(ShapeSample {
-        direction,
-        distance: center_distance * cosine - half_chord,
-        solid_angle: TAU * span,
-    })
+    let in_cone = Vec3::new(sine * cos, sine * sin, 1.0 - rise);
+    (Frame::from_z(axis).to_world(in_cone), sine)
 }
 
 #[cfg(test)]
@@ -136,8 +144,8 @@ mod tests {
         let light = (0..count).map(|n| {
             let random = Sampler::new(0, Default::default(), n).pair(0, Purpose::PointOnLight);
             let sample = shape.sample(Vec3::ZERO, random);
-            sample.map_or(0.0, |sample| {
-                sample.direction.y.max(0.0) * sample.solid_angle
+            sample.map_or(0.0, |(direction, distance)| {
+                direction.y.max(0.0) / shape.pdf(Vec3::ZERO, direction, distance)
             })
         });
         light.sum::<f32>() / count as f32
@@ -169,11 +177,13 @@ mod tests {
         ];
         let upward = LightShape::triangle(corners, Vec3::Y);
         assert!(upward.sample(Vec3::ZERO, vec2(0.5, 0.5)).is_none());
+        assert_eq!(upward.pdf(Vec3::ZERO, Vec3::Y, 2.0), 0.0);
         let around = LightShape::Sphere {
             center: Vec3::ZERO,
             radius: 1.0,
         };
         assert!(around.sample(Vec3::ZERO, vec2(0.5, 0.5)).is_none());
         assert!(around.sample(vec3(0.5, 0.0, 0.0), vec2(0.5, 0.5)).is_none());
+        assert_eq!(around.pdf(vec3(0.5, 0.0, 0.0), Vec3::X, 0.5), 0.0);
     }
 }

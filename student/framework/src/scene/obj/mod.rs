@@ -15,7 +15,7 @@ use super::mesh::Face;
 use super::text_file::read_bytes;
 use super::triangulate::triangulate;
 
-/// The maximum number of corners of a face. Splitting a face takes cubic time in the worst case.
+/// The maximum number of corners in a face. Splitting a face takes cubic time in the worst case.
 const MAX_CORNERS: usize = 1000;
 
 /// The line of an error, if known, and its message.
@@ -43,7 +43,7 @@ fn parse(text: &str) -> Result<Vec<Face>, SceneError> {
 /// The kinds of lines that faces refer to by index, in the order of the indices in a face corner.
 const INDEXED: [(&str, &str); 3] = [("v", "position"), ("vt", "uv"), ("vn", "normal")];
 
-/// Splits a text into statements, each with the number of its first line: removes comments, which
+/// Splits the text into statements, each with the number of its first line: removes comments, which
 /// may follow a statement on its line, and joins lines that end in a backslash.
 fn statements(text: &str) -> Vec<(usize, Vec<&str>)> {
     let mut statements: Vec<(usize, Vec<&str>)> = Vec::new();
@@ -99,8 +99,8 @@ fn check(statements: &[(usize, Vec<&str>)]) -> Result<(String, Vec<CheckedFace>)
     Ok((text, faces))
 }
 
-/// Returns the numbers of a statement that the mesh uses, if all are finite. `v` may be followed by
-/// a weight or a colour, and the second number of `vt` may be missing.
+/// Returns those numbers in a statement that the mesh uses, if all of them are finite. `v` may be
+/// followed by a weight or a colour, and the second number of `vt` may be missing.
 fn check_numbers<'a>(
     (kind, name): (&str, &str),
     words: &[&'a str],
@@ -116,13 +116,14 @@ fn check_numbers<'a>(
     let given = words.len();
     if given < needed {
         return Err(format!(
-            "a {name} needs {needed} {noun}, and this has {given}"
+            "a {name} needs {needed} {noun}, but this one has {given}"
         ));
     }
     Ok(words.iter().copied().chain(["0"]).take(used).collect())
 }
 
-/// Checks the corners of a face. `so_far` contains the numbers of elements before the face's line.
+/// Checks the corners of a face. `so_far` contains the number of elements of each kind before the
+/// face's line.
 fn check_face(
     line: usize,
     words: &[&str],
@@ -132,12 +133,12 @@ fn check_face(
     let corners = words.len();
     if corners < 3 {
         return Err(format!(
-            "a face needs 3 corners or more, and this has {corners}"
+            "a face needs at least 3 corners, but this one has {corners}"
         ));
     }
     if corners > MAX_CORNERS {
         return Err(format!(
-            "a face can have up to {MAX_CORNERS} corners, and this has {corners}: export the mesh as \
+            "a face can have up to {MAX_CORNERS} corners, but this one has {corners}: export the mesh as \
              triangles"
         ));
     }
@@ -145,8 +146,8 @@ fn check_face(
     let forms: Vec<[bool; 3]> = forms.collect::<Result<_, _>>()?;
     if let Some(other) = forms.iter().position(|form| *form != forms[0]) {
         return Err(format!(
-            "the corners `{}` and `{}` differ: give either all corners of a face a uv, and all a \
-             normal, or none",
+            "the corners `{}` and `{}` differ: in each face, either all corners or none must have a uv, and \
+             the same goes for normals",
             words[0], words[other]
         ));
     }
@@ -161,7 +162,7 @@ fn check_face(
 
 /// Checks a face corner such as `7`, `7/1`, `7//3` or `7/1/3`. Returns which indices it contains. A
 /// negative index counts backward from the last element before the current line. Like other
-/// programs, ignores the indices of uvs and normals if the file has none.
+/// programs, this function ignores the indices of uvs and normals if the file has none.
 fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bool; 3], String> {
     let mut form = [false; 3];
     for (i, text) in word.split('/').enumerate() {
@@ -180,7 +181,7 @@ fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bo
         let limit = if index > 0 { total } else { so_far[i] };
         if index == 0 || index.unsigned_abs() > limit {
             return Err(format!(
-                "there is no {name} {index}: the indices are 1 to {total}"
+                "there is no {name} {index}: the indices go from 1 to {total}"
             ));
         }
         form[i] = true;
@@ -205,8 +206,8 @@ fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
         let corners = parsed.indices[first..][..face.corners].iter();
         let points = corners.map(|&i| positions[i as usize].as_dvec3());
         let triangles = triangulate(&points.collect::<Vec<DVec3>>()).ok_or_else(|| {
-            let message = "the outline of this face crosses itself: list the corners in order, all \
-                           around, or export the mesh as triangles";
+            let message = "the outline of this face crosses itself: list the corners in order \
+                           around it, or export the mesh as triangles";
             (Some(face.line), message.to_owned())
         })?;
         for triangle in triangles {

@@ -1,4 +1,4 @@
-//! Tests of the parser of OBJ files.
+//! Tests of the parser for OBJ files.
 
 use super::*;
 
@@ -12,7 +12,7 @@ fn corners(mesh: &[Face]) -> Vec<[Vec3; 3]> {
     mesh.iter().map(|face| face.corners).collect()
 }
 
-/// Checks the error of a text that begins with four positions.
+/// Checks the error for a text that begins with four positions.
 fn check(rest: &str, expected: &str) {
     let error = parse(&format!("{POSITIONS}{rest}")).expect_err("the text is invalid");
     let message = error.to_string();
@@ -88,7 +88,7 @@ fn faces_with_and_without_normals_can_be_mixed() {
 fn reports_the_line_and_the_reason() {
     check(
         "f 1 2 5\n",
-        ":5: there is no position 5: the indices are 1 to 4",
+        ":5: there is no position 5: the indices go from 1 to 4",
     );
     check("vn 0 0 1\nf 1//1 2//1 3//2\n", ":6: there is no normal 2");
     check("f 0 1 2\n", ":5: there is no position 0");
@@ -98,16 +98,19 @@ fn reports_the_line_and_the_reason() {
         "vn 0 0 1\nf 1//1 2 \\\n3//1\n",
         ":6: the corners `1//1` and `2` differ",
     );
-    check("v 0 1\n", ":5: a position needs 3 numbers, and this has 2");
-    check("vt\n", ":5: a uv needs 1 number, and this has 0");
+    check(
+        "v 0 1\n",
+        ":5: a position needs 3 numbers, but this one has 2",
+    );
+    check("vt\n", ":5: a uv needs 1 number, but this one has 0");
     check(
         "f 1 2\n",
-        ":5: a face needs 3 corners or more, and this has 2",
+        ":5: a face needs at least 3 corners, but this one has 2",
     );
     let many = format!("f{}\n", " 1".repeat(1001));
     check(
         &many,
-        ":5: a face can have up to 1000 corners, and this has 1001",
+        ":5: a face can have up to 1000 corners, but this one has 1001",
     );
     check("", "has no faces");
     for word in "nan inf 1e99 0x1 0,5 1d5 1.#QNAN0 -1.#IND00 1\u{fffd}".split(' ') {

@@ -1,0 +1,278 @@
+//! Completes a class's entries from the roster and the platforms' gradebooks.
+
+use std::collections::BTreeSet;
+
+use grader::handed_out::HandedOut;
+use grader::policy::Policy;
+use judging::sanitize::sanitize_line;
+
+use crate::cli::Lists;
+use crate::entry::{EntryInfo, Person};
+use crate::error::Error;
+use crate::groups;
+use crate::late::warn_about_extensions;
+use crate::list_kind::ListKind;
+use crate::manual_points::ManualPointsList;
+use crate::names::joined;
+use crate::roster::{self, Member};
+
+/// The maximum length of a name in a message, in characters.
+const MAX_CHARS: usize = 200;
+
+/// Facts about a class that were found in the lists.
+#[derive(Debug, Default)]
+pub struct ListFindings {
+    /// The people on the lists who belong to no entry.
+    pub missing: Vec<Person>,
+    /// Sentences about entries whose people could not be identified with certainty.
+    pub warnings: Vec<String>,
+    /// The manual points.
+    pub manual: ManualPointsList,
+    /// The people of all entries.
+    people: Vec<Person>,
+    /// The number of entries.
+    entries: usize,
+    /// The names of the entries whose people are on no list. Empty if there are no lists.
+    unlisted: Vec<String>,
+}
+
+/// Completes the entries from the lists: first unknown identifiers, then group members, and finally
+/// submission times, since any member's time may be used. Also reads the manual points, which must
+/// be for people in these entries.
+pub fn complete_entries(
+    lists: &Lists,
+    handed_out: &HandedOut,
+    entries: &mut [&mut EntryInfo],
+) -> Result<ListFindings, Error> {
+    let rows = roster::read_lists(lists)?;
+    if lists.moodle.is_some() {
+        // Use only this worksheet's status, not one from an earlier worksheet.
+        let people = entries.iter_mut().flat_map(|info| &mut info.people);
+        people.for_each(|person| person.status.clear());
+    }
+    fill_in(&rows, entries);
+    let has_teams = groups::resolve_teams(&rows, entries);
+    if groups::add_group_members(&rows, entries) || has_teams {
+        fill_in(&rows, entries);
+    }
+    for info in entries.iter_mut() {
+        groups::remove_repetitions(&mut info.people);
+    }
+    roster::set_submission_times(&rows, entries);
+    for info in entries.iter_mut() {
+        let shared_team = groups::shared_team(&rows, info);
+        info.unclear_person = shared_team.or_else(|| shared_name(&rows, info));
+        info.is_unlisted = !is_listed(&rows, info);
+    }
+    let people: Vec<&Person> = entries.iter().flat_map(|info| &info.people).collect();
+    let mut manual = match &lists.manual_points {
+        Some(path) => ManualPointsList::read(path, handed_out)?,
+        None => ManualPointsList::default(),
+    };
+    manual.resolve_names(entries);
+    manual.check_students(&people)?;
+    let unlisted = entries.iter().filter(|info| info.is_unlisted);
+    let warnings = entries.iter();
+    let warnings = warnings.filter_map(|info| {
+        let unclear = info.unclear_person.clone();
+        unclear.or_else(|| misleading_number(&rows, info))
+    });
+    Ok(ListFindings {
+        missing: roster::missing(&rows, &people),
+        warnings: warnings.collect(),
+        manual,
+        people: people.into_iter().cloned().collect(),
+        entries: entries.len(),
+        unlisted: unlisted.map(|info| info.display_names()).collect(),
+    })
+}
+
+impl ListFindings {
+    /// Prints a warning for each extension in the policy that doesn't belong to exactly one person.
+    pub fn warn_about_extensions(&self, policy: &Policy) {
+        let people = self.people.iter().chain(&self.missing);
+        warn_about_extensions(policy, &people.collect::<Vec<_>>());
+    }
+
+    /// Rejects a class if more than half of its entries match nobody on the lists. In that case,
+    /// the lists may belong to another class, or the names may have been misread.
+    pub fn check(&self, lists: &Lists) -> Result<(), Error> {
+        let all = self.entries;
+        match self.unlisted.first() {
+            Some(example) if 2 * self.unlisted.len() > all && !lists.accept_unlisted => {
+                let unlisted = self.unlisted.len();
+                let example = sanitize_line(example, MAX_CHARS);
+                Err(Error::user(format!(
+                    "{unlisted} of {all} submissions, such as {example:?}, don't match anybody on \
+                     the lists: check that the roster or gradebook is for this class, and that \
+                     --dry-run shows the right names; if everything is right, add --accept-unlisted"
+                )))
+            }
+            Some(_) | None => Ok(()),
+        }
+    }
+}
+
+fn fill_in(rows: &[Member], entries: &mut [&mut EntryInfo]) {
+    let people = entries.iter_mut().flat_map(|info| &mut info.people);
+    roster::fill_in(rows, &mut people.collect::<Vec<_>>());
+}
+
+/// Returns whether somebody in the entry is on a list, or staff provided no lists. Canvas's test
+/// student is never on a list.
+fn is_listed(rows: &[Member], info: &EntryInfo) -> bool {
+    let mut people = info.people.iter();
+    // The list in the download always belongs to this class.
+    rows.iter().all(|row| row.list == ListKind::Downloaded)
+        || people
+            .any(|person| person.is_test_student() || rows.iter().any(|row| row.matches(person)))
+}
+
+/// Returns a sentence about a person whose number belongs to a different name in a list.
+fn misleading_number(rows: &[Member], info: &EntryInfo) -> Option<String> {
+    let mut people = info.people.iter();
+    people.find_map(|person| {
+        let is_of_other =
+            |row: &&Member| row.person.number == person.number && !row.matches(person);
+        let mut others = rows.iter().filter(|row| !row.person.number.is_empty());
+        let other = others.find(is_of_other)?;
+        Some(format!(
+            "{}: the number {} was not used, because a list assigns it to {}: if this is a team, \
+             list its members in the roster's `group` column; otherwise, correct the name",
+            info.from,
+            person.number,
+            other.person.display_name()
+        ))
+    })
+}
+
+/// Returns a sentence about a person who, judging by the name, could be any of several people on
+/// the lists.
+fn shared_name(rows: &[Member], info: &EntryInfo) -> Option<String> {
+    let is_unlisted = |person: &&Person| !rows.iter().any(|row| row.matches(person));
+    let person = info.people.iter().find(is_unlisted)?;
+    let namesakes = rows.iter().filter(|row| row.is_namesake(person));
+    let namesakes = namesakes.filter_map(|row| {
+        let mut own = row.person.own_identifiers().into_iter();
+        own.find(|own| !own.is_empty())
+    });
+    let namesakes: BTreeSet<&str> = namesakes.collect();
+    (!namesakes.is_empty()).then(|| {
+        format!(
+            "{}: several people on the lists are called {}, so the submission isn't assigned to \
+             any of them: rename it, replacing the name with one of {}",
+            info.from,
+            person.display_name(),
+            joined(namesakes, ", ")
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use grader::handed_out::RAYS;
+
+    use serde_json::json;
+
+    use super::*;
+    use crate::graded_class::tests::{lists, person};
+    use crate::list_kind::ListKind::{Canvas, Gradescope, Roster};
+
+    /// Completes the entries. Returns the people on these lists who aren't in any entry.
+    fn missing(texts: &[(ListKind, &str)], entries: &mut [&mut EntryInfo]) -> Vec<Person> {
+        let (_folder, lists) = lists(texts);
+        complete_entries(&lists, &RAYS, entries).unwrap().missing
+    }
+
+    fn with_login(login: &str) -> Person {
+        person(json!({ "login": login }))
+    }
+
+    fn entry(person: Person) -> EntryInfo {
+        EntryInfo {
+            people: vec![person],
+            ..EntryInfo::default()
+        }
+    }
+
+    /// Ann's address is in the last list. That list shares her student id with the second list,
+    /// which in turn shares her account with the first list, which contains her extension.
+    #[test]
+    fn a_list_may_be_found_by_what_a_later_one_says() {
+        let canvas = "Student,ID,SIS User ID,SIS Login ID,Section,Path (7)\n\
+            \"Lee, Ann\",7001,u1,ann,A,\n\"Kim, Bob\",7002,u2,bob,A,\n";
+        let gradescope = "First Name,Last Name,SID,Email,Total Score,Max Points\n\
+            Ann,Lee,u1,ann@x.edu,,100\nBob,Kim,u2,bob@x.edu,,100\n";
+        let roster = "username,extension\nann,2\nbob,3\n";
+        let lists = [(Roster, roster), (Canvas, canvas), (Gradescope, gradescope)];
+        let mut ann = entry(person(json!({ "email": "ann@x.edu" })));
+        let missing = missing(&lists, &mut [&mut ann]);
+        let known = |person: &Person| (person.login.clone(), person.extension.clone());
+        let known = [&ann.people[0], &missing[0]].map(known);
+        let wanted = [("ann", "2"), ("bob", "3")];
+        assert_eq!(known, wanted.map(|(a, b)| (a.to_owned(), b.to_owned())));
+        assert_eq!(missing.len(), 1, "{missing:?}");
+    }
+
+    /// Bob is in Ann's group, and both of them have a submission time.
+    #[test]
+    fn the_last_time_counts_unless_one_cannot_be_read() {
+        let submitted = |times: [&str; 2], by_platform: Option<&str>| {
+            let [ann, bob] = times;
+            let rows = format!("name,group,datetime\nAnn,One,{ann}\nBob,One,{bob}\n");
+            let mut entry = EntryInfo {
+                submitted: by_platform.map(str::to_owned),
+                ..entry(Person::named("Ann"))
+            };
+            missing(&[(Roster, &rows)], &mut [&mut entry]);
+            assert_eq!(entry.listed.is_some(), by_platform.is_none());
+            entry.submitted().unwrap().to_owned()
+        };
+        let (early, late) = ("2026-11-20 12:00:00 +0000", "2026-11-20 23:00:00 +0000");
+        assert_eq!(submitted([early, late], None), late);
+        assert_eq!(submitted([late, early], None), late);
+        assert_eq!(submitted(["", early], None), early);
+        // It is unknown which time is the last, so a person must decide.
+        assert_eq!(submitted([late, "yesterday"], None), "yesterday");
+        assert_eq!(submitted(["yesterday", late], None), "yesterday");
+        assert_eq!(submitted([late, late], Some(early)), early);
+    }
+
+    #[test]
+    fn other_lists_know_more_of_the_members_of_a_group() {
+        let canvas = "Student,ID,SIS Login ID,Section,Path (7)\n\
+            \"Lee, Ann\",7001,ann,A,\n\"Kim, Bob\",7002,bob,A,\n";
+        let roster = "username,group\nann,One\nbob,One\n";
+        let mut entry = entry(with_login("ann"));
+        let missing = missing(&[(Roster, roster), (Canvas, canvas)], &mut [&mut entry]);
+        let numbers: Vec<&str> = entry.people.iter().map(|p| p.number.as_str()).collect();
+        assert_eq!(numbers, ["7001", "7002"]);
+        assert_eq!(missing, []);
+    }
+
+    #[test]
+    fn a_list_takes_no_late_flag_away() {
+        let roster = "name,datetime,late\nAnn,2026-11-20 12:00:00 +0000,false\n\
+            Bob,2026-11-20 12:00:00 +0000,true\nEve,2026-11-20 12:00:00 +0000,false\n";
+        let mut entries = ["Ann", "Bob", "Eve"].map(|name| entry(Person::named(name)));
+        entries[0].late = true;
+        missing(&[(Roster, roster)], &mut entries.each_mut());
+        assert_eq!(entries.map(|info| info.is_late()), [true, true, false]);
+    }
+
+    /// The submission is Ann's, but the roster only contains her partner's submission time.
+    #[test]
+    fn the_time_of_any_member_of_the_group_counts() {
+        let rows = "name,username,sid,group,datetime\n\
+            Ann,ann,u1,One,\n\
+            Bob,bob,u2,One,2026-11-20 12:00:00 +0000\n\
+            Eve,eve,u3,Two,2026-11-21 12:00:00 +0000\n";
+        let mut entry = entry(with_login("ann"));
+        let missing = missing(&[(Roster, rows)], &mut [&mut entry]);
+        let sids: Vec<&str> = entry.people.iter().map(|p| p.sid.as_str()).collect();
+        assert_eq!(sids, ["u1", "u2"]);
+        assert_eq!(entry.submitted(), Some("2026-11-20 12:00:00 +0000"));
+        let missing: Vec<&str> = missing.iter().map(Person::display_name).collect();
+        assert_eq!(missing, ["Eve"]);
+    }
+}

@@ -1,0 +1,109 @@
+//! Lists the contents of folders, only as deep as the layouts need.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use grader::disk::{self, Operation};
+use grader::files::{self, AtPath, PathError};
+use grader::submission::{is_archive_name, is_skipped_name};
+
+/// The number of subfolder levels to list. This is enough for a project inside a student's folder
+/// that is itself inside a tutorial's folder.
+const MAX_DEPTH: usize = 5;
+
+/// A file, a folder, or a link to a file or folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Node {
+    /// The name, i.e. the last component of the path.
+    pub name: String,
+    /// The path of the file, folder or link.
+    pub path: PathBuf,
+    /// The contents of a folder, sorted by name. `None` for a file, and empty for a link to a
+    /// folder.
+    pub children: Option<Vec<Node>>,
+    /// Whether this is a link. Links aren't followed, because they may lead to another student's
+    /// files.
+    pub is_link: bool,
+}
+
+impl Node {
+    /// Returns whether this is a folder.
+    pub fn is_folder(&self) -> bool {
+        self.children.is_some()
+    }
+
+    /// Returns the contents of a folder, or an empty slice for a file.
+    pub fn children(&self) -> &[Node] {
+        self.children.as_deref().unwrap_or_default()
+    }
+
+    /// Returns the file or folder with this name in the folder, unless it is a link.
+    pub fn find(&self, name: &str) -> Option<&Node> {
+        let mut children = self.children().iter();
+        children.find(|node| node.name == name && !node.is_link)
+    }
+
+    /// Returns whether this file is named like an archive, even if the format isn't supported.
+    pub fn is_archive(&self) -> bool {
+        !self.is_folder() && is_archive_name(&self.name)
+    }
+}
+
+/// Lists a folder. Hidden and skipped files and folders are left out, and invalid Unicode in names
+/// is replaced.
+pub fn list_folder(folder: &Path) -> Result<Node, PathError> {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    Ok(Node {
+        name: name.into_owned(),
+        path: folder.to_owned(),
+        children: Some(list_children(folder, MAX_DEPTH).at("read", folder)?),
+        is_link: false,
+    })
+}
+
+/// Returns the names of the hidden files and folders in a folder, except those that macOS adds to
+/// every folder.
+pub fn hidden_names(folder: &Path) -> Result<Vec<String>, PathError> {
+    let paths = files::read_dir(folder)?.into_iter();
+    let names = paths.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let is_macos = |name: &str| name == ".DS_Store" || name.starts_with("._");
+    let hidden = names.filter(|name| name.starts_with('.') && !is_macos(name));
+    Ok(hidden.collect())
+}
+
+fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {
+    let mut nodes = Vec::new();
+    disk::before(Operation::List(folder))?;
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name.starts_with('.') || is_skipped_name(&name) {
+            continue;
+        }
+        let kind = entry.file_type()?;
+        let inside = if kind.is_symlink() {
+            // List a link to a folder as an empty folder, so that it becomes an entry and is then
+            // rejected for being a link.
+            entry.path().is_dir().then(Vec::new)
+        } else if kind.is_dir() {
+            Some(match depth {
+                0 => Vec::new(),
+                // Reading the submission will report the error, for this student only.
+                _ => list_children(&entry.path(), depth - 1).unwrap_or_default(),
+            })
+        } else if kind.is_file() {
+            None
+        } else {
+            continue;
+        };
+        nodes.push(Node {
+            name,
+            path: entry.path(),
+            children: inside,
+            is_link: kind.is_symlink(),
+        });
+    }
+    nodes.sort_by(|one, other| one.name.cmp(&other.name));
+    Ok(nodes)
+}

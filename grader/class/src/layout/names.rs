@@ -1,0 +1,363 @@
+//! Finds the submissions of a class by the names of files and folders.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::iter;
+
+use judging::sanitize::sanitize_line;
+
+use super::canvas::ambiguous;
+use super::mixture::is_section;
+use super::platforms::{NodeKind, Platform, SUBMISSIONS_SUFFIX};
+use super::reader::Reader;
+use super::template::{Parts, readings};
+use super::{Layout, LayoutChoice, UnmatchedPath};
+use crate::entry::Entry;
+use crate::error::Error;
+use crate::file_tree::Node;
+use crate::names::{fold, fold_name, joined};
+use crate::roster::read_downloaded;
+
+/// The maximum length of a list of titles in a message, in characters.
+const MAX_CHARS: usize = 400;
+/// The extensions of archives.
+const ARCHIVE_ENDS: [&str; 12] = [
+    ".tar.gz", ".tar.xz", ".tar.bz2", ".tar.zst", ".tgz", ".txz", ".tar", ".zip", ".rar", ".7z",
+    ".gz", ".xz",
+];
+
+/// A file or folder whose name belongs to a submission.
+pub(super) struct SubmissionNode<'a> {
+    pub parts: Parts<'a>,
+    pub node: &'a Node,
+    /// The path relative to the class's folder.
+    pub path: String,
+    pub is_text: bool,
+}
+
+/// The names that were read in a class's folder.
+#[derive(Default)]
+pub(super) struct Names<'a> {
+    pub found: Vec<SubmissionNode<'a>>,
+    /// The entries for files whose names can be read in several ways.
+    pub ambiguous: Vec<Entry>,
+    pub unmatched: Vec<UnmatchedPath>,
+    /// Sentences about how the names were read, for a person to check.
+    pub notes: Vec<String>,
+}
+
+/// Returns whether a name in the class's folder follows one of the platform's templates.
+pub(super) fn is_name(platform: &'static Platform, name: &str) -> bool {
+    let outermost = platform.outer_folders.first();
+    let templates = [outermost.unwrap_or(&platform.files), &platform.texts];
+    let mut ways = templates.map(|all| first_readings(all, name)).into_iter();
+    ways.any(|ways| !ways.is_empty())
+}
+
+impl Reader<'_> {
+    /// Returns the names in a class's folder that belong to the chosen assignment.
+    pub fn read_names<'a>(
+        &self,
+        root: &'a Node,
+        choice: &LayoutChoice,
+    ) -> Result<Names<'a>, Error> {
+        self.reject_nested_sections(root)?;
+        let (mut names, outer) = (Names::default(), Parts::default());
+        self.visit(root, &self.platform.outer_folders, &outer, "", &mut names);
+        choose_title(&mut names.found, choice)?;
+        self.strip_prefix(root, &mut names)?;
+        Ok(names)
+    }
+
+    /// Reads the names in a folder. `levels` contains the templates for the folders between it and
+    /// the submissions, `outer` contains the parts read from the names of its parent folders, and
+    /// `above` is the path of these folders, ending in a slash.
+    fn visit<'a>(
+        &self,
+        folder: &'a Node,
+        levels: &'static [Vec<String>],
+        outer: &Parts<'a>,
+        above: &str,
+        names: &mut Names<'a>,
+    ) {
+        let may_have_sections = above.is_empty() && self.has_sections(folder);
+        for node in folder.children() {
+            let path = format!("{above}{}", node.name);
+            let below = format!("{path}/");
+            if let [templates, inner @ ..] = levels {
+                let own = first_readings(templates, &node.name).into_iter().next();
+                match own.filter(|_| node.is_folder() && !node.is_link) {
+                    Some(own) => self.visit(node, inner, &outer.join(&own), &below, names),
+                    None => names.unmatched.push(self.unmatched(path)),
+                }
+            } else if may_have_sections && is_section(node, self.handed_out) {
+                self.visit(node, levels, outer, &below, names);
+            } else if node.is_folder() || !self.platform.own_files.contains(&path) {
+                self.add(node, outer, path, names);
+            }
+        }
+    }
+
+    /// Returns the folders for GitLab's subgroups, such as tutorials.
+    fn sections<'a>(&self, folder: &'a Node) -> Vec<&'a Node> {
+        let is_gitlab = self.platform.layout == Layout::GitLab;
+        let folders = folder.children().iter().filter(|_| is_gitlab);
+        folders
+            .filter(|node| is_section(node, self.handed_out))
+            .collect()
+    }
+
+    /// Returns whether the subgroups contain several people's projects. If all subgroups contain a
+    /// project with the same name, each belongs to one person.
+    fn has_sections(&self, folder: &Node) -> bool {
+        let sections = self.sections(folder);
+        let inside = sections.iter().flat_map(|section| section.children());
+        let projects = inside.filter(|node| node.is_folder());
+        let projects: BTreeSet<&str> = projects.map(|node| node.name.as_str()).collect();
+        sections.len() == 1 || projects.len() > 1
+    }
+
+    /// Rejects a folder that contains the folder of a GitLab group in place of its subgroups, each
+    /// of which would be one submission.
+    fn reject_nested_sections(&self, root: &Node) -> Result<(), Error> {
+        for group in self.sections(root) {
+            let subgroups = self.sections(group);
+            let folders = group.children().iter().filter(|node| node.is_folder());
+            if 2 * subgroups.len() > folders.count() {
+                let names = subgroups.iter().map(|node| &node.name);
+                let names = sanitize_line(&joined(names, ", "), MAX_CHARS);
+                let group = sanitize_line(&group.name, MAX_CHARS);
+                return Err(Error::user(format!(
+                    "the folder {group} contains folders with several projects ({names}), each of \
+                     which would be graded as one submission: pass the path of the folder {group} \
+                     (if it is in an archive, unpack the archive first)"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a file or folder at the level of the submissions.
+    fn add<'a>(&self, node: &'a Node, outer: &Parts<'a>, path: String, names: &mut Names<'a>) {
+        let mut ways = Vec::new();
+        if self.platform.submissions.includes(node) {
+            ways = first_readings(&self.platform.files, &node.name);
+        }
+        if !self.platform.has_attachments {
+            ways.truncate(1);
+        } else if ways.iter().filter(|parts| self.is_listed(parts)).count() == 1 {
+            // The student's name and the file's may contain numbers as well.
+            ways.retain(|parts| self.is_listed(parts));
+        }
+        if ways.len() > 1 {
+            names.ambiguous.push(ambiguous(&ways, node));
+            return;
+        }
+        let is_text = ways.is_empty();
+        if is_text {
+            ways = first_readings(&self.platform.texts, &node.name);
+        }
+        let Some(own) = ways.first() else {
+            names.unmatched.push(self.unmatched(path));
+            return;
+        };
+        let mut parts = outer.join(own);
+        if self.platform.layout == Layout::Plain && !node.is_folder() {
+            // A folder with the same name is a different submission.
+            parts.set("whole_name", &node.name);
+            parts.set("name", strip_archive_extension(&node.name));
+        }
+        names.found.push(SubmissionNode {
+            parts,
+            node,
+            path,
+            is_text,
+        });
+    }
+
+    /// Returns the path of a file or folder whose name doesn't follow any template.
+    pub fn unmatched(&self, path: String) -> UnmatchedPath {
+        UnmatchedPath::new(path, &self.platform.unmatched)
+    }
+
+    /// Removes the text that the names begin with, such as the assignment's title. A name that
+    /// doesn't begin with it remains unchanged, and a note lists it.
+    fn strip_prefix(&self, root: &Node, names: &mut Names) -> Result<(), Error> {
+        let Some((field, separator)) = &self.platform.prefixed else {
+            return Ok(());
+        };
+        let all = names.found.iter().filter(|found| !found.node.is_link);
+        let all: BTreeSet<&str> = all.map(|found| found.parts.get(field)).collect();
+        let all = Vec::from_iter(all);
+        let assignment = root.name.strip_suffix(SUBMISSIONS_SUFFIX);
+        let prefix = match assignment.filter(|_| self.platform.layout == Layout::GitHub) {
+            Some(assignment) => format!("{assignment}{separator}"),
+            None => match self.listed_prefix(root, &all, *separator) {
+                Some(prefix) => prefix.to_owned(),
+                None if self.platform.submissions == NodeKind::Folders => {
+                    unlisted_prefix(&all, *separator)?.to_owned()
+                }
+                None => common_prefix(&all, *separator).to_owned(),
+            },
+        };
+        let odd = all.iter().filter(|name| !name.starts_with(&prefix));
+        let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
+        if !odd.is_empty() && is_majority(&prefix, &all) {
+            names.notes.push(format!(
+                "the names of most folders begin with {prefix}, but not {odd}: if this is from \
+                 another assignment or from staff, move it out"
+            ));
+        }
+        for SubmissionNode { parts, .. } in &mut names.found {
+            let whole = parts.get(field);
+            parts.set("whole_name", whole);
+            parts.set(field, whole.strip_prefix(&prefix).unwrap_or(whole));
+        }
+        Ok(())
+    }
+
+    /// Returns the prefix that somebody on the lists follows in the most names, and that more
+    /// than half of all names have. People's names only count if no identifiers are found. If
+    /// several prefixes could be meant, returns an empty string. `None` if there is no such prefix.
+    fn listed_prefix<'a>(
+        &self,
+        root: &Node,
+        names: &[&'a str],
+        separator: char,
+    ) -> Option<&'a str> {
+        let list = self.platform.layout.find_list(root);
+        let downloaded = list.map(|path| read_downloaded(&path)).unwrap_or_default();
+        let people = || {
+            let members = self.known.iter().chain(&downloaded);
+            members.map(|member| &member.person)
+        };
+        let identifiers = people().flat_map(|person| person.own_identifiers().map(fold));
+        let by_identifier = most_frequent_prefix(names, separator, fold, &identifiers.collect());
+        by_identifier.or_else(|| {
+            let listed = people().map(|person| fold_name(&person.name));
+            most_frequent_prefix(names, separator, fold_name, &listed.collect())
+        })
+    }
+}
+
+/// Returns the prefix that more than half of the names have, and that is followed by one of the
+/// `listed` texts in the most names. If several prefixes could be meant, returns an empty string.
+/// The rest of a name is compared after applying `normalize`.
+fn most_frequent_prefix<'a>(
+    names: &[&'a str],
+    separator: char,
+    normalize: fn(&str) -> String,
+    listed: &BTreeSet<String>,
+) -> Option<&'a str> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for name in names {
+        for prefix in prefixes(name, separator) {
+            let rest = normalize(&name[prefix.len()..]);
+            if !rest.is_empty() && listed.contains(&rest) {
+                *counts.entry(prefix).or_default() += 1;
+            }
+        }
+    }
+    counts.retain(|prefix, _| is_majority(prefix, names));
+    let most = counts.values().copied().max()?;
+    let mut best = counts.into_iter().filter(|(_, count)| *count == most);
+    match (best.next(), best.next()) {
+        (Some((prefix, _)), None) => Some(prefix),
+        _ => Some(""),
+    }
+}
+
+/// Returns the text that all names begin with. If more than half of them have a longer prefix,
+/// nothing shows whether the other names are those of another assignment, and the class is
+/// rejected.
+fn unlisted_prefix<'a>(names: &[&'a str], separator: char) -> Result<&'a str, Error> {
+    let shared = common_prefix(names, separator);
+    let longer = names.iter().flat_map(|name| prefixes(name, separator));
+    let longer = longer.filter(|prefix| prefix.len() > shared.len() && is_majority(prefix, names));
+    let longer = longer.max_by_key(|prefix| prefix.len());
+    let Some(longer) = longer.filter(|_| names.len() > 1) else {
+        return Ok(shared);
+    };
+    let odd = names.iter().filter(|name| !name.starts_with(longer));
+    let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
+    Err(Error::user(format!(
+        "the names of most folders begin with {longer}, but not {odd}, so it is unclear where the \
+         students' names begin: if this is from another assignment or from staff, move it out; \
+         otherwise, pass a list with the students' accounts or names, for example with --roster"
+    )))
+}
+
+/// Returns the beginnings of a name that end in the separator, and the empty string.
+fn prefixes(name: &str, separator: char) -> impl Iterator<Item = &str> {
+    let ends = name.match_indices(separator);
+    let ends = ends.map(|(at, sign)| at + sign.len());
+    iter::once(0).chain(ends).map(|end| &name[..end])
+}
+
+/// Returns whether more than half of the names begin with the prefix.
+fn is_majority(prefix: &str, names: &[&str]) -> bool {
+    let count = names.iter().filter(|name| name.starts_with(prefix)).count();
+    2 * count > names.len()
+}
+
+/// Keeps the submissions of one assignment. Rejects a class with several assignments if none was
+/// chosen.
+fn choose_title(found: &mut Vec<SubmissionNode>, choice: &LayoutChoice) -> Result<(), Error> {
+    let titles = found.iter().map(|found| found.parts.get("title"));
+    let titles: BTreeSet<&str> = titles.filter(|title| !title.is_empty()).collect();
+    let all = sanitize_line(&joined(&titles, ", "), MAX_CHARS);
+    match choice.title.as_deref() {
+        Some(title) if !titles.contains(title) => Err(Error::user(format!(
+            "there is no assignment with the title {title:?}; the titles are: {all}"
+        ))),
+        None if titles.len() > 1 => Err(Error::user(format!(
+            "the input contains several assignments ({all}): choose one with --title"
+        ))),
+        title => {
+            found.retain(|found| title.is_none_or(|title| found.parts.get("title") == title));
+            Ok(())
+        }
+    }
+}
+
+/// Returns the possible readings of a name according to the first template that it follows.
+pub(super) fn first_readings<'a>(templates: &'static [String], name: &'a str) -> Vec<Parts<'a>> {
+    let mut ways = templates.iter().map(|template| readings(template, name));
+    ways.find(|ways| !ways.is_empty()).unwrap_or_default()
+}
+
+/// Returns the common prefix of all names, cut off after its last separator, since the account
+/// names may begin with the same letters too. For a single name, the prefix is empty, since nothing
+/// shows where the account name begins.
+pub(super) fn common_prefix<'a>(names: &[&'a str], separator: char) -> &'a str {
+    let [first, others @ ..] = names else {
+        return "";
+    };
+    let is_shared = |end: &usize| others.iter().all(|name| name.starts_with(&first[..*end]));
+    let ends = first.rmatch_indices(separator);
+    let ends = ends.map(|(at, sign)| at + sign.len());
+    let end = ends.filter(|_| !others.is_empty()).find(is_shared);
+    &first[..end.unwrap_or(0)]
+}
+
+/// Returns the name without the archive's extension.
+fn strip_archive_extension(name: &str) -> &str {
+    let lower = name.to_ascii_lowercase();
+    let end = ARCHIVE_ENDS.iter().find(|end| lower.ends_with(**end));
+    &name[..name.len() - end.map_or(0, |end| end.len())]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_the_common_prefix_of_repositories() {
+        let names = [
+            "cg-pathtracing-ann",
+            "cg-pathtracing-ann-lee",
+            "cg-pathtracing-bob",
+        ];
+        assert_eq!(common_prefix(&names, '-'), "cg-pathtracing-");
+        assert_eq!(common_prefix(&names[..1], '-'), "");
+    }
+}

@@ -1,0 +1,93 @@
+//! Reads the people and times that platforms write into files: Blackboard's receipts and Sakai's
+//! files in each folder.
+
+use grader::files;
+
+use super::names::SubmissionNode;
+use super::template::{Parts, read_members};
+use super::times::normalize_time;
+use crate::entry::{Entry, Person};
+use crate::error::Error;
+use crate::file_tree::Node;
+
+/// Sakai's folder for the files that a student handed in. Folders next to it contain feedback.
+pub const SAKAI_ATTACHMENTS: &str = "Submission attachment(s)";
+/// Sakai's file with the submission time.
+pub const SAKAI_TIME: &str = "timestamp.txt";
+/// Sakai's file with the members of a group.
+pub const SAKAI_MEMBERS: &str = "members.txt";
+
+/// The people and the time of a submission, as recorded by the platform. Unknown fields are empty.
+#[derive(Debug, Default)]
+pub(super) struct SubmissionRecord {
+    pub people: Vec<Person>,
+    pub time: Option<String>,
+}
+
+impl SubmissionRecord {
+    /// Adds the recorded information to an entry.
+    pub fn describe(self, mut entry: Entry) -> Entry {
+        if !self.people.is_empty() {
+            entry.info.people = self.people;
+        }
+        entry.info.submitted = self.time.or(entry.info.submitted);
+        entry
+    }
+}
+
+/// Reads the first line of Blackboard's text file, `Name: Jane Doe (jdoe)`, where the word before
+/// the colon depends on the language. The assignment's title and the account may contain `_`, so
+/// only this line shows where the account begins.
+pub(super) fn read_receipt(
+    parts: &mut Parts,
+    texts: &[SubmissionNode],
+) -> Result<SubmissionRecord, Error> {
+    let text = read_text(texts.first().map(|text| text.node))?.unwrap_or_default();
+    let line = text.lines().next().and_then(|line| line.split_once(": "));
+    let name = line.and_then(|(_, name)| name.trim().strip_suffix(')')?.rsplit_once(" ("));
+    let whole = parts.get("whole_name");
+    let is_end = |account: &str| {
+        let title = whole.strip_suffix(account);
+        title.is_some_and(|title| title.is_empty() || title.ends_with('_'))
+    };
+    let Some((name, account)) = name.filter(|(_, account)| is_end(account)) else {
+        return Ok(SubmissionRecord::default());
+    };
+    parts.set("account", &whole[whole.len() - account.len()..]);
+    let person = Person {
+        login: account.to_owned(),
+        ..Person::named(name.trim())
+    };
+    Ok(SubmissionRecord {
+        people: vec![person],
+        time: None,
+    })
+}
+
+/// Reads the files that Sakai writes into each folder.
+pub(super) fn read_files_in_folder(
+    parts: &Parts,
+    files: &[SubmissionNode],
+) -> Result<SubmissionRecord, Error> {
+    let read = |name| read_text(files.iter().find_map(|found| found.node.find(name)));
+    let members = read(SAKAI_MEMBERS)?;
+    let members = read_members(members.as_deref().unwrap_or(parts.get("members")).trim());
+    let people = members.unwrap_or_default().into_iter().map(|parts| Person {
+        login: parts.get("eid").to_owned(),
+        ..Person::named_by_file(parts.fill_first(&["{first} {last}", "{last}", "{first}"]))
+    });
+    let people = people.collect();
+    let time = read(SAKAI_TIME)?.map(|text| text.trim().to_owned());
+    let time = time.map(|text| normalize_time(&text).unwrap_or(text));
+    Ok(SubmissionRecord { people, time })
+}
+
+/// Reads a file written by the platform. Links are not followed, since they may lead anywhere.
+fn read_text(node: Option<&Node>) -> Result<Option<String>, Error> {
+    let Some(file) = node.filter(|node| !node.is_folder() && !node.is_link) else {
+        return Ok(None);
+    };
+    let bytes = files::read(&file.path).map_err(Error::user)?;
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(Some(text.trim_start_matches('\u{feff}').to_owned()))
+}

@@ -1,0 +1,87 @@
+//! Symptoms: the quantity that is wrong in an answer, and whether it is too small or too large.
+//! Advice is chosen by symptom.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+/// The name of the quantity that says whether there is an answer at all, such as a hit.
+pub const PRESENCE: &str = "hit or miss";
+
+/// A wrong quantity, and the side on which it is wrong. As part of an assignment's or an item's
+/// data, a symptom without a side stands for both sides.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Symptom {
+    /// The quantity, such as `distance`, `hit or miss` or `box too small`.
+    pub what: Cow<'static, str>,
+    /// The side, if the quantity has two.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side: Option<Side>,
+}
+
+/// Whether a quantity is too small or too large.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// The answer is too small or is missing.
+    Less,
+    /// The answer is too large, or there should be none.
+    More,
+}
+
+impl Symptom {
+    /// A miss where a hit is expected.
+    pub const MISS: Symptom = Symptom::less(PRESENCE);
+    /// A hit where a miss is expected.
+    pub const HIT: Symptom = Symptom::more(PRESENCE);
+
+    /// Creates the symptom of a quantity that is wrong on either side.
+    pub const fn of(what: &'static str) -> Self {
+        Symptom {
+            what: Cow::Borrowed(what),
+            side: None,
+        }
+    }
+
+    /// Creates the symptom of a quantity that is too small or missing.
+    pub const fn less(what: &'static str) -> Self {
+        Symptom {
+            side: Some(Side::Less),
+            what: Cow::Borrowed(what),
+        }
+    }
+
+    /// Creates the symptom of a quantity that is too large or shouldn't be there.
+    pub const fn more(what: &'static str) -> Self {
+        Symptom {
+            side: Some(Side::More),
+            what: Cow::Borrowed(what),
+        }
+    }
+
+    /// Returns whether this symptom, as part of an assignment's or an item's data, stands for an
+    /// observed one.
+    pub fn includes(&self, observed: &Symptom) -> bool {
+        self.what == observed.what && (self.side.is_none() || self.side == observed.side)
+    }
+}
+
+impl Side {
+    /// Returns the side of an answer that is there although it shouldn't be, or is missing although
+    /// it should be there.
+    pub fn of_presence(is_there: bool) -> Self {
+        if is_there { Side::More } else { Side::Less }
+    }
+
+    /// Returns the side of a value, or `None` if it is equal or NaN.
+    pub fn of(got: f32, wanted: f32) -> Option<Self> {
+        if got < wanted {
+            Some(Side::Less)
+        } else if got > wanted {
+            Some(Side::More)
+        } else {
+            None
+        }
+    }
+}

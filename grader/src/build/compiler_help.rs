@@ -1,0 +1,132 @@
+//! The sections of the handout that explain compiler errors.
+
+use judging::section::Section;
+
+/// The beginning of the line that follows the compiler's text and names the section.
+pub const SECTION_LABEL: &str = "read: ";
+
+/// The section about variables, semicolons and the value of a block.
+const BLOCKS: &str = "cpp.md#variables-and-semicolons";
+const NUMBERS: &str = "cpp.md#numbers-do-not-convert-by-themselves";
+const VECTORS: &str = "cpp.md#vectors";
+const OPTION: &str = "cpp.md#a-value-that-may-be-missing";
+const ORDER: &str = "cpp.md#floats-have-no-total-order";
+const MOVES: &str = "cpp.md#slices-and-partitions";
+const BORROWS: &str = "cpp.md#recursion-that-fills-a-vector";
+
+/// An error code, words that the compiler's text contains, and the section that explains such an
+/// error. Syntax errors come without a code. The first match counts.
+const SECTIONS: [(&str, &str, &str); 41] = [
+    ("", "expected `;`", BLOCKS),
+    ("", "expected one of `.`, `;`", BLOCKS),
+    ("E0308", "found `()`", BLOCKS),
+    ("E0308", "`Option<", OPTION),
+    ("E0308", "`()`", BLOCKS),
+    ("E0308", "`f32`", NUMBERS),
+    ("E0308", "`f64`", NUMBERS),
+    ("E0308", "`usize`", NUMBERS),
+    ("E0308", "`u32`", NUMBERS),
+    ("E0308", "integer", NUMBERS),
+    ("E0317", "", BLOCKS),
+    ("E0384", "", BLOCKS),
+    ("E0594", "as mutable", BLOCKS),
+    ("E0594", "not declared as mutable", BLOCKS),
+    ("E0596", "not declared as mutable", BLOCKS),
+    ("E0381", "", BLOCKS),
+    ("E0277", "the `?` operator", OPTION),
+    ("E0277", "`Option<", OPTION),
+    ("E0277", ": Ord`", ORDER),
+    ("E0277", ": Eq`", ORDER),
+    ("E0277", "cannot be indexed by", NUMBERS),
+    ("E0277", "cannot add", NUMBERS),
+    ("E0277", "cannot subtract", NUMBERS),
+    ("E0277", "cannot multiply", NUMBERS),
+    ("E0277", "cannot divide", NUMBERS),
+    ("E0277", "can't compare", NUMBERS),
+    ("E0600", "", NUMBERS),
+    ("E0604", "", NUMBERS),
+    ("E0606", "", NUMBERS),
+    ("E0689", "", NUMBERS),
+    ("E0369", "`Option<", OPTION),
+    ("E0599", "`Option<", OPTION),
+    ("E0599", "`Vec3`", VECTORS),
+    ("E0609", "`Option<", OPTION),
+    ("E0004", "`None`", OPTION),
+    ("E0382", "", MOVES),
+    ("E0499", "", BORROWS),
+    ("E0502", "", BORROWS),
+    ("E0506", "", BORROWS),
+    ("E0507", "", BORROWS),
+    ("E0515", "", BORROWS),
+];
+
+/// Returns the section that explains an error with this code and text, if any.
+pub(super) fn section(code: Option<&str>, text: &str) -> Option<Section> {
+    let code = code.unwrap_or_default();
+    let mut sections = SECTIONS.iter();
+    let (_, _, section) = sections.find(|(of, words, _)| *of == code && text.contains(words))?;
+    Some(Section::new(*section))
+}
+
+/// Returns all sections that explain errors, so that a test can look for them in the handout.
+pub fn sections() -> impl Iterator<Item = Section> {
+    SECTIONS
+        .iter()
+        .map(|(_, _, section)| Section::new(*section))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_leads_to_its_section() {
+        for (code, text, expected) in [
+            (
+                None,
+                "error: expected `;`, found keyword `let`",
+                Some(BLOCKS),
+            ),
+            (
+                None,
+                "error: this file contains an unclosed delimiter",
+                None,
+            ),
+            (
+                Some("E0308"),
+                "expected `Option<Trace>`, found `()`",
+                Some(BLOCKS),
+            ),
+            (
+                Some("E0308"),
+                "expected `Option<Trace>`, found `Trace`",
+                Some(OPTION),
+            ),
+            (Some("E0308"), "expected `f32`, found `f64`", Some(NUMBERS)),
+            (Some("E0308"), "expected `Vec3`, found `Vec2`", None),
+            (
+                Some("E0277"),
+                "the trait bound `f32: Ord` is not satisfied",
+                Some(ORDER),
+            ),
+            (
+                Some("E0384"),
+                "cannot assign twice to immutable variable",
+                Some(BLOCKS),
+            ),
+            (
+                Some("E0382"),
+                "use of moved value: `primitives`",
+                Some(MOVES),
+            ),
+            (
+                Some("E0499"),
+                "cannot borrow `*nodes` as mutable",
+                Some(BORROWS),
+            ),
+        ] {
+            let section = section(code, text);
+            assert_eq!(section, expected.map(Section::new), "{text}");
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! An open scene: the submission's camera and tree, and the parts that haven't been written yet.
+
+use std::cell::OnceCell;
+
+use framework::harness::attempt::attempt;
+use framework::math::sin_cos;
+use framework::scene::Scene;
+use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission, World};
+use glam::{UVec2, Vec2, Vec3};
+use protocol::{
+    ElementOutcome, ExamCamera, Interval, Panic, PinholeCamera, Ray, Sample, Shape, Trace, TreeNode,
+};
+
+use crate::indexed_tree::IndexedTree;
+use crate::messages::{OpenOutcome, SubmissionPart, TreeSize, Trial};
+use crate::record::RecordingTree;
+use crate::scene_data::{Aim, SceneData, TreeSource, written_shapes};
+
+/// An open scene.
+pub(crate) struct OpenScene<'a> {
+    submission: &'a dyn Submission,
+    pub(crate) scene: Scene,
+    pub(crate) world: World,
+    pub(crate) aim: Aim,
+    has_camera: bool,
+    /// The indexed tree, which is created when steps are first judged.
+    tree: OnceCell<IndexedTree>,
+}
+
+/// A scene whose tree hasn't been built yet.
+pub(crate) struct Opening {
+    scene: Scene,
+    aim: Aim,
+    is_recorded: bool,
+    source: TreeSource,
+    /// The parts that haven't been written yet.
+    missing: Vec<(SubmissionPart, Panic)>,
+}
+
+impl Opening {
+    pub(crate) fn new(data: SceneData) -> Self {
+        Opening {
+            aim: data.aim,
+            is_recorded: data.is_recorded,
+            source: data.tree.clone(),
+            scene: data.into_scene(),
+            missing: Vec::new(),
+        }
+    }
+
+    /// Calls a part once to find out whether it has been written yet.
+    pub(crate) fn try_part(&mut self, submission: &dyn Submission, trial: &Trial) {
+        let Trial { part, ray } = trial;
+        let hit = |is_sphere: bool| {
+            let is_such = |shape: &&Shape| matches!(shape, Shape::Sphere { .. }) == is_sphere;
+            if let Some(shape) = self.scene.shapes.iter().find(is_such) {
+                submission.primitive_list(&[*shape]).closest_hit(ray);
+            }
+        };
+        let outcome = attempt(|| match part {
+            SubmissionPart::Camera => {
+                let camera = submission.camera(&self.scene.camera.pinhole);
+                camera.ray(UVec2::ZERO, Vec2::splat(0.5));
+            }
+            SubmissionPart::Triangle => hit(false),
+            SubmissionPart::Sphere => hit(true),
+            SubmissionPart::BBox => {
+                submission.intersect_box(Vec3::NEG_ONE, Vec3::ONE, ray, Interval::AHEAD);
+            }
+            SubmissionPart::Build | SubmissionPart::Traversal => {}
+        });
+        if let Err(panic) = outcome
+            && panic.is_unimplemented()
+        {
+            self.missing.push((*part, panic));
+        }
+    }
+
+    /// Builds the tree. Shapes whose `hit` hasn't been written yet are left out, so that the others
+    /// can be seen. Returns no open scene if the tree cannot be built.
+    pub(crate) fn build(self, submission: &dyn Submission) -> (OpenOutcome, Option<OpenScene<'_>>) {
+        let Opening {
+            scene,
+            aim,
+            is_recorded,
+            source,
+            missing,
+        } = self;
+        let shapes = written_shapes(&scene.shapes, &missing);
+        let build = || match &source {
+            TreeSource::Build => submission.build(&shapes, scene.max_leaf_size),
+            // A tree from the exam refers to all shapes.
+            TreeSource::Prebuilt(tree) => {
+                submission.prebuilt_tree(&scene.shapes, &tree.nodes, tree.root as usize)
+            }
+            TreeSource::List => Box::new(List(submission.primitive_list(&shapes))),
+        };
+        let has_camera = missing
+            .iter()
+            .all(|(part, _)| *part != SubmissionPart::Camera);
+        let opened = attempt(|| {
+            let tree = build();
+            let camera = camera(submission, &aim, has_camera);
+            let size = TreeSize {
+                nodes: TreeNode::saturating_index(tree.node_count()),
+                primitives: TreeNode::saturating_index(tree.primitive_count()),
+            };
+            let tree: Box<dyn Hierarchy> = if is_recorded {
+                Box::new(RecordingTree(tree))
+            } else {
+                tree
+            };
+            (size, World { camera, bvh: tree })
+        });
+        let (tree, stage) = match opened {
+            Err(panic) => (ElementOutcome::Panicked(panic), None),
+            Ok((size, world)) => {
+                let stage = OpenScene {
+                    submission,
+                    scene,
+                    world,
+                    aim,
+                    has_camera,
+                    tree: OnceCell::new(),
+                };
+                (ElementOutcome::Value(size), Some(stage))
+            }
+        };
+        (OpenOutcome { missing, tree }, stage)
+    }
+}
+
+/// The number of shapes that are tested together. They are copied into a list.
+const SHAPES_AT_ONCE: usize = 1024;
+/// The maximum number of boxes to test, because a tree can have far too many nodes.
+const MAX_BOXES: usize = 1 << 20;
+
+impl OpenScene<'_> {
+    /// Calls a method with a ray: `hit` on all shapes of one kind, `hit` on all boxes in the tree,
+    /// or the traversal. The results don't matter, only that the calls return.
+    pub(crate) fn try_part(&self, trial: &Trial) {
+        let Trial { part, ray } = trial;
+        let hit = |is_sphere: bool| {
+            let is_such = |shape: &&Shape| matches!(shape, Shape::Sphere { .. }) == is_sphere;
+            for shapes in self.scene.shapes.chunks(SHAPES_AT_ONCE) {
+                let shapes: Vec<Shape> = shapes.iter().filter(is_such).copied().collect();
+                let list = self.submission.primitive_list(&shapes);
+                // Pixels where this panic occurs report it.
+                let _ = attempt(|| list.closest_hit(ray));
+            }
+        };
+        match part {
+            SubmissionPart::Triangle => hit(false),
+            SubmissionPart::Sphere => hit(true),
+            SubmissionPart::BBox => {
+                for index in 0..self.world.bvh.node_count().min(MAX_BOXES) {
+                    let node = self.world.bvh.node(index);
+                    self.intersect_box((node.min, node.max), ray);
+                }
+            }
+            SubmissionPart::Traversal => {
+                let _ = attempt(|| self.world.bvh.closest_hit(ray));
+            }
+            SubmissionPart::Camera | SubmissionPart::Build => {}
+        }
+    }
+
+    /// Replaces the camera.
+    pub(crate) fn aim(&mut self, aim: Aim) {
+        if let Ok(camera) = attempt(|| camera(self.submission, &aim, self.has_camera)) {
+            self.world.camera = camera;
+        }
+        self.scene.camera = aim.camera;
+        self.aim = aim;
+    }
+
+    /// Returns the indexed tree.
+    pub(crate) fn indexed_tree(&self) -> &IndexedTree {
+        self.tree
+            .get_or_init(|| IndexedTree::new(self.world.bvh.tree()))
+    }
+
+    /// Calls `BBox::hit` for the ray's entire range.
+    pub(crate) fn intersect_box(&self, corners: (Vec3, Vec3), ray: &Ray) -> Option<Interval> {
+        let (min, max) = corners;
+        let test = || self.submission.intersect_box(min, max, ray, ray.range);
+        attempt(test).ok().flatten()
+    }
+}
+
+fn camera(submission: &dyn Submission, aim: &Aim, has_camera: bool) -> Box<dyn CameraRays> {
+    if has_camera {
+        submission.camera(&aim.camera.pinhole)
+    } else {
+        Box::new(ViewerCamera::new(&aim.camera.pinhole))
+    }
+}
+
+/// The viewer's own camera, used as long as the submission's camera hasn't been written. It is an
+/// exam camera, whose rays are computed by `protocol`.
+struct ViewerCamera(ExamCamera);
+
+impl ViewerCamera {
+    fn new(pinhole: &PinholeCamera) -> Self {
+        let (sin, cos) = sin_cos(0.5 * pinhole.vertical_fov.to_radians());
+        ViewerCamera(ExamCamera {
+            eye: Vec3::ZERO,
+            forward: Vec3::NEG_Z * cos,
+            right: Vec3::X * sin * pinhole.aspect_ratio,
+            up: Vec3::Y * sin,
+            film: pinhole.film,
+        })
+    }
+}
+
+impl CameraRays for ViewerCamera {
+    fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
+        let ViewerCamera(camera) = self;
+        camera.ray(Sample { pixel, offset })
+    }
+}
+
+/// A list of primitives as a tree without nodes.
+struct List(Box<dyn Aggregate>);
+
+impl Aggregate for List {
+    fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
+        self.0.closest_hit(ray)
+    }
+}
+
+impl Hierarchy for List {
+    fn root(&self) -> usize {
+        0
+    }
+
+    fn node_count(&self) -> usize {
+        0
+    }
+
+    fn node(&self, index: usize) -> TreeNode {
+        unreachable!("a list has no node {index}")
+    }
+
+    fn primitive_count(&self) -> usize {
+        0
+    }
+
+    fn shape(&self, index: usize) -> u32 {
+        unreachable!("the primitives of a list are not read, so not {index}")
+    }
+}

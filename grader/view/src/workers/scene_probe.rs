@@ -1,0 +1,396 @@
+//! A program with its current scene and camera.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use glam::Vec3;
+use grader::probe::Fault;
+use protocol::{ElementOutcome, Panic, Ray};
+use view_probe::indexed_tree::IndexedTree;
+use view_probe::messages::{
+    BoxQueries, Draw, DrawnPixels, Follow, OpenOutcome, Quantity, RecordedRay, Request, Response,
+    SubmissionPart, Target, TreeData, TreeSize, Trial,
+};
+use view_probe::rules::{NodeAddresses, NodeSpan, corners_with_margin, judged_nodes, rows};
+use view_probe::scene_data::{Aim, SceneData, TreeSource, written_shapes};
+
+use crate::model::explanation::{Context, Explanation, explain};
+use crate::model::tree::TreeModel;
+use crate::probe::{Probe, Stop};
+use crate::session::{Key, PinnedTarget, ScheduledJob};
+use crate::shared_session::SharedSession;
+
+/// The maximum number of tests to list for a pixel.
+const MAX_TESTS: u32 = 4_000;
+/// The CPU time limit for requests that call none of the submission's methods except constructors.
+const LIMIT: Duration = Duration::from_secs(10);
+/// The time after which the page says that `Bvh::build` is still running. Building the tree of a
+/// large scene takes several seconds, so the time limit comes much later.
+const SLOW_BUILD: Duration = Duration::from_millis(1500);
+/// The maximum number of rays in a path to search for the one that ends the program.
+const MAX_SEARCHED_RAYS: u32 = 64;
+
+/// A program that is started when needed, with its current scene and camera.
+pub(super) struct SceneProbe<'a> {
+    session: &'a SharedSession,
+    is_recorded: bool,
+    probe: Option<Probe>,
+    key: Key,
+    aim: Option<Aim>,
+    /// The size of the tree.
+    size: TreeSize,
+    /// The parts of the submission that haven't been written yet.
+    missing: Vec<(SubmissionPart, Panic)>,
+    /// The tree, if a pixel has been explained.
+    tree: Option<IndexedTree>,
+}
+
+fn unexpected(response: &Response) -> Stop {
+    let why = if *response == Response::NotOpen {
+        "it has no scene"
+    } else {
+        "it sent an invalid answer"
+    };
+    Stop::Invalid(why.to_owned())
+}
+
+/// Adds the method that was called to a fault.
+fn in_part(part: SubmissionPart, stop: Stop) -> Stop {
+    if let Stop::Fault(fault) = stop {
+        Stop::FaultIn(part, fault)
+    } else {
+        stop
+    }
+}
+
+/// Returns the ray or path that a request draws, or `None` if it draws several.
+fn single_target(draw: &Draw) -> Option<Target> {
+    let (pass, pixel) = draw.pixels().next().filter(|_| draw.milliseconds == 0)?;
+    Some(match draw.quantity {
+        Quantity::Light { sample } => Target::Path {
+            pixel,
+            sample: sample + pass,
+        },
+        Quantity::Clay { sample } => Target::Clay {
+            pixel,
+            sample: sample + pass,
+        },
+        Quantity::Hit | Quantity::Tests => Target::Centre(pixel),
+    })
+}
+
+impl<'a> SceneProbe<'a> {
+    pub(super) fn new(session: &'a SharedSession, is_recorded: bool) -> Self {
+        SceneProbe {
+            session,
+            is_recorded,
+            probe: None,
+            key: Key::default(),
+            aim: None,
+            size: TreeSize::default(),
+            missing: Vec::new(),
+            tree: None,
+        }
+    }
+
+    /// Ensures that the program has opened the scene and the camera that the work needs.
+    pub(super) fn prepare(&mut self, work: &ScheduledJob) -> Result<(), Stop> {
+        if self.key.program != work.key.program {
+            self.probe = None;
+        }
+        if self.probe.is_none() || self.key.scene != work.key.scene {
+            let opened = self.open(work, self.is_recorded);
+            if opened.is_err() {
+                self.probe = None;
+            }
+            opened?;
+        }
+        if self.aim != Some(work.aim) {
+            let response = self.ask(work, &Request::Aim(work.aim), LIMIT)?;
+            if response == Response::NotOpen {
+                // Building the tree failed, which has been reported.
+                return Err(Stop::Unwanted);
+            }
+            if response != Response::Aimed {
+                return Err(unexpected(&response));
+            }
+            self.aim = Some(work.aim);
+        }
+        Ok(())
+    }
+
+    /// Opens the scene that the work needs. Reports a method that fails or doesn't return.
+    fn open(&mut self, work: &ScheduledJob, lists_rays: bool) -> Result<(), Stop> {
+        let opened = self.open_by_parts(work, lists_rays);
+        if let Err(Stop::FaultIn(part, fault)) = &opened {
+            self.session
+                .update(|session, _| session.opening_ended(work.key, *part, fault));
+            return Err(Stop::Unwanted);
+        }
+        opened
+    }
+
+    /// Opens the scene that the work needs. Each method of the submission is called in a separate
+    /// request, so that the viewer knows which method fails.
+    fn open_by_parts(&mut self, work: &ScheduledJob, lists_rays: bool) -> Result<(), Stop> {
+        if self.probe.is_none() {
+            let probe = Probe::start(&work.program, work.memory);
+            self.probe = Some(probe.map_err(|error| Stop::Invalid(error.to_string()))?);
+        }
+        let mut data = SceneData::clone(&work.subject.data);
+        data.aim = work.aim;
+        data.is_recorded = lists_rays;
+        self.key = work.key;
+        self.aim = None;
+        self.tree = None;
+        let response = self.ask(work, &Request::Scene(Box::new(data)), LIMIT)?;
+        if response != Response::Received {
+            return Err(unexpected(&response));
+        }
+        let any_ray = Ray::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0));
+        for part in SubmissionPart::BEFORE_BUILD {
+            self.try_part(work, part, any_ray, work.call_limit)?;
+        }
+        let started_at = Instant::now();
+        let opened = self.build(work)?;
+        let took = started_at.elapsed();
+        let size = match opened.tree {
+            ElementOutcome::Value(size) => Some(size),
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
+        };
+        self.missing.clone_from(&opened.missing);
+        if size.is_some() {
+            let placement = work.aim.camera.placement;
+            let central_ray = Ray::new(placement.position, -placement.axes.z_axis);
+            self.try_ray(work, central_ray, work.call_limit)?;
+        }
+        self.session
+            .update(|session, _| session.opened(work.key, opened, took));
+        self.size = size.ok_or(Stop::Unwanted)?;
+        self.aim = Some(work.aim);
+        Ok(())
+    }
+
+    fn build(&mut self, work: &ScheduledJob) -> Result<OpenOutcome, Stop> {
+        match self.ask(work, &Request::Build, work.open_limit) {
+            Ok(Response::Opened(opened)) => Ok(opened),
+            Ok(other) => Err(unexpected(&other)),
+            Err(stop) => Err(in_part(SubmissionPart::Build, stop)),
+        }
+    }
+
+    /// Calls each method that takes a ray. If one fails, returns [`Stop::FaultIn`].
+    fn try_ray(&mut self, work: &ScheduledJob, ray: Ray, limit: Duration) -> Result<(), Stop> {
+        for part in SubmissionPart::WITH_RAY {
+            self.try_part(work, part, ray, limit)?;
+        }
+        Ok(())
+    }
+
+    fn try_part(
+        &mut self,
+        work: &ScheduledJob,
+        part: SubmissionPart,
+        ray: Ray,
+        limit: Duration,
+    ) -> Result<(), Stop> {
+        match self.ask(work, &Request::Try(Trial { part, ray }), limit) {
+            Ok(Response::Tried) => Ok(()),
+            Ok(other) => Err(unexpected(&other)),
+            Err(stop) => Err(in_part(part, stop)),
+        }
+    }
+
+    /// Sends a request to the program. After a fault or an abandoned request, the program is ended
+    /// and restarted when needed.
+    fn ask(
+        &mut self,
+        work: &ScheduledJob,
+        request: &Request,
+        limit: Duration,
+    ) -> Result<Response, Stop> {
+        let session = self.session;
+        let asked_at = Instant::now();
+        let mut is_reported = !matches!(request, Request::Build);
+        let is_abandoned = || {
+            if !is_reported && asked_at.elapsed() >= SLOW_BUILD {
+                is_reported = true;
+                session.update(|session, _| session.build_is_slow(work.key));
+            }
+            !session.read(|session, _| session.is_wanted(work.key))
+        };
+        let probe = self.probe.as_mut().ok_or(Stop::Unwanted)?;
+        let response = probe.ask(request, limit, is_abandoned);
+        if response.is_err() {
+            self.probe = None;
+            self.aim = None;
+        }
+        response
+    }
+
+    /// Finds the method that ended the program while it drew or followed the target. In a new
+    /// program, the target's rays are traced one by one. Before each ray is traced, every method is
+    /// called with it, starting with the methods that the others call.
+    fn find_culprit(&mut self, work: &ScheduledJob, target: Target, fault: Fault) -> Stop {
+        self.probe = None;
+        let found = self.open(work, true);
+        let found = found.and_then(|()| self.search_rays(work, target));
+        // This program lists its rays, which takes time.
+        self.probe = None;
+        match found {
+            Err(Stop::FaultIn(part, _)) => Stop::FaultIn(part, fault),
+            Err(Stop::Unwanted) => Stop::Unwanted,
+            Err(Stop::Fault(_) | Stop::Invalid(_)) | Ok(()) => Stop::Fault(fault),
+        }
+    }
+
+    fn search_rays(&mut self, work: &ScheduledJob, target: Target) -> Result<(), Stop> {
+        let limit = work.call_limit / 4;
+        for max_rays in 0..MAX_SEARCHED_RAYS {
+            let follow = Follow {
+                target,
+                max_tests: 0,
+                max_rays,
+            };
+            let followed = match self.ask(work, &Request::Follow(follow), limit) {
+                Ok(Response::Followed(followed)) => followed,
+                Ok(other) => return Err(unexpected(&other)),
+                Err(stop) if max_rays == 0 => return Err(in_part(SubmissionPart::Camera, stop)),
+                Err(stop) => return Err(stop),
+            };
+            let Some(next) = followed.rays.get(max_rays as usize) else {
+                return Ok(());
+            };
+            self.try_ray(work, next.ray, limit)?;
+        }
+        Ok(())
+    }
+
+    /// Draws some pixels of a tile.
+    pub(super) fn draw(
+        &mut self,
+        work: &ScheduledJob,
+        draw: &Draw,
+        limit: Duration,
+    ) -> Result<DrawnPixels, Stop> {
+        match self.ask(work, &Request::Draw(*draw), limit) {
+            Ok(Response::Drawn(drawn)) => Ok(drawn),
+            Ok(other) => Err(unexpected(&other)),
+            Err(Stop::Fault(fault)) => Err(match single_target(draw) {
+                Some(target) => self.find_culprit(work, target, fault),
+                None => Stop::Fault(fault),
+            }),
+            Err(stop) => Err(stop),
+        }
+    }
+
+    /// Returns the checked tree with facts about its nodes.
+    pub(super) fn checked_tree(&mut self, work: &ScheduledJob) -> Result<TreeModel, Stop> {
+        let tree = self.tree(work)?;
+        let shapes = written_shapes(&work.subject.data.shapes, &self.missing);
+        Ok(TreeModel::new(tree, &work.subject.tree_criteria(&shapes)))
+    }
+
+    fn tree(&mut self, work: &ScheduledJob) -> Result<IndexedTree, Stop> {
+        if let Some(why) = work.subject.oversize(self.size) {
+            return Err(Stop::Invalid(why));
+        }
+        let limit = work.open_limit.max(LIMIT);
+        let response = self.ask(work, &Request::Tree(self.size), limit)?;
+        if let Response::Tree(ElementOutcome::Panicked(Panic { message, location })) = &response {
+            return Err(Stop::Invalid(format!("panicked: {message} ({location})")));
+        }
+        let Response::Tree(ElementOutcome::Value(TreeData(tree))) = response else {
+            return Err(unexpected(&response));
+        };
+        Ok(IndexedTree::new(tree))
+    }
+
+    /// Explains a pixel.
+    pub(super) fn explain(
+        &mut self,
+        work: &ScheduledJob,
+        pinned: &PinnedTarget,
+    ) -> Result<Explanation, Stop> {
+        let tree = match self.tree.take() {
+            Some(tree) => tree,
+            None => self.tree(work).map_err(|stop| match stop {
+                Stop::Unwanted => stop,
+                Stop::Fault(_) | Stop::FaultIn(..) | Stop::Invalid(_) => {
+                    Stop::Invalid(format!("The tree cannot be read: {stop}"))
+                }
+            })?,
+        };
+        let explanation = self.explain_in(&tree, work, pinned);
+        self.tree = Some(tree);
+        explanation
+    }
+
+    fn explain_in(
+        &mut self,
+        tree: &IndexedTree,
+        work: &ScheduledJob,
+        pinned: &PinnedTarget,
+    ) -> Result<Explanation, Stop> {
+        let target = match (pinned.pixel, pinned.sample) {
+            (Some(pixel), None) => Target::Centre(pixel),
+            (Some(pixel), Some(sample)) => Target::Path { pixel, sample },
+            (None, _) => {
+                let question = work.subject.question.as_ref();
+                let ray = question.and_then(|question| question.ray);
+                Target::Ray(ray.ok_or(Stop::Unwanted)?)
+            }
+        };
+        let request = Request::Follow(Follow {
+            target,
+            max_tests: MAX_TESTS,
+            max_rays: u32::MAX,
+        });
+        let followed = match self.ask(work, &request, work.call_limit) {
+            Ok(Response::Followed(followed)) => followed,
+            Ok(other) => return Err(unexpected(&other)),
+            Err(Stop::Fault(fault)) => return Err(self.find_culprit(work, target, fault)),
+            Err(stop) => return Err(stop),
+        };
+        let tests = followed.rays.iter().flat_map(|ray| &ray.tests);
+        let context = Context {
+            tree,
+            shapes: &work.subject.data.shapes,
+            is_list: matches!(work.subject.data.tree, TreeSource::List),
+            addresses: NodeAddresses::find(tests, tree),
+        };
+        let rays = followed.rays.iter();
+        let spans = rays.map(|ray| self.spans(work, ray, &context));
+        let spans: Vec<BTreeMap<u32, NodeSpan>> = spans.collect::<Result<_, _>>()?;
+        let (pixel, sample) = (pinned.pixel, pinned.sample);
+        Ok(explain(pixel, sample, &followed, &spans, &context))
+    }
+
+    /// Returns, for each node needed to explain a ray, the part of the ray inside the node's box.
+    fn spans(
+        &mut self,
+        work: &ScheduledJob,
+        ray: &RecordedRay,
+        context: &Context,
+    ) -> Result<BTreeMap<u32, NodeSpan>, Stop> {
+        let rows = rows(ray, context.tree, context.addresses);
+        let nodes = judged_nodes(&rows, context.tree);
+        let corners = nodes
+            .iter()
+            .filter_map(|node| corners_with_margin(*node, context.tree));
+        let request = Request::Boxes(BoxQueries {
+            ray: ray.ray,
+            boxes: corners.flatten().collect(),
+        });
+        let response = self.ask(work, &request, LIMIT)?;
+        let Response::Spans(inside) = response else {
+            return Err(unexpected(&response));
+        };
+        let (pairs, _) = inside.as_chunks();
+        let span = |&[inside, inside_larger]: &[_; 2]| NodeSpan {
+            inside,
+            inside_larger,
+        };
+        Ok(nodes.into_iter().zip(pairs.iter().map(span)).collect())
+    }
+}

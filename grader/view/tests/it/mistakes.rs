@@ -1,0 +1,112 @@
+//! Tests the views that show tests and mistakes: checks the sums over all rays, which appear
+//! without a click, before and after a save.
+
+use serde_json::{Value, json};
+use test_support::{Chromium, DESKTOP};
+
+use crate::browser::{open, text, wait};
+use crate::expected_tests::marks;
+use crate::harness::{Submission, Viewer};
+
+const SIZE: [u32; 2] = [48, 36];
+
+/// Shows the mistakes of all rays and waits until the picture is complete.
+fn wait_for_mistakes(viewer: &Viewer) -> Value {
+    viewer.command(&json!({ "view": "mistakes" }));
+    viewer.wait_for(|state| state["view"] == "mistakes" && state["is_picture_complete"] == true)
+}
+
+#[test]
+fn a_save_that_visits_the_farther_child_first_changes_the_sums_and_the_picture() {
+    let submission = Submission::reference();
+    let [width, height] = SIZE;
+    let arguments = format!("checkered-teapot --size {width}x{height} --samples 1");
+    let viewer = Viewer::start(&submission, &arguments);
+    let state = wait_for_mistakes(&viewer);
+    let correct = &state["tests"];
+    assert_eq!(correct["marked"], 0.0, "{correct}");
+    assert_eq!(correct["broken"], json!([0.0, 0.0, 0.0]));
+    assert_eq!(
+        (&correct["before"], &correct["problem"]),
+        (&Value::Null, &Value::Null)
+    );
+    let is_grey = |[r, g, b]: [u8; 3]| r == g && g == b;
+    assert!(viewer.picture().into_iter().all(is_grey));
+
+    submission.replace(
+        "bvh.rs",
+        "if in_l.min <= in_r.min {",
+        "if in_l.min > in_r.min {",
+    );
+    let state = viewer.wait_for(|state| {
+        state["is_picture_complete"] == true && state["tests"]["before"] != Value::Null
+    });
+    let wrong = &state["tests"];
+    for part in ["mean", "marked", "broken"] {
+        assert_eq!(wrong["before"][part], correct[part], "{part}");
+    }
+    assert!(wrong["mean"].as_f64() > correct["mean"].as_f64(), "{wrong}");
+    let [missed, _, farther] = [0, 1, 2].map(|rule| wrong["broken"][rule].as_f64().unwrap());
+    assert!(missed == 0.0 && farther > 0.1, "{wrong}");
+
+    // The coloured pixels are those with marks in their explanation.
+    let picture = viewer.picture();
+    let coloured = picture.iter().filter(|pixel| !is_grey(**pixel)).count();
+    let share = coloured as f64 / f64::from(width * height);
+    assert!(
+        (share - wrong["marked"].as_f64().unwrap()).abs() < 1e-9,
+        "{share}"
+    );
+    let mut marked = 0;
+    for pixel in (0..12).map(|i| [2 + 4 * i, 3 + 29 * i % 30]) {
+        let explanation = viewer.explain(pixel, None);
+        let is_marked = !marks(&explanation["rays"][0]).is_empty();
+        let index = (height - 1 - pixel[1]) * width + pixel[0];
+        assert_eq!(is_marked, !is_grey(picture[index as usize]), "{pixel:?}");
+        marked += u32::from(is_marked);
+    }
+    assert!((1..12).contains(&marked), "{marked}");
+
+    if let Some(chromium) = Chromium::start() {
+        let mut tab = open(&viewer, &chromium, DESKTOP);
+        wait(&mut tab, "!document.getElementById('sums').hidden");
+        let sums = text(&mut tab, "#sums");
+        assert!(
+            sums.contains("% of rays visit the farther child first (before the last save: 0 %)"),
+            "{sums}"
+        );
+        viewer.command(&json!({ "view": "tests" }));
+        wait(
+            &mut tab,
+            "document.getElementById('legend').innerText.includes('1000 or more')",
+        );
+        let sums = text(&mut tab, "#sums");
+        assert!(
+            sums.contains("tests per ray on average (before the last save: "),
+            "{sums}"
+        );
+        assert_eq!(tab.errors(), [""; 0]);
+    }
+    // A different camera produces different rays.
+    viewer.command(&json!({ "side": "top" }));
+    let state = wait_for_mistakes(&viewer);
+    assert_eq!(state["tests"]["before"], Value::Null);
+}
+
+#[test]
+fn a_traversal_without_box_tests_is_not_judged_and_the_page_says_so() {
+    let submission = Submission::reference();
+    submission.replace_traversal(
+        "    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        self.primitives.iter().map(|primitive| primitive.hit(ray)).fold(None, Trace::nearer)
+    }
+",
+    );
+    // No click is needed, since the command line can choose the view.
+    let viewer = Viewer::start(&submission, "flat --size 16x12 --samples 1 --view mistakes");
+    let state = viewer.wait_for_picture();
+    assert_eq!(state["view"], "mistakes");
+    let problem = state["tests"]["problem"].as_str().unwrap();
+    assert!(problem.contains("does not call `BBox::hit`"), "{problem}");
+    assert_eq!(state["tests"]["marked"], 0.0);
+}

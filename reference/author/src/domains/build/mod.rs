@@ -1,0 +1,405 @@
+//! The domain of `Bvh::build`.
+
+mod arrangement;
+mod best_split;
+
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+use protocol::{Question, Shape};
+
+use self::arrangement::{ARRANGEMENT, ARRANGEMENT_ALONG_ANY_AXIS};
+use self::best_split::{BEST_AXIS, LEVELS, SMALLER_SIDE};
+use super::fields::{class_up_to, powers_of_two};
+use super::{Aspect, FunctionDomain, Placed, not_asked};
+use crate::oracle::bbox::Bounds;
+use crate::oracle::scan;
+
+/// A call to `Bvh::build`.
+#[derive(Clone, Debug)]
+pub struct BuildCall {
+    /// The primitives.
+    pub shapes: Vec<Shape>,
+    /// The maximum number of primitives in a leaf.
+    pub max_leaf_size: u32,
+}
+
+impl BuildCall {
+    /// Returns the call in a question, or `None` if the question is about something else.
+    pub fn of(question: &Question) -> Option<BuildCall> {
+        let Question::Build {
+            shapes,
+            max_leaf_size,
+        } = question
+        else {
+            return None;
+        };
+        Some(BuildCall {
+            shapes: shapes.clone(),
+            max_leaf_size: *max_leaf_size,
+        })
+    }
+
+    fn centers(&self) -> Vec<DVec3> {
+        let boxes = self.shapes.iter().map(scan::bounds);
+        boxes.map(|bounds| bounds.center()).collect()
+    }
+}
+
+impl Placed for BuildCall {
+    fn bounds(&self) -> Option<Bounds> {
+        let boxes = self.shapes.iter().map(scan::bounds);
+        (!self.shapes.is_empty()).then(|| Bounds::enclosing(boxes))
+    }
+}
+
+/// The domain of `Bvh::build`.
+pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
+    function: "Bvh::build",
+    subject_aspects: &[],
+    aspects: &[
+        COUNT,
+        LEAF_SIZE,
+        LEAVES,
+        Aspect::SIZE,
+        Aspect::PLACE,
+        Aspect::OCTANT_OF_ALL,
+        KIND,
+        ARRANGEMENT,
+        ARRANGEMENT_ALONG_ANY_AXIS,
+        BEST_AXIS,
+        LEVELS,
+        LARGE,
+        SMALLER_SIDE,
+        SHAPE_OF_TREE,
+        WORK,
+    ],
+    pairs: &[],
+    calls: |question| BuildCall::of(question).into_iter().collect(),
+    not_asked: &[
+        not_asked(
+            &["primitives"],
+            &["about 2,048", "about 4,096"],
+            &[],
+            "An exam tests one tree of each of these sizes, since each takes up as much of the \
+             exam as a hundred small ones.",
+        ),
+        not_asked(
+            &[
+                "primitives",
+                "max_leaf_size",
+                "primitives in leaves",
+                "size",
+                "place",
+                "octant",
+                "kind",
+                "arrangement",
+            ],
+            &[],
+            EVERY_PROPERTY,
+            "Each property of a tree is judged for each arrangement of primitives, and in many \
+             trees that differ in this aspect.",
+        ),
+        not_asked(
+            &[
+                "extent along the axis of the best split",
+                "smaller side of the best split",
+                "form of the tree",
+                "area times primitives",
+            ],
+            &[],
+            ALL_BUT_COST,
+            "Only the cost depends on how nodes are split, and on areas.",
+        ),
+        not_asked(
+            &["over 1,024 primitives"],
+            &[],
+            &["split", "cost"],
+            "The leaf size is judged, which is stricter, and the cost of trees with larger leaves.",
+        ),
+        not_asked(
+            &["levels"],
+            &[],
+            &[
+                "partition",
+                "contents",
+                "tightness",
+                "split",
+                "stops",
+                "cost",
+            ],
+            "A builder that stops at a level makes a leaf there, which is too large.",
+        ),
+        not_asked(
+            &["levels"],
+            &["1"],
+            &["leaf size"],
+            "A tree of one level is asked of where a node must be a leaf.",
+        ),
+        not_asked(
+            &["arrangement along any axis"],
+            &["all centres coincide", "over 128 centres coincide"],
+            &["split", "cost"],
+            "All partitions of primitives with one centre cost the same, and the leaf size is judged instead.",
+        ),
+        not_asked(
+            &["arrangement along any axis"],
+            &["on a line along an axis"],
+            &["split", "cost"],
+            "Every box has area 0, so no partition is better than any other.",
+        ),
+        not_asked(
+            &["arrangement along any axis"],
+            &["equal boxes, max_leaf_size 1"],
+            &["split", "cost"],
+            "Some of the partitions of equal boxes cost the same, and the leaf size is judged.",
+        ),
+        not_asked(
+            &["arrangement along any axis"],
+            &["equal primitives"],
+            &["cost"],
+            "Some of the partitions of equal primitives cost the same, so builders differ.",
+        ),
+        not_asked(
+            &["arrangement along any axis"],
+            &[
+                "some without area",
+                "equal primitives",
+                "of very different sizes",
+            ],
+            &["split"],
+            "The leaf size is judged, which is stricter.",
+        ),
+    ],
+};
+
+/// All judged properties of a tree.
+const EVERY_PROPERTY: &[&str] = &[
+    "partition",
+    "contents",
+    "tightness",
+    "split",
+    "leaf size",
+    "stops",
+    "cost",
+];
+
+/// All judged properties of a tree except its cost.
+const ALL_BUT_COST: &[&str] = EVERY_PROPERTY.split_last().unwrap().1;
+
+/// The aspects that are balanced when calls are drawn: those that can be computed without a tree.
+pub const DRAWN: &[Aspect<BuildCall>] = &[
+    COUNT,
+    LEAF_SIZE,
+    LEAVES,
+    Aspect::SIZE,
+    Aspect::PLACE,
+    Aspect::OCTANT_OF_ALL,
+    KIND,
+    ARRANGEMENT,
+];
+
+/// The number of primitives: every number from 0 to 10, then powers of two and numbers close to
+/// them.
+const COUNT: Aspect<BuildCall> = Aspect {
+    name: "primitives",
+    classes: &[
+        "0",
+        "1",
+        "2",
+        "3",
+        "4",
+        "5",
+        "6",
+        "7",
+        "8",
+        "9",
+        "10",
+        "about 16",
+        "about 32",
+        "about 64",
+        "about 128",
+        "about 256",
+        "about 512",
+        "about 1,024",
+        "about 2,048",
+        "about 4,096",
+    ],
+    class: |call| {
+        Some(match call.shapes.len() {
+            count @ ..=10 => count,
+            count => 7 + powers_of_two(count).clamp(4, 12),
+        })
+    },
+};
+
+/// The maximum number of primitives in a leaf.
+const LEAF_SIZE: Aspect<BuildCall> = Aspect {
+    name: "max_leaf_size",
+    classes: &[
+        "1",
+        "2",
+        "3 or 4",
+        "5 to 8",
+        "9 to 32",
+        "33 to 255",
+        "256 to 1,000",
+    ],
+    class: |call| {
+        let limits = [1, 2, 4, 8, 32, 255];
+        Some(class_up_to(&limits, call.max_leaf_size as usize))
+    },
+};
+
+/// The number of primitives relative to the leaf size.
+const LEAVES: Aspect<BuildCall> = Aspect {
+    name: "primitives in leaves",
+    classes: &[
+        "fewer than fit into one",
+        "as many as fit into one",
+        "one more",
+        "up to 2 leaves",
+        "up to 8 leaves",
+        "more",
+    ],
+    class: |call| {
+        let (count, leaf) = (call.shapes.len(), call.max_leaf_size as usize);
+        Some(match count {
+            _ if count < leaf => 0,
+            _ if count == leaf => 1,
+            _ if count == leaf + 1 => 2,
+            _ => 3 + class_up_to(&[2, 8], count.div_ceil(leaf)),
+        })
+    },
+};
+
+/// The kind of the primitives.
+const KIND: Aspect<BuildCall> = Aspect {
+    name: "kind",
+    classes: &["triangles", "flat triangles", "spheres", "mixed"],
+    class: |call| {
+        let kinds: BTreeSet<usize> = call.shapes.iter().map(kind).collect();
+        let first = kinds.first().copied()?;
+        Some(if kinds.len() > 1 { 3 } else { first })
+    },
+};
+
+/// Returns the kind of a shape: triangle, flat triangle or sphere.
+pub(super) fn kind(shape: &Shape) -> usize {
+    match shape {
+        Shape::Triangle { .. } => 0,
+        Shape::FlatTriangle { .. } => 1,
+        Shape::Sphere { .. } => 2,
+    }
+}
+
+/// Many primitives in small leaves.
+const LARGE: Aspect<BuildCall> = Aspect {
+    name: "over 1,024 primitives",
+    classes: &["in leaves of up to 3"],
+    class: |call| (call.shapes.len() > 1024 && call.max_leaf_size < 4).then_some(0),
+};
+
+/// The numbers of primitives in the tree and in its leaves.
+const SHAPE_OF_TREE: Aspect<BuildCall> = Aspect {
+    name: "form of the tree",
+    classes: &[
+        "one split of over 1,024",
+        "9 to 100 primitives in leaves of one",
+        "five or more leaves of 16 or more",
+    ],
+    class: |call| match (call.shapes.len(), call.max_leaf_size as usize) {
+        (1025.., leaf) if call.shapes.len() < 2 * leaf => Some(0),
+        (9..=100, 1) => Some(1),
+        (count, leaf @ 16..) if count > 4 * leaf => Some(2),
+        _ => None,
+    },
+};
+
+/// The area of the root's box times the number of primitives. Costs are proportional to it.
+const WORK: Aspect<BuildCall> = Aspect {
+    name: "area times primitives",
+    classes: &["above 1e10"],
+    class: |call| {
+        let work = call.bounds()?.area() * call.shapes.len() as f64;
+        (work > 1e10).then_some(0)
+    },
+};
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::domains::Domain;
+
+    fn sphere(center: [f32; 3], radius: f32) -> Shape {
+        Shape::Sphere {
+            center: Vec3::from_array(center),
+            radius,
+            shape: 0,
+        }
+    }
+
+    fn classes(shapes: Vec<Shape>, max_leaf_size: u32) -> Vec<Option<&'static str>> {
+        let question = Question::Build {
+            shapes,
+            max_leaf_size,
+        };
+        let classes = BUILD.classes(&question, None).remove(0);
+        let aspects = BUILD.aspects().into_iter().zip(classes);
+        aspects
+            .map(|((_, names), class)| Some(names[class?]))
+            .collect()
+    }
+
+    #[test]
+    fn every_aspect_has_the_class_of_a_call() {
+        let row = (0..17).map(|index| sphere([2.0 * index as f32 + 5.0, 3.0, 4.0], 1.0));
+        let expected = [
+            "about 16",
+            "9 to 32",
+            "one more",
+            "10",
+            "1 size away",
+            "+++",
+            "spheres",
+            "centres in a row along x",
+            "centres in a row",
+            "the longest",
+            "2 to 8",
+        ];
+        let classes = classes(row.collect(), 16);
+        assert_eq!(classes[..expected.len()], expected.map(Some));
+    }
+
+    #[test]
+    fn nothing_has_a_number_and_no_place() {
+        let none = classes(Vec::new(), 1000);
+        assert_eq!(none[0], Some("0"));
+        assert_eq!(none[1], Some("256 to 1,000"));
+        assert_eq!(none[3..], [None; 13]);
+    }
+
+    #[test]
+    fn arrangements_are_told_apart() {
+        let arrangement = |shapes: Vec<Shape>| classes(shapes, 1)[7];
+        let [a, b, c] = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [1.0, 4.0, 0.0]];
+        let of = |radii: [f32; 3], centers: [[f32; 3]; 3]| {
+            let spheres = centers.into_iter().zip(radii);
+            arrangement(
+                spheres
+                    .map(|(center, radius)| sphere(center, radius))
+                    .collect(),
+            )
+        };
+        assert_eq!(of([1.0, 2.0, 1.0], [a, a, a]), Some("equal primitives"));
+        assert_eq!(of([1.0, 2.0, 3.0], [a, a, a]), Some("all centres coincide"));
+        let plane = of([1.0; 3], [a, b, c]);
+        assert_eq!(plane, Some("centres in a plane across z"));
+        let far = of([1.0; 3], [a, [3.0, 1.0, 2.0], [90.0, 80.0, 70.0]]);
+        assert_eq!(far, Some("one far from the others"));
+        let sizes = of([0.01, 2.0, 1.0], [a, b, [1.0, 2.0, 3.0]]);
+        assert_eq!(sizes, Some("of very different sizes"));
+    }
+}

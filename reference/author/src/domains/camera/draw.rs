@@ -1,0 +1,215 @@
+//! Draws cameras and samples.
+
+use glam::{UVec2, Vec2, uvec2};
+use protocol::{PinholeCamera, Sample};
+
+use super::{ALMOST, ANGLES, OLD, ROUND_ANGLES, SENSORS, SIDES, USUAL_RATIOS};
+use crate::seed::Rng;
+
+/// Draws a number from an interval of a domain.
+pub fn drawn((from, to): (f64, f64), rng: &mut Rng) -> f64 {
+    if from < to {
+        rng.log_uniform(from, to)
+    } else {
+        from
+    }
+}
+
+/// Draws an offset along one axis, often at an end of the pixel.
+pub fn offset(rng: &mut Rng) -> f32 {
+    let offset = match rng.index(6) {
+        0 => 0.0,
+        1 => rng.log_uniform(1e-4, 0.01),
+        2 => 1.0 - rng.log_uniform(1e-4, 0.01),
+        _ => rng.uniform(0.02, 0.98),
+    };
+    offset as f32
+}
+
+/// Draws a film's width or height in this class.
+pub fn side(rng: &mut Rng, class: usize) -> u32 {
+    match class % SIDES.len() {
+        0 => 1,
+        1 => rng.integer(2, 10),
+        2 => rng.integer(11, 255),
+        3 => rng.integer(256, 4095),
+        _ => 4096,
+    }
+}
+
+/// Draws cameras with all angles of view, sensors and films. Most differ from the previous one in a
+/// single field and are asked for the same samples, so that a method that keeps state between calls
+/// fails.
+pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let (classes, forms) = (
+        rng.shuffled((0..SIDES.len()).collect()),
+        rng.shuffled((0..SENSORS.len()).collect()),
+    );
+    let mut asked = [[0; SENSORS.len()]; ANGLES.len()];
+    let mut cameras = Vec::new();
+    for (pair, classes) in classes.chunks(2).enumerate() {
+        let [first, second, third] = [0, 1, 2].map(|it| forms[(pair + it) % forms.len()]);
+        // The first sensor is at both ends, so that nothing but the film changes when the film is
+        // rotated.
+        let ends = [first, second, second, third, third, first];
+        let film = uvec2(side(rng, classes[0]), side(rng, classes[classes.len() - 1]));
+        let mut camera = PinholeCamera {
+            vertical_fov: 0.0,
+            aspect_ratio: 0.0,
+            film,
+        };
+        let mut samples = samples_of_both(rng, film);
+        let (mut last_angle, mut last_form) = (None, None);
+        for turn in 0..classes.len() {
+            for (step, &form) in ends.iter().enumerate() {
+                let angle = if turn == 0 { step / 2 } else { 2 - step / 2 };
+                let times = &mut asked[angle][form];
+                if last_angle.replace(angle) != Some(angle) {
+                    camera.vertical_fov = drawn(ANGLES[angle][*times % 3], rng) as f32;
+                }
+                if last_form.replace(form) != Some(form) {
+                    let ratios = SENSORS[form];
+                    camera.aspect_ratio = drawn(ratios[*times % ratios.len()], rng) as f32;
+                }
+                *times += 1;
+                cameras.push((camera, samples.clone()));
+                // The last sample for a camera is also the first one for the next camera.
+                samples.reverse();
+            }
+            camera.film = uvec2(film.y, film.x);
+            samples.retain(|sample| sample.pixel.cmplt(camera.film).all());
+        }
+    }
+    cameras
+}
+
+/// Draws cameras that each differ from the previous one in a single field, most by less than 1%.
+/// They are asked for the same samples.
+pub fn almost_equal_cameras(
+    rng: &mut Rng,
+    first: PinholeCamera,
+) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let almost = |rng: &mut Rng, ratio: f64| {
+        let difference = rng.sign() * rng.uniform(0.4, 0.9) * ALMOST;
+        (ratio * (1.0 + difference)) as f32
+    };
+    let mut cameras = vec![first];
+    let mut add = |change: &dyn Fn(&mut PinholeCamera)| {
+        let mut camera = cameras[cameras.len() - 1];
+        change(&mut camera);
+        cameras.push(camera);
+    };
+    let ratio = almost(rng, first.aspect_ratio.into());
+    add(&|camera| camera.aspect_ratio = ratio);
+    let angle = (rng.sign() * rng.uniform(0.2, 0.45)) as f32;
+    add(&|camera| camera.vertical_fov += angle);
+    let rows = (f64::from(first.film.y) * rng.uniform(0.5, 0.8)).round() as u32;
+    add(&|camera| camera.film.y = rows);
+    let ratio = almost(rng, OLD);
+    add(&|camera| camera.aspect_ratio = ratio);
+    let columns = (f64::from(rows) * OLD).round() as u32;
+    add(&|camera| camera.film.x = columns);
+    add(&|camera| camera.aspect_ratio = OLD as f32);
+    // All films contain the same pixels.
+    let film = cameras.iter().map(|camera| camera.film);
+    let film = film.reduce(UVec2::min).unwrap_or(first.film);
+    let mut samples: Vec<Sample> = (0..8).map(|_| sample(rng, film)).collect();
+    let ends = [UVec2::ZERO, film - 1];
+    for (row, pixel) in [(0, ends[0]), (1, ends[1]), (6, ends[1]), (7, ends[0])] {
+        samples[row].pixel = pixel;
+    }
+    let mut all = Vec::new();
+    for camera in cameras {
+        all.push((camera, samples.clone()));
+        // The last sample for a camera is also the first one for the next camera.
+        samples.reverse();
+    }
+    all
+}
+
+/// Draws cameras whose field of view is almost a round angle and whose aspect ratio is almost a
+/// usual one. Some films are strips.
+pub fn almost_usual_cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let almost = |rng: &mut Rng, number: f64, difference: f64| {
+        (number + rng.sign() * rng.uniform(0.75, 0.98) * difference) as f32
+    };
+    let mut all = Vec::new();
+    for (index, ratio) in USUAL_RATIOS.into_iter().enumerate() {
+        let angle = ROUND_ANGLES[(index + 3) % ROUND_ANGLES.len()];
+        let (few, many) = (rng.integer(2, 10), rng.integer(1000, 4096));
+        let film = [(few, many), (many, few), (rng.integer(11, 255), many)][index % 3];
+        let camera = PinholeCamera {
+            vertical_fov: almost(rng, angle, 1.0),
+            aspect_ratio: almost(rng, ratio, 0.5 * ALMOST * ratio),
+            film: film.into(),
+        };
+        all.push((camera, (0..8).map(|_| sample(rng, camera.film)).collect()));
+    }
+    all
+}
+
+/// Draws samples at the ends of narrow views on wide sensors, in the middle of a large film with a
+/// usual view, and in a single pixel with a wide view.
+pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let mut all = Vec::new();
+    for (from, to, ratio) in [(3.5, 4.95, 7.0), (7.5, 9.9, 9.0), (10.0, 15.0, 7.0)] {
+        let film = uvec2(rng.integer(11, 255), rng.integer(2, 255));
+        let narrow = PinholeCamera {
+            vertical_fov: rng.uniform(from, to) as f32,
+            aspect_ratio: rng.uniform(ratio, 10.0) as f32,
+            film,
+        };
+        let ends = (0..8).map(|index| Sample {
+            pixel: uvec2([0, film.x - 1][index % 2], rng.integer(0, film.y - 1)),
+            offset: Vec2::new(offset(rng), offset(rng)),
+        });
+        all.push((narrow, ends.collect()));
+    }
+    let large = PinholeCamera {
+        vertical_fov: rng.uniform(60.0, 100.0) as f32,
+        aspect_ratio: rng.uniform(7.0, 10.0) as f32,
+        film: uvec2(rng.integer(1024, 1600), rng.integer(1024, 1600)),
+    };
+    let in_the_middle = (0..8).map(|_| Sample {
+        pixel: large.film / 2,
+        offset: Vec2::new(offset(rng), offset(rng)),
+    });
+    all.push((large, in_the_middle.collect()));
+    let single = PinholeCamera {
+        vertical_fov: rng.uniform(121.0, 175.0) as f32,
+        aspect_ratio: rng.log_uniform(0.3, 3.0) as f32,
+        film: UVec2::ONE,
+    };
+    let of_single = (0..8).map(|_| sample(rng, single.film)).collect();
+    all.push((single, of_single));
+    all
+}
+
+/// Draws samples on a film. The first and the last also exist on the rotated film. Some samples
+/// repeat the previous one with x and y swapped.
+fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
+    let square = UVec2::splat(film.min_element());
+    let films = [square, square, film, film, film, film, square, square];
+    let mut samples = films.map(|film| sample(rng, film)).to_vec();
+    let Sample { pixel, offset } = samples[1];
+    let exchanged = Sample {
+        pixel: uvec2(pixel.y, pixel.x),
+        offset: Vec2::new(offset.y, offset.x),
+    };
+    samples.insert(2, exchanged);
+    samples
+}
+
+/// Draws a pixel of a film, often one at an edge, and a position in this pixel.
+pub fn sample(rng: &mut Rng, film: UVec2) -> Sample {
+    let mut position = |count: u32| match rng.index(5) {
+        0 => 0,
+        1 => count - 1,
+        2 => count / 2,
+        _ => rng.index(count as usize) as u32,
+    };
+    Sample {
+        pixel: uvec2(position(film.x), position(film.y)),
+        offset: Vec2::new(offset(rng), offset(rng)),
+    }
+}

@@ -1,0 +1,152 @@
+//! The gallery of pictures: each chapter shows a right picture beside the pictures of known
+//! mistakes.
+
+mod pictures;
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use judging::section::CHAPTERS;
+use serde::Deserialize;
+
+use crate::authoring::Authoring;
+use crate::generated_file::GeneratedFile;
+use crate::solutions::catalogue::{Mistake, mistakes};
+use crate::solutions::read_toml;
+
+pub use pictures::write_or_check;
+
+/// The list of pictures, relative to the folder of an assignment's solutions.
+const LIST: &str = "mistakes/gallery.toml";
+/// The lines above and below the text about a chapter's pictures.
+const BEGIN: &str = "<!-- generated from reference/mistakes/gallery.toml -->";
+const END: &str = "<!-- end of the gallery -->";
+
+/// The pictures of all chapters.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Gallery {
+    chapter: Vec<Chapter>,
+}
+
+/// The pictures of a chapter, all of the same scene.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Chapter {
+    /// The chapter's page, such as `sphere.md`.
+    page: String,
+    /// A sentence that says when to draw the picture.
+    when: String,
+    /// The name of a scene, such as `cornell-box`.
+    scene: String,
+    /// The view to draw, such as `normals`.
+    view: String,
+    /// A description of the right picture.
+    shows: String,
+    /// The known mistakes, in the order of their pictures.
+    mistakes: Vec<String>,
+}
+
+impl Chapter {
+    /// The path of the sheet with all pictures, relative to the chapters.
+    fn sheet(&self) -> String {
+        format!("figures/{}", self.page.replace(".md", "-gallery.png"))
+    }
+
+    /// The command that draws the picture, as students type it.
+    fn command(&self) -> String {
+        format!(
+            "cargo render scenes/{}.json --view {}",
+            self.scene, self.view
+        )
+    }
+
+    /// The text below the heading: the command, the sheet and a caption for each picture.
+    fn text(&self, catalogue: &[Mistake]) -> Result<String> {
+        let captions = self.mistakes.iter().enumerate().map(|(index, id)| {
+            let mistake = catalogue.iter().find(|mistake| mistake.id == *id);
+            let mistake = mistake.with_context(|| format!("{LIST}: there is no mistake `{id}`"))?;
+            Ok(format!("{}. The code {}.", index + 2, mistake.title))
+        });
+        let captions = captions.collect::<Result<Vec<_>>>()?.join("\n");
+        Ok(format!(
+            "{}\n\n```sh\n{}\n```\n\nYou should see the first picture, {}. The others come \
+             from wrong code. They are numbered row by row.\n\n![The right picture, followed by {} wrong \
+             ones. Each is described below.]({})\n\n<details><summary>What causes each wrong picture\
+             </summary>\n\n1. The right picture.\n{captions}\n\n</details>",
+            self.when,
+            self.command(),
+            self.shows,
+            self.mistakes.len(),
+            self.sheet()
+        ))
+    }
+}
+
+/// Reads the list of an assignment's pictures.
+fn gallery(root: &Path, authoring: &Authoring) -> Result<Gallery> {
+    read_toml(&root.join(authoring.handed_out.solutions()).join(LIST))
+}
+
+/// Generates the text about the pictures in each chapter, given the text of the chapter.
+pub fn with_pictures(
+    root: &Path,
+    authoring: &Authoring,
+    mut chapters: Vec<GeneratedFile>,
+) -> Result<Vec<GeneratedFile>> {
+    let catalogue = mistakes(root, authoring.handed_out)?;
+    for chapter in gallery(root, authoring)?.chapter {
+        let path = format!("{CHAPTERS}/{}", chapter.page);
+        let page = chapters.iter_mut().find(|file| file.path == path);
+        let page =
+            page.with_context(|| format!("{LIST}: {} is not a task's chapter", chapter.page))?;
+        let (before, after) = page.contents.split_once(BEGIN).unwrap_or_default();
+        let end = after.find(END);
+        let end = end.with_context(|| format!("{path} needs the lines {BEGIN:?} and {END:?}"))?;
+        let text = chapter.text(&catalogue)?;
+        page.contents = format!("{before}{BEGIN}\n{text}\n{}", &after[end..]);
+    }
+    Ok(chapters)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chapter(mistake: &str) -> Chapter {
+        Chapter {
+            page: "sphere.md".to_owned(),
+            when: "Draw this now:".to_owned(),
+            scene: "spheres".to_owned(),
+            view: "uv".to_owned(),
+            shows: "three balls".to_owned(),
+            mistakes: vec![mistake.to_owned()],
+        }
+    }
+
+    #[test]
+    fn a_caption_is_the_title_of_a_known_mistake() {
+        let mistake = Mistake {
+            id: "sphere.radius_one".to_owned(),
+            title: "assumes a radius of 1".to_owned(),
+            ..Mistake::default()
+        };
+        let text = chapter("sphere.radius_one").text(std::slice::from_ref(&mistake));
+        let text = text.expect("the mistake is known");
+        assert!(
+            text.contains("cargo render scenes/spheres.json --view uv"),
+            "{text}"
+        );
+        assert!(
+            text.contains("2. The code assumes a radius of 1."),
+            "{text}"
+        );
+        let error = chapter("sphere.radius_two")
+            .text(&[mistake])
+            .expect_err("no such mistake");
+        assert_eq!(
+            error.to_string(),
+            "mistakes/gallery.toml: there is no mistake `sphere.radius_two`"
+        );
+    }
+}

@@ -1,0 +1,164 @@
+//! Questions with small whole numbers, which people can work out on paper. They come first in their
+//! tasks, so that the report shows them first.
+
+use glam::DVec3;
+use judging::exam::ExamQuestion;
+use protocol::{Interval, Ray, Shape, Vertex};
+
+use super::shape_question;
+use crate::oracle::Ray64;
+use crate::oracle::bbox::Bounds;
+use crate::seed::Rng;
+
+/// The number of rays that hit a box, and the number of rays that miss it.
+const BOX_RAYS_OF_EACH_KIND: usize = 3;
+
+/// Returns a point whose coordinates are whole numbers from −4 to 4.
+fn whole_point(rng: &mut Rng) -> DVec3 {
+    DVec3::from_array([(); 3].map(|()| f64::from(rng.integer(0, 8)) - 4.0))
+}
+
+/// Returns the unit vectors of the three axes in random order, each with a random sign.
+fn axes(rng: &mut Rng) -> [DVec3; 3] {
+    let first = rng.index(3);
+    let step = if rng.coin() { 1 } else { 2 };
+    [first, first + step, first + 2 * step].map(|axis| rng.sign() * DVec3::AXES[axis % 3])
+}
+
+/// Creates a question with rays that hit a triangle from the front and rays that pass beside it.
+/// All rays are perpendicular to the triangle. Its legs are parallel to two axes and 4 long, so the
+/// weights are multiples of a quarter.
+pub(super) fn triangle(rng: &mut Rng) -> ExamQuestion {
+    let corner = whole_point(rng);
+    let [right, up, _] = axes(rng);
+    let front = right.cross(up);
+    let vertex = |u: f64, v: f64| {
+        let position = corner + 4.0 * (u * right + v * up);
+        let uv = glam::dvec2(u, v).as_vec2();
+        Vertex::new(position.as_vec3(), front.as_vec3(), uv)
+    };
+    let shape = Shape::Triangle {
+        vertices: [vertex(0.0, 0.0), vertex(1.0, 0.0), vertex(0.0, 1.0)],
+        shape: rng.integer(1, 9),
+    };
+    let inside = rng.shuffled(vec![(1.0, 1.0), (2.0, 1.0), (1.0, 2.0)]);
+    // One ray beyond each edge.
+    let outside = rng.shuffled(vec![(-1.0, 2.0), (2.0, -1.0), (3.0, 2.0)]);
+    let rays = inside.into_iter().chain(outside).map(|(x, y)| {
+        let distance = f64::from(rng.integer(1, 9));
+        let origin = corner + x * right + y * up + distance * front;
+        Ray::new(origin.as_vec3(), -front.as_vec3())
+    });
+    let rays: Vec<Ray> = rays.collect();
+    shape_question(&["distance"], shape, rays)
+}
+
+/// Creates a question with rays that hit a sphere from outside and rays that pass beside it. All
+/// rays are parallel to an axis. The radius is 5, so half a chord is 5, 4 or 3.
+pub(super) fn sphere(rng: &mut Rng) -> ExamQuestion {
+    let center = whole_point(rng);
+    let shape = Shape::Sphere {
+        center: center.as_vec3(),
+        radius: 5.0,
+        shape: rng.integer(1, 9),
+    };
+    let beside = [0.0, 3.0, 4.0, 6.0, 7.0];
+    let rays = beside.map(|beside| {
+        let [along, across, _] = axes(rng);
+        let ahead = f64::from(rng.integer(6, 15));
+        let origin = center + beside * across - ahead * along;
+        Ray::new(origin.as_vec3(), along.as_vec3())
+    });
+    shape_question(&["distance"], shape, rays)
+}
+
+/// Returns a box and rays in the directions (±1, ±2, ±2) / 3, with the axes in any order. The rays
+/// that hit the box come first, then those that miss it.
+pub(super) fn bbox(rng: &mut Rng) -> (Bounds, Vec<(Ray, Interval)>) {
+    let min = whole_point(rng);
+    let size = [(); 3].map(|()| f64::from(rng.integer(2, 5)));
+    let bounds = Bounds {
+        min,
+        max: min + DVec3::from_array(size),
+    };
+    let mut queries = Vec::new();
+    for is_hit in [true, false] {
+        for _ in 0..BOX_RAYS_OF_EACH_KIND {
+            queries.push((
+                rng.retry(|rng| box_ray(rng, &bounds, is_hit)),
+                Interval::AHEAD,
+            ));
+        }
+    }
+    (bounds, queries)
+}
+
+/// Returns a ray from outside a box toward its surroundings, if it hits or misses the box as
+/// required.
+fn box_ray(rng: &mut Rng, bounds: &Bounds, is_hit: bool) -> Option<Ray> {
+    let [one, other, third] = axes(rng);
+    let dir = one + 2.0 * other + 2.0 * third;
+    let origin = 3.0 * whole_point(rng);
+    let ray = Ray::new(origin.as_vec3(), dir.as_vec3());
+    let slabs = [0, 1, 2].map(|axis| {
+        let times = [bounds.min, bounds.max].map(|plane| 3.0 * (plane - origin)[axis] / dir[axis]);
+        (times[0].min(times[1]), times[0].max(times[1]))
+    });
+    let enter = slabs
+        .iter()
+        .map(|slab| slab.0)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let leave = slabs
+        .iter()
+        .map(|slab| slab.1)
+        .fold(f64::INFINITY, f64::min);
+    let is_clear = enter >= 1.0 && (leave - enter).abs() >= 1.0;
+    let is_as_required = bounds.span(&Ray64::from(&ray)).is_some() == is_hit;
+    (is_clear && is_as_required).then_some(ray)
+}
+
+#[cfg(test)]
+mod tests {
+    use judging::exam::{ExpectedRows, Key};
+
+    use super::*;
+    use crate::seed::Seed;
+
+    fn rng() -> Rng {
+        Seed(1).rng("paper")
+    }
+
+    #[test]
+    fn distances_are_whole_numbers_and_half_of_the_rays_miss() {
+        for question in [triangle(&mut rng()), sphere(&mut rng())] {
+            let Key::Table {
+                rows: ExpectedRows::Hits(hits),
+                ..
+            } = &question.key
+            else {
+                panic!("{:?}", question.key);
+            };
+            let distances: Vec<f32> = hits.iter().flatten().map(|hit| hit.distance).collect();
+            assert_eq!(distances.len(), 3);
+            assert!(
+                distances.iter().all(|distance| distance.fract() == 0.0),
+                "{distances:?}"
+            );
+            assert!(hits[..3].iter().all(Option::is_some), "{hits:?}");
+        }
+    }
+
+    #[test]
+    fn times_in_a_box_are_multiples_of_one_and_a_half() {
+        let (bounds, queries) = bbox(&mut rng());
+        let spans = queries
+            .iter()
+            .map(|(ray, _)| bounds.span(&Ray64::from(ray)));
+        let spans: Vec<Option<(f64, f64)>> = spans.collect();
+        assert!(spans[..3].iter().all(Option::is_some) && spans[3..].iter().all(Option::is_none));
+        for (enter, leave) in spans.into_iter().flatten() {
+            let is_nice = |time: f64| (time / 1.5 - (time / 1.5).round()).abs() < 1e-5;
+            assert!(is_nice(enter) && is_nice(leave), "{enter} {leave}");
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Moves a question elsewhere in space and changes its size. Code that depends on absolute sizes or
+//! on being near the origin is correct in one place and wrong in another.
+
+use glam::{DVec3, Vec3};
+use judging::exam::{ExamQuestion, Key};
+use protocol::{Interval, Question, Ray, Shape, TreeNode, Value};
+
+use crate::oracle::bbox::Bounds;
+use crate::oracle::scan;
+use crate::seed::Rng;
+
+/// A scale and an offset. Questions are drawn with sizes of about one, near the origin, and then
+/// transformed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Transform {
+    scale: f64,
+    offset: DVec3,
+}
+
+impl Transform {
+    /// Returns a transform that moves shapes far from the origin without scaling them. All
+    /// coordinates along an axis have the same sign.
+    pub(super) fn elsewhere(rng: &mut Rng) -> Self {
+        let mut far = || rng.sign() * rng.uniform(60.0, 120.0);
+        Transform {
+            scale: 1.0,
+            offset: DVec3::new(far(), far(), far()),
+        }
+    }
+
+    /// Returns the transform that scales shapes by this factor and then moves them.
+    pub(super) fn new(scale: f64, offset: DVec3) -> Self {
+        Transform { scale, offset }
+    }
+
+    /// Returns the transform after which the box around these shapes has this centre and a longest
+    /// side of twice this size.
+    pub(super) fn around(shapes: &[Shape], size: f64, center: DVec3) -> Self {
+        let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
+        if bounds.half_side() <= 0.0 || shapes.is_empty() {
+            return Transform {
+                scale: size,
+                offset: center,
+            };
+        }
+        let scale = size / bounds.half_side();
+        Transform {
+            scale,
+            offset: center - scale * bounds.center(),
+        }
+    }
+
+    /// Returns a similar transform that keeps multiples of 1/128 exact: the factor is a power of
+    /// two, and the offset is a multiple of 1/128 of the factor.
+    pub(super) fn exact(self) -> Self {
+        let scale = self.scale.log2().floor().exp2();
+        let step = scale / 128.0;
+        Transform {
+            scale,
+            offset: (self.offset / step).round() * step,
+        }
+    }
+
+    /// Returns whether transformed coordinates have enough digits for the smallest of these shapes.
+    pub(super) fn keeps_digits(self, shapes: &[Shape]) -> bool {
+        /// The largest coordinate, as a multiple of the smallest shape's size.
+        const MOST: f64 = 8000.0;
+        let sides = shapes.iter().map(|shape| scan::bounds(shape).half_side());
+        let smallest = sides
+            .filter(|side| *side > 0.0)
+            .fold(f64::INFINITY, f64::min);
+        let largest = self.offset.abs().max_element();
+        largest <= MOST * self.scale * smallest
+    }
+
+    /// Transforms a point.
+    pub(super) fn point(self, point: Vec3) -> Vec3 {
+        (point.as_dvec3() * self.scale + self.offset).as_vec3()
+    }
+
+    /// Scales a length.
+    pub(super) fn length(self, length: f32) -> f32 {
+        (f64::from(length) * self.scale) as f32
+    }
+
+    /// Transforms a shape.
+    pub(super) fn shape(self, shape: &Shape) -> Shape {
+        let mut shape = *shape;
+        match &mut shape {
+            Shape::Triangle { vertices, .. } => {
+                for vertex in vertices {
+                    vertex.position = self.point(vertex.position);
+                }
+            }
+            Shape::FlatTriangle { corners, .. } => {
+                *corners = corners.map(|corner| self.point(corner));
+            }
+            Shape::Sphere { center, radius, .. } => {
+                *center = self.point(*center);
+                *radius = self.length(*radius);
+            }
+        }
+        shape
+    }
+
+    /// Transforms all shapes.
+    pub(super) fn shapes(self, shapes: &[Shape]) -> Vec<Shape> {
+        shapes.iter().map(|shape| self.shape(shape)).collect()
+    }
+
+    /// Transforms a ray.
+    pub(super) fn ray(self, ray: &Ray) -> Ray {
+        Ray {
+            origin: self.point(ray.origin),
+            range: self.interval(ray.range),
+            ..*ray
+        }
+    }
+
+    /// Scales times along a ray.
+    pub(super) fn interval(self, times: Interval) -> Interval {
+        Interval::new(self.length(times.min), self.length(times.max))
+    }
+
+    /// Transforms a node. A sphere's centre and its box are rounded separately, so the box grows by
+    /// two units in the last place to still contain the sphere. A flat box stays flat.
+    pub(super) fn node(self, node: &TreeNode) -> TreeNode {
+        let (mut min, mut max) = (self.point(node.min), self.point(node.max));
+        for axis in 0..3 {
+            if self.offset != DVec3::ZERO && min[axis] < max[axis] {
+                min[axis] = min[axis].next_down().next_down();
+                max[axis] = max[axis].next_up().next_up();
+            }
+        }
+        TreeNode { min, max, ..*node }
+    }
+
+    /// Transforms the value of a field. Values without a position or a size stay unchanged.
+    fn value(self, value: Value<'_>) -> Value<'static> {
+        match value {
+            Value::Length(length) => Value::Length(self.length(length)),
+            Value::Point(point) => Value::Point(self.point(point)),
+            Value::Interval(times) => Value::Interval(self.interval(times)),
+            Value::Range(range) => Value::Range(self.interval(range)),
+            Value::Shapes(shapes) => Value::Shapes(self.shapes(&shapes).into()),
+            Value::Nodes(nodes) => {
+                let nodes: Vec<TreeNode> = nodes.iter().map(|node| self.node(node)).collect();
+                Value::Nodes(nodes.into())
+            }
+            Value::Direction(direction) => Value::Direction(direction),
+            Value::Uv(uv) => Value::Uv(uv),
+            Value::Index(index) => Value::Index(index),
+            Value::Count(count) => Value::Count(count),
+            Value::Angle(angle) => Value::Angle(angle),
+            Value::Ratio(ratio) => Value::Ratio(ratio),
+            Value::Film(film) => Value::Film(film),
+            Value::Pixel(pixel) => Value::Pixel(pixel),
+            Value::Offset(offset) => Value::Offset(offset),
+        }
+    }
+}
+
+/// Returns a transformed question, or `None` if it is about a picture.
+pub(super) fn moved(transform: Transform, asked: &ExamQuestion) -> Option<ExamQuestion> {
+    let change = |value: Value<'_>| transform.value(value);
+    let question = match (&asked.question, asked.question.table()) {
+        (_, Some(table)) => table.changed(&change)?,
+        (
+            Question::Build {
+                shapes,
+                max_leaf_size,
+            },
+            None,
+        ) => Question::Build {
+            shapes: transform.shapes(shapes),
+            max_leaf_size: *max_leaf_size,
+        },
+        (_, None) => return None,
+    };
+    let key = match &asked.key {
+        Key::Table {
+            judged,
+            rows,
+            aggregate,
+        } => Key::Table {
+            judged: judged.clone(),
+            rows: rows.changed(&change),
+            aggregate: *aggregate,
+        },
+        // A tree's cost is a ratio of areas.
+        Key::Tree { .. } => asked.key.clone(),
+        Key::FirstHits { .. } | Key::Radiance { .. } => return None,
+    };
+    Some(ExamQuestion::new(question, key))
+}

@@ -1,0 +1,69 @@
+//! Renders with the reference's code, as a user does.
+
+use std::process::Command;
+
+use framework::render::integrator::{Integrator, PathSettings};
+use framework::render::renderer::{RenderStats, Renderer};
+use framework::scene::Scene;
+use framework::submission::World;
+use glam::UVec2;
+use reference::world::Student;
+
+/// A note that a picture takes a long time would be wrong, because the reference's traversal uses
+/// the tree.
+#[test]
+fn the_reference_renders_every_scene_without_a_note() {
+    let workspace = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let out = std::env::temp_dir().join(format!("render-{}.png", std::process::id()));
+    for scene in ["cornell-box", "checkered-teapot", "flat", "spheres", "wide"] {
+        let command = Command::new(env!("CARGO_BIN_EXE_reference"))
+            .current_dir(workspace)
+            .args([scene, "--size", "16x16", "--samples", "1", "--out"])
+            .arg(&out)
+            .output()
+            .expect("the program can be started");
+        let messages = String::from_utf8_lossy(&command.stderr);
+        assert!(command.status.success(), "{scene}: {messages}");
+        assert!(!messages.contains("note:"), "{scene}: {messages}");
+    }
+    std::fs::remove_file(out).expect("the picture exists");
+}
+
+/// If only points on the light were sampled, those next to the floor would be thousands of times as
+/// bright as the light. The balance heuristic limits each of its two samples to the light that the
+/// floor can reflect.
+#[test]
+fn the_floor_beside_a_light_has_no_bright_specks() {
+    let scene = r#"{
+        "camera": { "vertical_fov": 20, "film": [16, 16],
+            "position": [0, 1.5, 0], "look_at": [0, 0, -2.95], "up": [0, 1, 0] },
+        "materials": {
+            "floor": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } },
+            "panel": { "emitter": { "radiance": [1, 1, 1] } }
+        },
+        "shapes": [
+            { "polygon": { "material": "floor", "points": [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]] } },
+            { "polygon": { "material": "panel", "points": [[-1, 0, -3], [1, 0, -3], [1, 1, -3], [-1, 1, -3]] } }
+        ]
+    }"#;
+    let scene = Scene::from_text(scene).expect("the scene is valid");
+    let world = World::new(&Student, &scene);
+    let settings = PathSettings {
+        bounces: 1,
+        seed: 1,
+    };
+    let integrator = Integrator::new(&scene, &world, settings);
+    let mut stats = RenderStats::default();
+    // The lower half of the picture shows only the floor.
+    let pixels = (0..8).flat_map(|y| (0..16).map(move |x| UVec2::new(x, y)));
+    let samples = pixels.flat_map(|pixel| (0..64).map(move |sample| (pixel, sample)));
+    let light =
+        samples.map(|(pixel, sample)| integrator.sample_radiance(pixel, sample, &mut stats).x);
+    let light: Vec<f32> = light.collect();
+    let brightest = light.iter().copied().fold(0.0, f32::max);
+    let mean = light.iter().sum::<f32>() / light.len() as f32;
+    assert!(
+        brightest <= 1.0 && mean > 0.1,
+        "{brightest}, on average {mean}"
+    );
+}

@@ -1,0 +1,204 @@
+//! The light that arrives from far away, where no shape is in the way.
+
+use std::f32::consts::{PI, TAU};
+#[cfg(feature = "cli")]
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::{UVec2, Vec2, Vec3, vec2};
+#[cfg(feature = "cli")]
+use image::{ImageFormat, ImageReader};
+
+use super::MAX_FILM_SIDE;
+use crate::math::{acos, atan2, sin_cos};
+
+/// The light of the environment.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Environment {
+    /// The same radiance from all directions.
+    Constant(Vec3),
+    /// A picture of all directions.
+    Map(EnvironmentMap),
+}
+
+impl Environment {
+    /// Returns the radiance that arrives from a direction of length one.
+    pub fn radiance(&self, direction: Vec3) -> Vec3 {
+        match self {
+            Environment::Constant(radiance) => *radiance,
+            Environment::Map(map) => map.pixel(map.pixel_at(direction)),
+        }
+    }
+}
+
+/// A picture of all directions, as an equirectangular projection: the rows are at equal angles from
+/// +y, which is at the top, down to −y. The columns are at equal angles around the y-axis: the first
+/// begins at +x, and a quarter of the way is +z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnvironmentMap {
+    size: UVec2,
+    radiance: Arc<[Vec3]>,
+}
+
+impl EnvironmentMap {
+    /// Creates a map from its pixels, row by row from the top.
+    ///
+    /// # Errors
+    /// Fails with a description if a map can't have this size or these pixels.
+    pub fn new(size: UVec2, radiance: Vec<Vec3>) -> Result<Self, String> {
+        let UVec2 {
+            x: width,
+            y: height,
+        } = size;
+        if width != 2 * height || width > MAX_FILM_SIDE || height == 0 {
+            return Err(format!(
+                "the map has {width} × {height} pixels: a map of all directions is twice as wide as \
+                 high, and at most {MAX_FILM_SIDE} pixels wide"
+            ));
+        }
+        if radiance.len() != (width * height) as usize {
+            return Err(format!("the map has {} pixels", radiance.len()));
+        }
+        let unusable = |pixel: &Vec3| match *pixel {
+            pixel if pixel.is_nan() => Some("isn't a number"),
+            pixel if !pixel.is_finite() => Some("is infinite"),
+            pixel if pixel.min_element() < 0.0 => Some("is negative"),
+            pixel if pixel.max_element() > LARGEST => Some("is larger than 1e9"),
+            _ => None,
+        };
+        let mut pixels = radiance.iter().enumerate();
+        if let Some((index, why)) =
+            pixels.find_map(|(index, pixel)| Some((index, unusable(pixel)?)))
+        {
+            let (x, y) = (index % width as usize, index / width as usize);
+            return Err(format!(
+                "pixel {x},{y} of the map, counted from the top left, {why}"
+            ));
+        }
+        if radiance.iter().all(|pixel| *pixel == Vec3::ZERO) {
+            return Err("the map is black: leave the environment out".to_owned());
+        }
+        Ok(EnvironmentMap {
+            size,
+            radiance: radiance.into(),
+        })
+    }
+
+    /// Loads a map from an HDR or EXR file. Its pixels are multiplied by `scale`.
+    ///
+    /// # Errors
+    /// Fails with the reason.
+    #[cfg(feature = "cli")]
+    pub(super) fn load(path: &Path, scale: f32) -> Result<Self, String> {
+        let in_file = |message: String| format!("{}: {message}", path.display());
+        let reader = ImageReader::open(path)
+            .and_then(ImageReader::with_guessed_format)
+            .map_err(|error| in_file(format!("cannot read the file: {error}")))?;
+        let format = reader.format();
+        if !matches!(format, Some(ImageFormat::Hdr | ImageFormat::OpenExr)) {
+            let message =
+                "a map is an HDR or EXR file, because other pictures don't store radiance";
+            return Err(in_file(message.to_owned()));
+        }
+        let decoded = reader.decode();
+        let picture = decoded.map_err(|error| in_file(format!("the file is damaged: {error}")))?;
+        let picture = picture.into_rgb32f();
+        let size = UVec2::new(picture.width(), picture.height());
+        let pixels = picture.pixels().map(|pixel| scale * Vec3::from(pixel.0));
+        EnvironmentMap::new(size, pixels.collect()).map_err(in_file)
+    }
+
+    /// Returns the number of columns and rows.
+    pub fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// Returns the pixels, row by row from the top.
+    pub fn pixels(&self) -> &[Vec3] {
+        &self.radiance
+    }
+
+    /// Returns the radiance of a pixel, counted from the top left.
+    pub(crate) fn pixel(&self, pixel: UVec2) -> Vec3 {
+        self.radiance[self.index(pixel)]
+    }
+
+    pub(crate) fn index(&self, pixel: UVec2) -> usize {
+        (pixel.y * self.size.x + pixel.x) as usize
+    }
+
+    /// Returns the pixel that shows a direction of length one.
+    pub(crate) fn pixel_at(&self, direction: Vec3) -> UVec2 {
+        let around = atan2(direction.z, direction.x) / TAU;
+        let across = vec2(
+            around.rem_euclid(1.0),
+            acos(direction.y.clamp(-1.0, 1.0)) / PI,
+        );
+        let pixel = across * self.size.as_vec2();
+        // Rounding can make the fractions 1.
+        pixel.as_uvec2().min(self.size - 1)
+    }
+
+    /// Returns the direction of a position in the map, in pixels from the top left, and the sine of
+    /// its angle from the y-axis.
+    pub(crate) fn direction(&self, position: Vec2) -> (Vec3, f32) {
+        let part = position / self.size.as_vec2();
+        let (sin_around, cos_around) = sin_cos(TAU * part.x);
+        let (sine, cosine) = sin_cos(PI * part.y);
+        (
+            Vec3::new(sine * cos_around, cosine, sine * sin_around),
+            sine,
+        )
+    }
+}
+
+/// The largest radiance of a pixel. Larger ones could overflow in sums.
+const LARGEST: f32 = 1e9;
+
+#[cfg(test)]
+mod tests {
+    use glam::uvec2;
+
+    use super::*;
+
+    fn error(size: UVec2, pixels: &[Vec3]) -> String {
+        EnvironmentMap::new(size, pixels.to_vec()).expect_err("the map is unusable")
+    }
+
+    #[test]
+    fn unusable_maps_are_named_with_the_pixel() {
+        let size = uvec2(4, 2);
+        let with = |pixel: Vec3| {
+            let mut pixels = [Vec3::ONE; 8];
+            pixels[6] = pixel;
+            error(size, &pixels)
+        };
+        for (pixel, why) in [
+            (Vec3::new(0.0, -1.0, 0.0), "is negative"),
+            (Vec3::new(f32::NAN, 0.0, 0.0), "isn't a number"),
+            (Vec3::splat(f32::INFINITY), "is infinite"),
+            (Vec3::splat(2e9), "is larger than 1e9"),
+        ] {
+            let expected = format!("pixel 2,1 of the map, counted from the top left, {why}");
+            assert_eq!(with(pixel), expected);
+        }
+        assert!(error(uvec2(3, 2), &[Vec3::ONE; 6]).contains("3 × 2 pixels"));
+        assert!(error(size, &[Vec3::ZERO; 8]).contains("black"));
+    }
+
+    #[test]
+    fn each_pixel_shows_the_directions_within_it() {
+        let size = uvec2(16, 8);
+        let map = EnvironmentMap::new(size, vec![Vec3::ONE; 128]).expect("the map is usable");
+        for (x, y) in (0..16).flat_map(|x| (0..8).map(move |y| (x, y))) {
+            for inside in [0.01, 0.5, 0.99] {
+                let (direction, _) = map.direction(vec2(x as f32 + inside, y as f32 + inside));
+                assert!(direction.is_normalized());
+                assert_eq!(map.pixel_at(direction), uvec2(x, y));
+            }
+        }
+        assert_eq!(map.pixel_at(Vec3::Y).y, 0);
+        assert_eq!(map.pixel_at(Vec3::NEG_Y).y, 7);
+        assert_eq!(map.pixel_at(Vec3::Z).x, 4);
+    }
+}

@@ -31,7 +31,9 @@ impl Pseudonyms {
     pub fn hide(&mut self, class: &GradedClass, store: &Store) -> Result<GradedClass, Error> {
         let mut hidden = class.clone();
         hidden.missing.clear();
-        hidden.rows.retain(|row| row.result.score().is_some());
+        hidden
+            .rows
+            .retain(|row| row.result.score().is_some() && !row.is_of_test_student());
         for row in &mut hidden.rows {
             // Each `RandomState` has random keys from the operating system.
             let random = || format!("anon-{:010x}", RandomState::new().hash_one(()) >> 24);

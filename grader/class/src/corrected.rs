@@ -44,7 +44,7 @@ pub fn replace_files(
     for Entry { info, source, .. } in corrected.entries {
         let path = sanitize_line(&info.from, MAX_CHARS);
         let all = class.entries.iter();
-        let all = all.map(|entry| (entry.id.as_str(), entry.info.people.as_slice()));
+        let all = all.map(|entry| (entry.id.as_str(), &entry.info));
         let index = find_submission(&info.display_names(), &all.collect::<Vec<_>>())
             .map_err(|why| Error::user(format!("{shown}: {path}: {why}")))?;
         let entry = &mut class.entries[index];

@@ -45,7 +45,8 @@ pub struct EntryInfo {
     /// Why it is unclear who handed in the submission, if it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unclear_person: Option<String>,
-    /// Whether staff provided lists, but none of the people is on them.
+    /// Whether staff provided lists, but none of the people is on them. `false` if it is unclear
+    /// who the people are.
     #[serde(default, skip_serializing_if = "Not::not")]
     pub is_unlisted: bool,
     /// The number of this attempt among the attempts by the same people, if the platform counts

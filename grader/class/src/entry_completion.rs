@@ -62,7 +62,7 @@ pub fn complete_entries(
     for info in entries.iter_mut() {
         let shared_team = groups::shared_team(&rows, info);
         info.unclear_person = shared_team.or_else(|| shared_name(&rows, info));
-        info.is_unlisted = !is_listed(&rows, info);
+        info.is_unlisted = info.unclear_person.is_none() && !is_listed(&rows, info);
     }
     let people: Vec<&Person> = entries.iter().flat_map(|info| &info.people).collect();
     let mut manual = match &lists.manual_points {
@@ -70,7 +70,8 @@ pub fn complete_entries(
         None => ManualPointsList::default(),
     };
     manual.resolve_names(entries);
-    manual.check_students(&people)?;
+    let missing = roster::missing(&rows, &people);
+    manual.check_students(&people, &missing)?;
     let unlisted = entries.iter().filter(|info| info.is_unlisted);
     let warnings = entries.iter();
     let warnings = warnings.filter_map(|info| {
@@ -78,7 +79,7 @@ pub fn complete_entries(
         unclear.or_else(|| misleading_number(&rows, info))
     });
     Ok(ListFindings {
-        missing: roster::missing(&rows, &people),
+        missing,
         warnings: warnings.collect(),
         manual,
         people: people.into_iter().cloned().collect(),
@@ -212,6 +213,23 @@ mod tests {
         let wanted = [("ann", "2"), ("bob", "3")];
         assert_eq!(known, wanted.map(|(a, b)| (a.to_owned(), b.to_owned())));
         assert_eq!(missing.len(), 1, "{missing:?}");
+    }
+
+    #[test]
+    fn the_rosters_sections_take_precedence() {
+        let canvas = "Student,ID,SIS Login ID,Section\n\"Lee, Ann\",7001,ann,Canvas A\n\
+            \"Kim, Bob\",7002,bob,Canvas B\n";
+        let roster = "username,section\nann,Tess\nbob,\n";
+        // The roster's row is only recognised with the login from Canvas's list.
+        let people = ["Lee Ann", "Kim Bob"].into_iter().zip(["7001", "7002"]);
+        let people = people.map(|(name, number)| json!({ "name": name, "number": number }));
+        let mut entries: Vec<EntryInfo> = people.map(|json| entry(person(json))).collect();
+        let [ann, bob] = entries.as_mut_slice() else {
+            unreachable!();
+        };
+        missing(&[(Roster, roster), (Canvas, canvas)], &mut [ann, bob]);
+        let sections = entries.iter().map(|info| info.people[0].section.as_str());
+        assert_eq!(sections.collect::<Vec<_>>(), ["Tess", "Canvas B"]);
     }
 
     /// Bob is in Ann's group, and both of them have a submission time.

@@ -49,6 +49,8 @@ struct FinalGrade {
     graded: u32,
     manual: i32,
     late_days: u32,
+    #[serde(default)]
+    is_corrected: bool,
     /// How the policy's items and tasks differ from those in the exam.
     #[serde(default)]
     changes: Vec<String>,
@@ -186,6 +188,7 @@ impl FinalGrade {
             graded: row.result.score().map_or(0, |score| score.points),
             manual: counted.map_or(0, |counted| counted.manual),
             late_days: counted.map_or(0, |counted| counted.late_days),
+            is_corrected: row.result.info.is_corrected,
             changes: counted.map_or_else(Vec::new, |counted| counted.changes.clone()),
         }
     }
@@ -206,6 +209,9 @@ impl FinalGrade {
         let mut why = Vec::new();
         if was.graded != self.graded {
             why.push(format!("graded {} → {}", was.graded, self.graded));
+        }
+        if !was.is_corrected && self.is_corrected {
+            why.push("the files were handed in again".to_owned());
         }
         if was.counts.is_some() && self.counts.is_some() {
             if was.manual != self.manual {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use grader::nearest_name::suggestion;
 
-use crate::entry::Person;
+use crate::entry::{EntryInfo, Person};
 use crate::names::{are_equal, are_same_name, fold};
 
 /// One person's part in a submission: the index of the row, and the person's index in that row.
@@ -25,19 +25,23 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
     groups.into_values().collect()
 }
 
-/// Returns the index of the submission with this id, or of the only submission by somebody with
-/// this name or identifier. `all` lists the id and the people of each submission.
-pub fn find_submission(who: &str, all: &[(&str, &[Person])]) -> Result<usize, String> {
-    if let Some(index) = all.iter().position(|(id, _)| are_equal(id, who)) {
+/// Returns the index of the submission with this id or in this file or folder, or of the only
+/// submission by somebody with this name or identifier. `all` lists the id of each submission and
+/// information about it.
+pub fn find_submission(who: &str, all: &[(&str, &EntryInfo)]) -> Result<usize, String> {
+    let is_named = |(id, info): &(&str, &EntryInfo)| are_equal(id, who) || info.from == who;
+    if let Some(index) = all.iter().position(is_named) {
         return Ok(index);
     }
     let is_theirs = |index: &usize| {
-        let mut names = all[*index].1.iter().flat_map(Person::identifiers);
+        let mut names = all[*index].1.people.iter().flat_map(Person::identifiers);
         names.any(|name| are_equal(name, who))
     };
     let is_called = |index: &usize| {
-        let mut people = all[*index].1.iter();
-        people.any(|person| are_same_name(&person.name, who))
+        let info = all[*index].1;
+        let mut people = info.people.iter();
+        are_same_name(&info.display_names(), who)
+            || people.any(|person| are_same_name(&person.name, who))
     };
     let mut theirs: Vec<usize> = (0..all.len()).filter(is_theirs).collect();
     if theirs.is_empty() {
@@ -121,6 +125,23 @@ mod tests {
             vec![(2, 1)],
         ];
         assert_eq!(groups, expected);
+    }
+
+    #[test]
+    fn a_submission_is_found_by_its_folder_and_by_the_names_that_tables_show() {
+        let info = |from: &str, names: &[&str]| EntryInfo {
+            people: names.iter().map(|name| person(name, "", "")).collect(),
+            from: from.to_owned(),
+            ..EntryInfo::default()
+        };
+        let [one, two] = [info("pt-owls", &["Ann", "Bob"]), info("pt-ann", &["Ann"])];
+        let find = |who: &str| find_submission(who, &[("owls", &one), ("ann2", &two)]);
+        for who in ["owls", "pt-owls", "Ann + Bob", "bob"] {
+            assert_eq!(find(who), Ok(0), "{who}");
+        }
+        assert_eq!(find("pt-ann"), Ok(1));
+        assert!(find("Ann").unwrap_err().contains("owls or ann2"));
+        assert!(find("Eve").is_err());
     }
 
     #[test]

@@ -91,8 +91,9 @@ impl ManualPointsList {
     }
 
     /// Checks that each row belongs to exactly one of these people, and that no two rows belong to
-    /// the same person and task. `people` contains each person once per submission.
-    pub fn check_students(&self, people: &[&Person]) -> Result<(), Error> {
+    /// the same person and task. `people` contains each person once per submission. `missing` lists
+    /// the people on the rosters who submitted nothing.
+    pub fn check_students(&self, people: &[&Person], missing: &[Person]) -> Result<(), Error> {
         let ids = person_ids(people);
         let mut rows: BTreeMap<(usize, &str), usize> = BTreeMap::new();
         for points in &self.all {
@@ -100,9 +101,17 @@ impl ManualPointsList {
             let all = people.iter().zip(&ids);
             let mut found = all.filter(|(person, _)| points.is_for(person));
             let Some((first, id)) = found.next() else {
+                let remedy = match missing.iter().find(|person| points.is_for(person)) {
+                    Some(person) => format!(
+                        "to give points anyway, add an empty folder {:?} to the class",
+                        person.display_name()
+                    ),
+                    None => "use the email address, the student number, the account name or the \
+                             full name"
+                        .to_owned(),
+                };
                 return Err(self.error(row, format!(
-                    "nobody with the name or identifier {student:?} handed anything in: use the \
-                     email address, the student number, the account name or the full name"
+                    "nobody with the name or identifier {student:?} handed anything in: {remedy}"
                 )));
             };
             if let Some((other, _)) = found.find(|(_, other)| *other != id) {

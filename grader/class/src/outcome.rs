@@ -78,9 +78,22 @@ pub struct ScoreSummary {
 /// The parts of a score's build report that the class's files need.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct FileNotes {
+    /// The files that could not be compiled.
+    #[serde(default)]
+    pub not_compiled: Vec<UncompiledFile>,
     /// Notes about files that look like task files or archives but were not graded.
     #[serde(default)]
     pub ignored_copies: Vec<String>,
+}
+
+/// A file that could not be compiled.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+pub struct UncompiledFile {
+    /// The file's name, such as `sphere.rs`.
+    pub file: String,
+    /// Whether the submission doesn't contain the file.
+    #[serde(default, rename = "missing")]
+    pub is_missing: bool,
 }
 
 /// The score of a task.
@@ -227,6 +240,13 @@ impl EntryResult {
     pub fn ignored_copies(&self) -> &[String] {
         self.score()
             .map_or(&[], |score| &score.build.ignored_copies)
+    }
+
+    /// Returns the names of the files that a graded submission lacks.
+    pub fn missing_files(&self) -> impl Iterator<Item = &str> {
+        let files = self.score().into_iter();
+        let files = files.flat_map(|score| &score.build.not_compiled);
+        files.filter_map(|file| file.is_missing.then_some(file.file.as_str()))
     }
 
     /// Returns the score, if any.

@@ -60,12 +60,11 @@ pub fn replay_question(
     Ok(sanitize(&text, MAX_CHARS) + &replayed)
 }
 
-/// Returns the result of the submission with this id, or of the only person with this name or
-/// identifier.
+/// Returns the result of the submission that `who` names.
 fn find_result(store: &Store, who: &str) -> Result<EntryResult, Error> {
     let mut results = store.results()?;
     let all = results.iter();
-    let all = all.map(|result| (result.id.as_str(), result.info.people.as_slice()));
+    let all = all.map(|result| (result.id.as_str(), &result.info));
     let index = find_submission(who, &all.collect::<Vec<_>>()).map_err(Error::user)?;
     Ok(results.swap_remove(index))
 }

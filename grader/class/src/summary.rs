@@ -303,7 +303,8 @@ fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
     }
     let id = &task.id;
     let cause = |item: &ItemScore| match item.verdict.as_str() {
-        "not_compiled" => (format!("{id} does not compile"), None),
+        // Several tasks can share a file.
+        "not_compiled" => (item.message.clone(), None),
         "unimplemented" => (format!("{id} is not written yet"), None),
         // The rest of the task has the same verdict because it wasn't run.
         "timed_out" => (format!("{id} takes too long"), None),
@@ -318,7 +319,7 @@ fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
 }
 
 /// Returns the submissions that have no score or no points, are far below the others (by Tukey's
-/// fence), or contain files that look like task files but were not graded.
+/// fence), lack a file, or contain files that look like task files but were not graded.
 fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> {
     let fence = points.map_or(0.0, |points| {
         let [lower, upper] = [points.lower_quartile, points.upper_quartile].map(f64::from);
@@ -334,13 +335,18 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
             Some(score) => low_score(score, fence),
             None => missing_grade(row),
         };
-        let is_unclear = matches!(row.problem(), Some(GradeProblem::UnclearPerson(_)));
-        let unlisted = (row.result.info.is_unlisted && !is_unclear).then(|| Reason {
+        let unlisted = row.result.info.is_unlisted.then(|| Reason {
             cause: "nobody in the lists has this name or identifier".to_owned(),
             detail: String::new(),
             remedy: "; correct the name or the list, unless these people aren't in the course",
         });
-        let problem: Vec<Reason> = problem.into_iter().chain(unlisted).collect();
+        let missing = row.result.missing_files().map(|file| Reason {
+            cause: "a file is missing".to_owned(),
+            detail: file.to_owned(),
+            remedy: "; ask for it, or correct its name",
+        });
+        let problem = problem.into_iter().chain(unlisted).chain(missing);
+        let problem: Vec<Reason> = problem.collect();
         let why = problem.iter().map(Reason::text);
         let why: Vec<String> = why.chain(copies.clone().map(|copy| copy.detail)).collect();
         (!row.is_superseded() && !why.is_empty()).then(|| Outlier {

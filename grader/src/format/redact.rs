@@ -131,6 +131,7 @@ fn sanitized_build(build: &BuildReport) -> BuildReport {
         file: sanitize_line(&file.file, usize::MAX),
         line: file.line,
         message: sanitize(&file.message, usize::MAX),
+        is_missing: file.is_missing,
     };
     let notes = |notes: &[String]| {
         let notes = notes.iter();

@@ -1,8 +1,8 @@
 //! Collects the compiler errors and the notes on a submission's files for the score.
 
-use crate::build::Build;
+use crate::build::{Build, NotCompiled};
 use crate::score::{BuildReport, FileReport};
-use crate::submission::Submission;
+use crate::submission::{Submission, TaskFileError};
 use crate::verdict::{file_line, file_message};
 
 /// Returns the compiler errors and notes on the submission's files.
@@ -11,6 +11,7 @@ pub fn build_report(submission: &Submission, build: &Build) -> BuildReport {
         file: (*file).to_owned(),
         line: file_line(why),
         message: file_message(file, why),
+        is_missing: matches!(why, NotCompiled::Unreadable(TaskFileError::Missing)),
     });
     BuildReport {
         not_compiled: not_compiled.collect(),

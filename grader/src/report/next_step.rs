@@ -98,15 +98,14 @@ pub fn first_step(
 fn compile_step(score: &Score, file: &str, message: &str) -> String {
     let mut files = score.build.not_compiled.iter();
     let Some(report) = files.find(|report| report.file == file) else {
-        return if message.ends_with("is missing") {
-            format!(
-                "{message}: if you have renamed it, change the name back. `cargo grade --reset \
-                 {file}` restores the original file"
-            )
-        } else {
-            format!("make {file} compile: {message}")
-        };
+        return format!("make {file} compile: {message}");
     };
+    if report.is_missing {
+        return format!(
+            "{message}: if you have renamed it, change the name back. `cargo grade --reset {file}` \
+             restores the original file"
+        );
+    }
     let line = report.line.map_or(String::new(), |line| format!(":{line}"));
     let mut lines = report.message.lines();
     let error = lines.next().unwrap_or_default();

@@ -7,6 +7,8 @@
 pub mod rerun_command;
 pub mod stage_times;
 
+use std::ops::Not;
+
 use judging::assignment::Task;
 use judging::exam_file::ExamName;
 use judging::section::Section;
@@ -321,6 +323,9 @@ pub struct FileReport {
     pub line: Option<u32>,
     /// The compiler's errors in the file, or why the file could not be read.
     pub message: String,
+    /// Whether the submission doesn't contain the file.
+    #[serde(rename = "missing", skip_serializing_if = "Not::not")]
+    pub is_missing: bool,
 }
 
 /// Duration of grading, in milliseconds.

@@ -190,7 +190,7 @@ impl ClassRow {
     }
 
     /// Returns whether only the test student handed in this submission.
-    fn is_of_test_student(&self) -> bool {
+    pub fn is_of_test_student(&self) -> bool {
         let people = &self.result.info.people;
         !people.is_empty() && people.iter().all(Person::is_test_student)
     }

@@ -36,8 +36,9 @@ pub(super) fn reject_mixtures(
             (!is_known()).then(|| {
                 format!(
                     "the folder {} contains several submissions ({}): if they are from different students, \
-                     pass this folder, or move them out of it; if they are from one student, keep only the \
-                     one that counts",
+                     pass this folder, or move them out of it; if they are attempts of one student, \
+                     keep only the one that counts; if each contains a part of one submission, \
+                     combine them in one folder",
                     node.name,
                     listed(&inside)
                 )

@@ -116,12 +116,17 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
     } else {
         identifier.or_else(|| table.column("canvas_user_id"))
     };
+    // Brightspace's list of grades has a `#` before each identifier, so that spreadsheets don't
+    // turn them into numbers.
+    let is_marked = table.column("End-of-Line Indicator").is_some();
     // In other lists, a status column means something else.
     let status = identifier.and(table.column("Status"));
     let member = |(row_number, row): (usize, &Vec<String>)| {
         let cell = |column: Option<usize>| {
             let cell = column.and_then(|column| row.get(column));
-            cell.map(|cell| cell.trim().to_owned()).unwrap_or_default()
+            let cell = cell.map(|cell| cell.trim()).unwrap_or_default();
+            let unmarked = cell.strip_prefix('#').filter(|_| is_marked);
+            unmarked.unwrap_or(cell).to_owned()
         };
         let text = |field: &str| cell(column(field));
         let name = match text("name") {
@@ -249,6 +254,12 @@ pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
             if **person == known {
                 break;
             }
+        }
+        // The sections that the teacher listed matter more than those of a platform.
+        let mut own = rows.iter().filter(|row| row.list == ListKind::Roster);
+        let own = own.find(|row| !row.person.section.is_empty() && row.matches(person));
+        if let Some(row) = own {
+            person.section.clone_from(&row.person.section);
         }
     }
 }

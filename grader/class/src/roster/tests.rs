@@ -60,6 +60,19 @@ fn one_column_that_identifies_people_is_enough() {
     assert_eq!(rows[0].person.number, "7001");
 }
 
+/// Brightspace marks identifiers and the end of each line, see
+/// <https://kb.wisc.edu/page.php?id=4330>.
+#[test]
+fn the_marks_in_brightspaces_list_of_grades_are_no_part_of_the_identifiers() {
+    let list = "OrgDefinedId,Username,Last Name,First Name,Email,Total,End-of-Line Indicator\n\
+        #00246,#ann.lee,Lee,Ann,a@x.edu,,#\n";
+    let person = &parse_roster(list)[0].person;
+    assert_eq!(person.name, "Ann Lee");
+    assert_eq!(person.own_identifiers(), ["a@x.edu", "00246", "ann.lee"]);
+    // In other lists, the mark is part of the text.
+    assert_eq!(parse_roster("name\n#ann\n")[0].person.name, "#ann");
+}
+
 #[test]
 fn a_dash_is_no_time() {
     let rows = parse_roster("name,datetime\nAnn,-\nBob,2026-11-20 12:00\n");

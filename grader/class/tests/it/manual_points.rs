@@ -17,7 +17,8 @@ fn class() -> (TestClass, String) {
 }
 
 const ROSTER: &str = "name,username,email\n\
-    Ann Lee,ann,ann@x.edu\nAnn Lee,ann2,ann2@x.edu\nBob Kim,bob,bob@x.edu\n";
+    Ann Lee,ann,ann@x.edu\nAnn Lee,ann2,ann2@x.edu\nBob Kim,bob,bob@x.edu\n\
+    Zoe Lim,zoe,zoe@x.edu\n";
 
 #[test]
 fn a_row_is_found_by_any_identifier_and_stays_in_the_range_of_its_task() {
@@ -68,6 +69,7 @@ fn a_row_that_cannot_be_used_is_an_error_with_its_number() {
         ",ann,sphere,,1",
         "Kim,ann,sphere,,1.5",
         "Kim,eve,sphere,,1",
+        "Kim,zoe,sphere,,1",
         "Kim,Ann Lee,sphere,,1",
         "Kim,bob,camera,,1",
         "Kim,ann,camera,,1",

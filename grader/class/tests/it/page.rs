@@ -78,7 +78,7 @@ pub fn section(page: &str, id: &str) -> String {
 
 /// There are two mistakes, and one hides the other in Finn's submission. Pictures don't show either
 /// of them, and Eve hasn't built a tree. One file doesn't compile, one submission can't be graded,
-/// and two people's names look alike.
+/// two people's names look alike, and Hana didn't hand in a file.
 #[test]
 fn the_page_shows_what_needs_attention_root_causes_and_failure_rates_by_section() {
     let class = TestClass::named("class")
@@ -99,9 +99,11 @@ fn the_page_shows_what_needs_attention_root_causes_and_failure_rates_by_section(
         )
         .with_replaced("carl/sphere.rs", "fn hit", "fn hit(")
         .with_folder("dora")
-        .with_folder("gina");
+        .with_folder("gina")
+        .with_reference("hana");
+    std::fs::remove_file(class.input().join("hana/sphere.rs")).unwrap();
     let roster = "name,username,tutor\nAnn Lee,ann,Tess\nBob Kim,bob,Tess\n\
-        B\u{43e}b Kim,carl,Uwe\nDora D,dora,Uwe\nEve E,eve,\nFinn F,finn,Uwe\n";
+        B\u{43e}b Kim,carl,Uwe\nDora D,dora,Uwe\nEve E,eve,\nFinn F,finn,Uwe\nHana H,hana,Tess\n";
     let items = [
         "camera.offset",
         "camera.unit_length",

@@ -80,6 +80,7 @@ pub fn score() -> Score {
             file: "bbox.rs".to_owned(),
             line: Some(7),
             message: "error: expected `;`\n --> bbox.rs:7:1\u{1b}[0m".to_owned(),
+            is_missing: false,
         }],
         ignored_copies: vec!["old/bvh.rs differs from bvh.rs and is ignored".to_owned()],
         notes: Vec::new(),

@@ -69,6 +69,7 @@ fn escapes_everything_that_a_submission_can_write() {
         file: HOSTILE.to_owned(),
         line: None,
         message: HOSTILE.to_owned(),
+        is_missing: false,
     });
     let panic = ElementOutcome::Panicked(Panic {
         message: HOSTILE.to_owned(),

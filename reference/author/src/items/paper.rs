@@ -5,10 +5,11 @@ use glam::DVec3;
 use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray, Shape, Vertex};
 
-use super::shape_question;
-use crate::oracle::Ray64;
+use super::{meshes, shape_question};
 use crate::oracle::bbox::Bounds;
+use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
+use crate::tree::{Tree, construction, decoy};
 
 /// The number of rays that hit a box, and the number of rays that miss it.
 const BOX_RAYS_OF_EACH_KIND: usize = 3;
@@ -93,6 +94,40 @@ pub(super) fn bbox(rng: &mut Rng) -> (Bounds, Vec<(Ray, Interval)>) {
     (bounds, queries)
 }
 
+/// Returns a tree over four triangles, one behind the other, and rays through them from either end.
+/// All rays are parallel to an axis. At least two triangles are in front of the first ray, and the
+/// last ray misses all of them. All distances are whole numbers.
+pub(super) fn tree(rng: &mut Rng) -> (Tree, Vec<Ray>) {
+    let corner = whole_point(rng);
+    let [along, right, up] = axes(rng);
+    let at = |depth: f64, x: f64, y: f64| corner + depth * along + x * right + y * up;
+    // The edges that are parallel to an axis have even coordinates, and the rays have odd ones.
+    let triangles = (0..4).map(|index| {
+        let depth = f64::from(3 * index + rng.integer(0, 1));
+        let [x, y] = [(); 2].map(|()| -2.0 * f64::from(rng.integer(0, 1)));
+        let legs = [[x, y], [x + 4.0, y], [x, y + 4.0]];
+        meshes::flat_triangle(legs.map(|[x, y]| at(depth, x, y)), index)
+    });
+    let tree = construction::median_split(triangles.collect(), 1);
+    let rays = [2..=4, 1..=4, 1..=4, 0..=0].map(|counts| {
+        rng.retry(|rng| {
+            let [x, y] = [(); 2].map(|()| 2.0 * f64::from(rng.integer(0, 2)) - 1.0);
+            let ahead = f64::from(rng.integer(1, 9));
+            let (start, dir) = if rng.coin() {
+                (-ahead, along)
+            } else {
+                (10.0 + ahead, -along)
+            };
+            let ray = Ray::new(at(start, x, y).as_vec3(), dir.as_vec3());
+            let ray64 = Ray64::from(&ray);
+            let hits = tree.shapes.iter();
+            let hits = hits.filter(|shape| scan::intersect(&ray64, shape).is_some());
+            (counts.contains(&hits.count()) && decoy::is_fair(&tree, &[ray])).then_some(ray)
+        })
+    });
+    (tree, rays.to_vec())
+}
+
 /// Returns a ray from outside a box toward its surroundings, if it hits or misses the box as
 /// required.
 fn box_ray(rng: &mut Rng, bounds: &Bounds, is_hit: bool) -> Option<Ray> {
@@ -145,6 +180,22 @@ mod tests {
                 "{distances:?}"
             );
             assert!(hits[..3].iter().all(Option::is_some), "{hits:?}");
+        }
+    }
+
+    #[test]
+    fn distances_in_a_tree_are_whole_numbers_and_the_last_ray_misses() {
+        let mut rng = rng();
+        for _ in 0..20 {
+            let (tree, rays) = tree(&mut rng);
+            let hits = rays.iter().map(|ray| tree.expected_hit(&Ray64::from(ray)));
+            let distances: Vec<Option<f64>> = hits.map(|hit| Some(hit?.distance)).collect();
+            assert!(
+                matches!(distances[..], [Some(_), Some(_), Some(_), None]),
+                "{distances:?}"
+            );
+            let mut distances = distances.into_iter().flatten();
+            assert!(distances.all(|distance| distance.fract() == 0.0));
         }
     }
 

@@ -25,7 +25,7 @@ use self::placed::{Mover, is_clear_of_faces};
 use super::meshes;
 use crate::domains::fields::almost_the_same_ray;
 use crate::domains::traverse::{self, TRAVERSE};
-use crate::items::{AuthoredTask, Declaration, POINTS, groups};
+use crate::items::{AuthoredTask, Declaration, POINTS, groups, paper};
 use crate::oracle::Ray64;
 use crate::seed::Rng;
 use crate::tree::{Tree, construction, decoy};
@@ -54,9 +54,14 @@ pub static TASK: AuthoredTask = AuthoredTask {
     domain: Some(&TRAVERSE),
     finish: |seed, items| {
         let mut mover = Mover::new(seed);
-        for item in items {
+        for item in items.iter_mut() {
             mover.move_all(item.questions());
         }
+        // Moving this question would make its numbers hard to work with.
+        let (tree, rays) = paper::tree(&mut seed.rng("traverse.paper"));
+        items[0]
+            .questions()
+            .insert(0, traversal_question(&tree, rays));
     },
     points: POINTS,
     ..AuthoredTask::NEW

@@ -25,7 +25,7 @@ use crate::terminal::PrintOptions;
 
 /// The heading for options that students don't need. Only `--help-staff` shows them.
 const STAFF_OPTIONS: &str = "Options for course staff and CI";
-/// The arguments that can be combined with `--reset`. The others are about grading.
+/// The arguments that can be combined with `--reset`. All others affect only grading.
 const WITH_RESET: [&str; 4] = ["submission", "reset", "assignment", "help_staff"];
 /// The last line of the help for students.
 const MORE_HELP: &str =
@@ -60,7 +60,7 @@ pub enum Command {
     PrintSchema,
     /// Print the default policy.
     PrintDefaultPolicy,
-    /// Print the help with all options (its text is included here).
+    /// Print this help text, which covers all options.
     PrintHelp(StyledStr),
 }
 
@@ -118,7 +118,7 @@ pub struct Arguments {
     #[arg(long)]
     pub doctor: bool,
 
-    /// The assignment; default: that of the exam file, or rays
+    /// The assignment; default: the exam file's assignment, or rays
     #[arg(long, value_name = "ID", value_parser = HandedOut::find, help_heading = STAFF_OPTIONS)]
     pub assignment: Option<&'static HandedOut>,
 
@@ -192,7 +192,7 @@ impl Arguments {
         arguments.unwrap_or_else(|error| exit_with(&error))
     }
 
-    /// Returns the definition of the command line, with a help text that only shows the options for
+    /// Returns the definition of the command line. Its help text shows only the options for
     /// students.
     fn for_students() -> clap::Command {
         let is_staff = |arg: &clap::Arg| arg.get_help_heading() == Some(STAFF_OPTIONS);
@@ -298,7 +298,7 @@ impl Arguments {
     }
 }
 
-/// Returns the argument, with a second dash if it is a long option that has only one, such as
+/// Returns the argument, adding a second dash if it is a long option with only one, such as
 /// `-task`. The only one-letter options are `-h` and `-V`.
 fn with_two_dashes(argument: OsString) -> OsString {
     let is_long =
@@ -311,7 +311,7 @@ fn with_two_dashes(argument: OsString) -> OsString {
 
 fn format_help() -> String {
     let known = FORMATS.map(|format| format.id).join(", ");
-    // The list is the last paragraph, so that it can grow without rewrapping the rest.
+    // The list comes last, so that it can grow without the rest having to be rewrapped.
     format!(
         "Also write the report in these formats, which only show what the policy lets students see. Append \
          =PATH to choose the file; by default, it is written where the platform expects it, or else to the \

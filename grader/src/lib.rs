@@ -19,7 +19,7 @@
 //! | inputs | [`policy`], [`submission`], `inputs`, [`workspace`], [`handed_out`] |
 //! | the machine | [`sandbox`], [`error`], [`png_file`], `machine` |
 //!
-//! Some modules in these folders are re-exported at the top level for other packages.
+//! Some submodules are re-exported at the top level for other packages.
 //!
 //! The package [`judging`] is below all of them. It contains exams, their keys and the code that
 //! compares answers with keys.

@@ -67,8 +67,8 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     Ok(paths.in_text(&text).into_owned())
 }
 
-/// Returns the names of the files whose code answers an item: its task's file and those of the
-/// tasks that it depends on.
+/// Returns the names of the files whose code answers an item: the file of the item's own task and
+/// the files of the tasks that the item depends on.
 fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'static str> {
     let needed = item
         .needs
@@ -94,8 +94,8 @@ fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
 /// The answers to all questions of an item. The questions are sent together, as in an exam.
 struct ExamRun {
     answers: Result<Vec<Answer>, Fault>,
-    /// The question that crashes or hangs the program, and the element in that question, if a
-    /// single element is the reason for the missing answers.
+    /// The question and the element in it that crash or hang the program, if a single element is
+    /// the reason for the missing answers.
     culprit: Option<(usize, usize)>,
 }
 
@@ -111,8 +111,8 @@ impl ExamRun {
         Ok(ExamRun { answers, culprit })
     }
 
-    /// Returns the indices of the first wrong question and the wrong element in it, or of the
-    /// question and the element that crash or hang the program.
+    /// Returns the indices of the first question that was answered wrongly and of the wrong element
+    /// in it, or of the question and the element that crash or hang the program.
     fn first_wrong(&self, item: &Item) -> Option<(usize, usize)> {
         let Ok(answers) = &self.answers else {
             return Some(self.culprit.unwrap_or((0, 0)));
@@ -124,7 +124,7 @@ impl ExamRun {
         failures.next()
     }
 
-    /// Returns the verdict on an element that is right when run in isolation.
+    /// Returns the verdict on an element that is answered correctly when it is run in isolation.
     fn verdict(&self, item: &Item, (question, element): (usize, usize)) -> String {
         let answers = match (&self.answers, self.culprit) {
             (Ok(answers), _) => answers,

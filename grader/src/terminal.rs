@@ -33,12 +33,12 @@ pub struct PrintOptions {
     pub timings: bool,
     /// Whether to print only one thing to do next.
     pub next: bool,
-    /// The points below which the exit code is 1.
+    /// The number of points below which the exit code is 1.
     pub require: u32,
 }
 
-/// Prints the report of a submission, cached or new. Returns exit code 1 if the points are below
-/// the required number.
+/// Prints the report on a submission, whether cached or new. Returns exit code 1 if the points are
+/// below the required number.
 pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<ExitCode, Error> {
     let most = options.handed_out.assignment.points();
     if print.require > most {
@@ -121,7 +121,7 @@ fn grade_and_store(
     Ok((graded.score.points, graded.files))
 }
 
-/// Prints the diagnosis of this machine. Returns its exit code.
+/// Prints the diagnosis of this machine and returns the exit code for it.
 pub fn diagnose_and_print() -> Result<ExitCode, Error> {
     let diagnosis = diagnose()?;
     print(&diagnosis);
@@ -156,14 +156,15 @@ fn file_list(files: &ReportFiles) -> String {
 
 /// Prints the text with the full paths of the task files.
 fn print_text(prepared: &PreparedSubmission, text: &str) {
-    // The paths are only inserted here, even into a cached report, since the folder may have moved.
+    // Insert the paths only now, so that they aren't cached with the report: the folder may be
+    // moved before the report is printed again.
     let text = &*prepared.source_paths().in_text(text);
     print_line(with_links_on_a_terminal(text, &prepared.workspace));
 }
 
 /// Returns the text with links to the built handout, if there is one and the reader can click
-/// links. The links are only added here, even to a cached report, since it may be printed elsewhere
-/// the next time.
+/// links. The links are added only now, so that they aren't cached with the report, which may be
+/// printed somewhere else the next time.
 fn with_links_on_a_terminal<'a>(text: &'a str, workspace: &Workspace) -> Cow<'a, str> {
     let book = || Book::find(workspace);
     match io::stdout().is_terminal().then(book).flatten() {

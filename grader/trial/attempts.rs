@@ -1,6 +1,6 @@
 //! A program that runs in the sandbox in place of a submission. It attempts everything submissions
-//! must not do and prints a line for each attempt that succeeds. Its standard input is the path of
-//! a file that every user may read.
+//! must not do and prints a line for each attempt that succeeds. Its standard input contains the
+//! path of a file that every user may read.
 
 use std::collections::HashMap;
 use std::fs;

@@ -20,7 +20,7 @@ impl SplitMix64 {
         vec3(self.unit(), self.unit(), self.unit())
     }
 
-    /// Returns a point in the ball of radius 1 around the origin, but not in its middle.
+    /// Returns a point in the ball of radius 1 around the origin, but not too close to the origin.
     pub fn in_ball(&mut self) -> Vec3 {
         loop {
             let point = 2.0 * self.point() - 1.0;

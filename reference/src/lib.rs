@@ -1,7 +1,7 @@
 //! The path-tracing assignment: from camera rays to a bounding volume hierarchy.
 //!
-//! You write the files of the tasks, from [`camera`] to [`bvh`]. Only these are graded. [`primitive`]
-//! and [`world`] are given.
+//! You write the task files, from [`camera`] to [`bvh`], and only these are graded. The other
+//! files, [`primitive`] and [`world`], are given.
 
 #![forbid(unsafe_code)]
 

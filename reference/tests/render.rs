@@ -9,8 +9,8 @@ use framework::submission::World;
 use glam::UVec2;
 use reference::world::Student;
 
-/// A note that a picture takes a long time would be wrong, because the reference's traversal uses
-/// the tree.
+/// A note saying that a picture takes a long time would be wrong, because the reference's traversal
+/// uses the tree.
 #[test]
 fn the_reference_renders_every_scene_without_a_note() {
     let workspace = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
@@ -29,9 +29,9 @@ fn the_reference_renders_every_scene_without_a_note() {
     std::fs::remove_file(out).expect("the picture exists");
 }
 
-/// If only points on the light were sampled, those next to the floor would be thousands of times as
-/// bright as the light. The balance heuristic limits each of its two samples to the light that the
-/// floor can reflect.
+/// If only points on the light were sampled, some points next to the floor would contribute
+/// thousands of times the light's radiance. The balance heuristic limits the contribution of each
+/// of its two samples to the light that the floor can reflect.
 #[test]
 fn the_floor_beside_a_light_has_no_bright_specks() {
     let scene = r#"{

@@ -14,7 +14,7 @@ use serde::Deserialize;
 
 /// The reference's files, relative to this package.
 const REFERENCE: &str = "../src";
-/// The list of the variants.
+/// The list of variants.
 const LIST: &str = "variants.toml";
 
 #[derive(Deserialize)]
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("cargo::rerun-if-changed={}", replacement.stem);
         }
         let [replacement] = &replacements[..] else {
-            continue; // Files that use each other are compiled only as a submission.
+            continue; // A variant of several task files is compiled only as a submission.
         };
         let stem = &replacement.stem;
         let reference = fs::read_to_string(format!("{REFERENCE}/{stem}.rs"))?;

@@ -1,10 +1,10 @@
 //! Given: connects your files to the framework, which renders scenes and answers the grader's
 //! questions.
 //!
-//! This file is compiled together with yours each time they are graded, so it is short and written
-//! to compile fast: it uses loops with `push`, for example, because `map` and `collect` would take
-//! twice as long to compile. Every line that uses one of your files names that file, so that the
-//! grader can attribute a compile error there to your file.
+//! This file is compiled together with your files each time they are graded, so it is short and
+//! written to compile fast: it uses loops with `push`, for example, because `map` and `collect`
+//! would take twice as long to compile. Every line that uses one of your files names that file, so
+//! that the grader can attribute a compile error there to your file.
 
 use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission};
 use glam::{UVec2, Vec2, Vec3};

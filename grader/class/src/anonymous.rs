@@ -16,7 +16,7 @@ const KEY: &str = "anonymous-key.json";
 pub struct Pseudonyms(BTreeMap<String, String>);
 
 impl Pseudonyms {
-    /// Reads the key. Without one, no pseudonyms exist yet.
+    /// Reads the key. If it doesn't exist, there are no pseudonyms yet.
     pub fn read(store: &Store) -> Result<Self, Error> {
         Ok(Pseudonyms(store.read(KEY)?.unwrap_or_default()))
     }

@@ -81,8 +81,8 @@ fn choose(
     let mut candidates = Vec::from_iter(submissions.iter().copied());
     match policy.attempts.counts {
         AttemptRule::Ask => None,
-        // If the latest attempt can't be graded, its person is asked for the files. Silently using an
-        // older one could cost the person points.
+        // If the latest attempt can't be graded, the student is asked for its files. Silently using
+        // an older attempt could cost the student points.
         AttemptRule::Latest => {
             let info = |row: &usize| &rows[*row].result.info;
             // Attempt numbers from different groups say nothing about the order.

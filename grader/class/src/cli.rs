@@ -111,7 +111,7 @@ pub struct ClassArguments {
 /// Options for grading each submission, with the same meaning as in `cargo grade`.
 #[derive(Clone, Debug, Default, Args)]
 pub struct GradingArguments {
-    /// The assignment; default: that of the exam file, or rays
+    /// The assignment; default: the exam file's assignment, or rays
     #[arg(long, value_name = "ID", value_parser = HandedOut::find)]
     pub assignment: Option<&'static HandedOut>,
 
@@ -146,7 +146,7 @@ pub struct Lists {
     #[arg(skip)]
     pub policy: Option<PathBuf>,
 
-    /// The list of people that the platform's download contains beside the submissions.
+    /// The list of people that the platform's download contains in addition to the submissions.
     #[arg(skip)]
     pub downloaded: Option<PathBuf>,
 

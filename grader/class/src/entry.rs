@@ -100,8 +100,8 @@ pub struct Person {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
     /// The number that the platform gives the person, such as the user id in Canvas or the
-    /// participant number in Moodle. In Moodle's file names, it can also be the number of a group,
-    /// which may equal the number of some person. The number is therefore only used together with
+    /// participant number in Moodle. In Moodle's file names, it can also be a group's number, which
+    /// may be the same as somebody's own number. The number is therefore only used together with
     /// the name.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
@@ -117,7 +117,8 @@ pub struct Person {
     /// The status in Moodle's worksheet, which may include an extension.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub status: String,
-    /// Whether `name` comes from the name of a file or folder. If so, a list's name is preferred.
+    /// Whether `name` comes from the name of a file or folder. If so, the name on a list is
+    /// preferred.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
     /// Whether only the roster's groups say that the person belongs to the submission.
@@ -209,9 +210,8 @@ impl Person {
         if self.is_listed { &self.number } else { "" }
     }
 
-    /// Returns whether the person has this number and a name similar to the one that a list gives
-    /// for this number. A list without names contains text such as `Participant 51` in place of the
-    /// name.
+    /// Returns whether the person has the number and a name similar to `name`, both from the same
+    /// row of a list. In a list without names, `name` is text such as `Participant 51`.
     pub fn has_number(&self, number: &str, name: &str) -> bool {
         let numbered = format!("{}{}", self.name, self.number);
         let pairs = [(&*self.name, name), (name, &self.name), (&numbered, name)];
@@ -223,7 +223,7 @@ impl Person {
     }
 
     /// Returns whether this is Canvas's test student, which lets teachers see their course as a
-    /// student.
+    /// student would.
     pub fn is_test_student(&self) -> bool {
         !self.name.is_empty() && are_alike(&self.name, "Test Student")
     }

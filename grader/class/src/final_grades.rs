@@ -28,11 +28,11 @@ pub struct GradeHistory {
 /// The final grades of a run and everything they depend on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FinalGrades {
-    /// The grading round. A regrade is compared with the grades of the round before it.
+    /// The grading round. A regrade is compared with the grades from the round before it.
     round: u32,
     settings: Settings,
     lists: BTreeMap<ListKind, String>,
-    /// Whether some submissions were not graded because of a fault. Their earlier grades stay.
+    /// Whether some submissions were not graded because of a fault. Their earlier grades are kept.
     is_incomplete: bool,
     grades: Vec<FinalGrade>,
 }
@@ -109,8 +109,8 @@ impl GradeHistory {
     }
 }
 
-/// The lists that grades depend on. Gradebooks only matter for their information about people,
-/// which becomes visible in the grades.
+/// The lists that grades depend on. Gradebooks aren't among them: only their information about
+/// people matters, and it is visible in the grades.
 const LISTS: [ListKind; 3] = [ListKind::Policy, ListKind::Roster, ListKind::ManualPoints];
 
 impl FinalGrades {
@@ -141,7 +141,8 @@ impl FinalGrades {
         grades.filter(move |grade| grade.submission == submission)
     }
 
-    /// Returns a sentence about the change to a later grade. A new submission isn't a change.
+    /// Returns a sentence about the difference between a later grade and the one in this run. A new
+    /// submission isn't a change.
     fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<String> {
         self.of(&now.submission).next()?;
         match self.find(now) {
@@ -153,8 +154,8 @@ impl FinalGrades {
         }
     }
 
-    /// Returns a sentence about an earlier grade that is missing here although the submission
-    /// isn't.
+    /// Returns a sentence about an earlier grade that is missing here, although its submission is
+    /// present.
     fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
         (was.counts.is_some() && self.find(was).is_none()).then(|| {

@@ -27,8 +27,8 @@ pub fn resolve_teams(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     has_teams
 }
 
-/// Returns a sentence about an entry named after a group if, judging by the name, it could be any
-/// of several groups.
+/// If an entry is named after a group, but its name could refer to any of several groups, returns a
+/// sentence about it.
 pub fn shared_team(rows: &[Member], info: &EntryInfo) -> Option<String> {
     let groups = groups_named_by(rows, info);
     let groups = groups.values().map(|members| &members[0].person.group);

@@ -104,7 +104,7 @@ fn unique_name(class: &GradedClass, person: &Person) -> String {
     }
 }
 
-/// Returns the error for an archive that cannot be written, e.g. because it is too large.
+/// Returns the error to report if the archive cannot be written, e.g. because it is too large.
 fn cannot_write(error: io::Error) -> Error {
     Error::machine(format!("cannot write {ARCHIVE}: {error}"))
 }

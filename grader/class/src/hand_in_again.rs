@@ -1,5 +1,5 @@
 //! Messages to the people whose submissions cannot be graded. They say what was wrong and how to
-//! hand in again. Staff send the messages. Nothing is sent by this program.
+//! hand in again. Staff send the messages themselves: this program doesn't send anything.
 
 use std::collections::BTreeSet;
 

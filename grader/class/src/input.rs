@@ -61,7 +61,8 @@ impl Input {
         let archive = path.file_name().map(|name| name.to_string_lossy());
         let archive = archive.as_deref().filter(|_| unpacked.is_some());
         let (root, note) = match (choice.layout, listed.children()) {
-            // A folder that isn't named like a submission in the chosen layout contains the class.
+            // If the only folder isn't named like a submission in the chosen layout, it contains
+            // the class.
             (Some(layout), [only]) if only.is_folder() && !layout.has_name(&only.name) => {
                 (only, None)
             }
@@ -87,7 +88,8 @@ impl Input {
         let of_several = if class.entries.is_empty() {
             layout::side_by_side(&root, handed_out)
         } else {
-            // A few such entries may be mistakes by students, which are reported to them.
+            // If only a few entries are mixtures, students may have made mistakes, and the other
+            // entries can be graded.
             let is_most = 2 * class.mixtures.len() > class.entries.len();
             class.mixtures.first().filter(|_| is_most).cloned()
         };
@@ -114,8 +116,8 @@ impl Input {
     }
 }
 
-/// If a file of an entry could not be unpacked, marks the entry as having no files. If such a file
-/// belongs to no entry, adds it to the unmatched files.
+/// Marks each entry with a file that could not be unpacked as having no files. If a file that could
+/// not be unpacked belongs to no entry, adds it to the unmatched files.
 fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec<UnmatchedPath>) {
     for file in incomplete {
         let path = folder.join(&file.name);
@@ -135,8 +137,8 @@ fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec
     }
 }
 
-/// Reads the task files of an entry. If there is no submission to grade, returns the entry's
-/// outcome. Other entries aren't affected.
+/// Reads an entry's task files. If there is nothing to grade or reading fails, returns the entry's
+/// outcome instead. Other entries aren't affected.
 pub fn collect_submission(
     entry: &Entry,
     handed_out: &'static HandedOut,

@@ -213,8 +213,8 @@ fn extension_problems<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<(&'a st
     policy.late.extensions.keys().filter_map(problem).collect()
 }
 
-/// Returns whether the policy sets a due time, but the submission comes without a time and without a
-/// late flag. Such a submission is treated as on time.
+/// Returns whether the policy sets a due time, but the submission has neither a time nor a late
+/// flag. Such a submission is treated as on time.
 pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
     policy.late.due.is_some() && !info.is_late() && info.submitted().is_none()
 }

@@ -36,13 +36,13 @@ pub enum Layout {
 /// How to read the input if its names don't make that clear. The choice is stored in `run.json`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Args)]
 pub struct LayoutChoice {
-    /// Layout of the input; default: that of the last run, or the one recognised from the names of
+    /// Layout of the input; default: the last run's layout, or the one recognised from the names of
     /// files and folders
     #[arg(long, value_name = "PLATFORM")]
     pub layout: Option<Layout>,
 
     /// Title of the assignment, if the input contains several, e.g. from Microsoft Teams; default:
-    /// that of the last run
+    /// the last run's title
     #[arg(long, value_name = "TITLE")]
     pub title: Option<String>,
 }

@@ -23,7 +23,7 @@ pub enum ListKind {
     Moodle,
     /// The grades from Gradescope.
     Gradescope,
-    /// The list of people that the platform's download contains beside the submissions.
+    /// The list of people that the platform's download contains in addition to the submissions.
     Downloaded,
 }
 

@@ -56,8 +56,8 @@ impl UsedLists {
         Ok(used)
     }
 
-    /// Unless the list of people is dropped, adds the one found in the platform's download or, if
-    /// there is none, the copy of an earlier one.
+    /// Adds the list of people found in the platform's download or, if there is none, the copy of
+    /// an earlier list, unless the list of people is dropped.
     pub fn add_downloaded(
         &mut self,
         found: Option<PathBuf>,
@@ -154,8 +154,8 @@ impl UsedLists {
     }
 
     /// Writes the copies and `run.json` into an output folder, and removes copies that `run.json`
-    /// doesn't name. File names contain the hash, so the copies of the last run are kept until
-    /// `run.json` is written.
+    /// doesn't name. The copies' file names contain their hashes, so the last run's copies are kept
+    /// until `run.json` is written.
     pub fn save(&self, store: &Store, run: &Run) -> Result<(), Error> {
         let mut paths = Vec::new();
         for (kind, list) in &self.kept {
@@ -177,8 +177,8 @@ impl UsedLists {
 }
 
 impl UsedLists {
-    /// Goes back to the manual points of the last run if those of this run are refused. They can
-    /// only be checked after grading. `finished` is the result of the run.
+    /// Goes back to the last run's manual points if this run's are refused. Manual points can only
+    /// be checked after grading. `finished` is the result of the run.
     pub fn forget_refused<T>(
         mut self,
         finished: Result<T, Error>,

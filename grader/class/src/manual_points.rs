@@ -1,5 +1,5 @@
-//! Manual points: points that staff add or deduct, and comments, from a CSV file with a row for
-//! each student and task. They are kept separate from the graded points.
+//! Manual points: points that staff add or deduct, with comments. They are read from a CSV file
+//! with a row for each student and task, and are kept separate from the graded points.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};
@@ -23,7 +23,7 @@ const REMEDY: &str = "manual points need the columns student, task, delta, comme
 /// Points that staff gave somebody for a task, and the reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ManualPoints {
-    /// The row in the file, as spreadsheets number it.
+    /// The row number in the file, as in spreadsheets.
     pub row: usize,
     /// The student's identifier or name, as written in the file.
     pub student: String,
@@ -70,8 +70,9 @@ impl ManualPointsList {
         Ok(list)
     }
 
-    /// Replaces each row for a pseudonym with rows for the people who handed in the submission, and
-    /// names with different punctuation with those of the people.
+    /// Replaces each row for a pseudonym with rows for the people who handed in the submission. If
+    /// a name in a row differs from a person's name only in punctuation, replaces it with the
+    /// person's name.
     pub fn resolve_names(&mut self, entries: &[&mut EntryInfo]) {
         let resolve = |points: ManualPoints| {
             let is_meant = |info: &&&mut EntryInfo| info.pseudonym == points.student;
@@ -140,8 +141,8 @@ impl ManualPointsList {
     }
 
     /// Checks that no task gets more than its maximum or fewer than 0 points. `exam` contains the
-    /// exam's tasks with 0 points each. If the grader or the machine failed, the earned points
-    /// aren't known yet.
+    /// exam's tasks with 0 points each. If the grader or the machine failed, nothing is checked,
+    /// because the earned points aren't known yet.
     pub fn check_range(
         &self,
         points: &[ManualPoints],
@@ -184,7 +185,7 @@ impl ManualPointsList {
 }
 
 impl ManualPoints {
-    /// Parses the cells of a row, in the order of [`COLUMNS`].
+    /// Parses a row. `cells` contains its cells in the order of [`COLUMNS`].
     fn parse(
         row: usize,
         cells: [String; 5],
@@ -216,9 +217,8 @@ impl ManualPoints {
         })
     }
 
-    /// Returns the points with the name of the only person whose name differs from the written one
-    /// at most in punctuation. Otherwise, or if somebody has the written name, returns them
-    /// unchanged.
+    /// If nobody has the written name, but it differs from exactly one person's name only in
+    /// punctuation, returns the points with that person's name. Otherwise, returns them unchanged.
     fn with_name_of(mut self, entries: &[&mut EntryInfo]) -> Self {
         let people = || entries.iter().flat_map(|info| &info.people);
         let names = people().map(|person| person.name.as_str());

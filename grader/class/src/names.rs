@@ -31,7 +31,7 @@ pub fn fold_name(name: &str) -> String {
     if kept.is_empty() { folded } else { kept }
 }
 
-/// Returns whether two names of a person or group can be the same, although a platform may have
+/// Returns whether two names can belong to the same person or group, although a platform may have
 /// changed one of them. Identifiers are compared with [`are_equal`] instead.
 pub fn are_same_name(one: &str, other: &str) -> bool {
     fn kept(name: &str) -> impl Iterator<Item = u8> {

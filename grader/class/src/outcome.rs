@@ -221,7 +221,7 @@ impl ScoreSummary {
 }
 
 impl EntryOutcome {
-    /// Returns the outcome for a failure of the grader or the machine, for this reason.
+    /// Returns the outcome for a failure of the grader or the machine. `why` is the reason.
     pub fn fault(why: &str) -> Self {
         EntryOutcome::Fault(sanitize(why, MAX_FAULT_CHARS))
     }

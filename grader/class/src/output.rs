@@ -25,7 +25,7 @@ use crate::similar_pairs::{SimilarPair, read_similar_pairs};
 use crate::store::{REPLACED, Store, json};
 use crate::summary::ClassSummary;
 
-/// Whether every submission of a class was graded.
+/// Whether every submission in a class was graded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completion {
     /// Every submission was graded or had nothing to grade.
@@ -34,7 +34,7 @@ pub enum Completion {
     Incomplete,
 }
 
-/// The inputs for a class's files, other than the results of its submissions.
+/// Everything that a class's files are made from, other than the results of its submissions.
 pub struct ClassContext<'a> {
     /// The output folder.
     pub store: &'a Store,
@@ -71,7 +71,8 @@ impl ClassContext<'_> {
             rows,
             missing: self.findings.missing,
         };
-        // Read this first, so that if the run is killed later, repeating it lists the same changes.
+        // Update the history first, so that if the run is killed later, repeating it lists the same
+        // changes.
         let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
         store.write(final_grades::FILE, json(&history))?;
         let changes = Changes {
@@ -104,7 +105,7 @@ impl ClassContext<'_> {
     }
 }
 
-/// Writes the files about a class.
+/// Writes the files with the class's results.
 fn write_results(
     class: &GradedClass,
     store: &Store,
@@ -159,7 +160,7 @@ fn write_for_graders(
     Ok(())
 }
 
-/// Writes the copies of gradebooks and the archive to hand back.
+/// Writes the filled-in copies of the gradebooks, and the archive to hand back.
 fn write_for_platforms(class: &GradedClass, store: &Store, lists: &Lists) -> Result<(), Error> {
     for (name, filled) in fill_gradebooks(class, lists)? {
         // The changes are printed, so that the teacher can check them before uploading the file.
@@ -187,7 +188,8 @@ fn print_path(store: &Store, name: &str) {
     print_line(format_args!("  {}", store.folder().join(name).display()));
 }
 
-/// Checks, before the class is graded, that the gradebooks and a checker's results can be used.
+/// Checks, before the class is graded, that the gradebooks and a similarity checker's results can
+/// be used.
 pub fn check_lists(lists: &Lists) -> Result<(), Error> {
     read_similar_pairs(lists)?;
     fill_gradebooks(&GradedClass::default(), lists).map(drop)

@@ -18,7 +18,7 @@ fn real_path(path: &Path) -> PathBuf {
     real.unwrap_or_else(|| absolute.clone())
 }
 
-/// Returns the path of a file next to a folder. Its name begins with the folder's name.
+/// Returns the path of a file next to a folder. The file's name begins with the folder's name.
 pub fn beside(folder: &Path, end: &str) -> PathBuf {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     folder.with_file_name(format!("{name}-{end}"))

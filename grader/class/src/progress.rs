@@ -10,7 +10,7 @@ use judging::sanitize::sanitize_line;
 
 use crate::outcome::{EntryOutcome, EntryResult};
 
-/// The progress display of a run. Its bars are hidden unless they are on a terminal.
+/// The progress display of a run. Its bars are only shown on a terminal.
 #[derive(Debug)]
 pub struct Progress {
     count: usize,

@@ -1,9 +1,9 @@
 //! Runs a queue of jobs on a few threads. A thread takes the next job as soon as it finishes one.
 //!
-//! This doesn't use `rayon`, because the progress display shows a line for each thread, and because
-//! entries should be graded in the order of the list, so that a stopped run has graded the first
-//! ones. `rayon` splits the list into halves, and `par_bridge` doesn't preserve the order of the
-//! results.
+//! This doesn't use `rayon`, for two reasons: the progress display shows a line for each thread,
+//! and entries should be graded in the order of the list, so that a stopped run has graded the
+//! first entries. `rayon` splits the list into halves, and `par_bridge` doesn't preserve the order
+//! of the results.
 
 use std::iter;
 use std::panic::resume_unwind;

@@ -21,7 +21,7 @@ pub struct Changes {
     pub resubmitted: Vec<Drift>,
     /// Sentences about the entries that are no longer in the input.
     pub removed: Vec<String>,
-    /// The final grades that changed. `None` if there are none to compare with.
+    /// The final grades that changed. `None` if there are no earlier grades to compare with.
     pub grades: Option<GradeChanges>,
 }
 
@@ -115,8 +115,8 @@ pub struct ItemChange {
     pub was: Option<u32>,
     /// The points after the regrade. `None` if the item is no longer in the exam.
     pub now: Option<u32>,
-    /// The reason: the verdict and message after the regrade and, if points were gained, also those
-    /// before it.
+    /// The reason: the verdict and message after the regrade and, if points were gained, also the
+    /// verdict and message before it.
     pub why: String,
 }
 

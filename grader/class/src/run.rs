@@ -89,7 +89,7 @@ impl Run {
         }
     }
 
-    /// Returns the next round, where nothing is graded yet. It will be compared with the last
+    /// Returns the next round, in which nothing is graded yet. It will be compared with the last
     /// finished round. An abandoned regrade has already replaced some scores, so the scores saved
     /// before it are kept for the comparison.
     pub fn next_round(&self, settings: Settings) -> Self {

@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::paths::beside;
 use crate::table::Table;
 
-/// Two similar files. Nothing is concluded or graded from them.
+/// Two similar files. They don't affect anybody's points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimilarPair {
     /// The similarity according to the checker, from 0 to 1.
@@ -163,7 +163,8 @@ fn read_results(folder: &Path, results: &Path) -> Result<Vec<SimilarPair>, Error
     Ok(pairs)
 }
 
-/// The ids of the submissions, keyed by number, since spreadsheets drop leading zeros.
+/// The ids of the submissions, keyed by number. The keys aren't text, since spreadsheets drop
+/// leading zeros.
 type Key = HashMap<u32, String>;
 
 /// Reads the key next to a folder of compared files.
@@ -178,8 +179,8 @@ fn read_key(folder: &Path) -> Result<Key, Error> {
     Ok(table.rows.iter().filter_map(entry).collect())
 }
 
-/// Finds a file by the checker's name for it. If this name lacks the task, it is taken from the
-/// name of the folder with the results.
+/// Finds a file by the checker's name for it. If this name doesn't contain the task, the name of
+/// the folder with the results is used as the task.
 fn find_compared(name: &str, folder: &Path, results: &Path, key: &Key) -> Option<ComparedFile> {
     let name = PathBuf::from(name.replace('\\', "/"));
     let number = name.file_stem()?.to_str()?.parse().ok()?;

@@ -1,7 +1,7 @@
 //! Input for similarity checkers such as JPlag, Dolos and MOSS. Each task file has a folder, which
 //! contains a numbered file for each submission. The numbered file contains only the lines that the
-//! students wrote themselves. This isn't a detector: it only compares entire submissions for
-//! equality.
+//! students wrote themselves. This module doesn't detect similar code itself: it only finds
+//! submissions that are identical.
 //!
 //! The folder can be uploaded to a service, since it doesn't contain names. The key to the numbers
 //! and the list of identical submissions are written next to it.

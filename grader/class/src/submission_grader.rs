@@ -1,5 +1,6 @@
 //! The interface between a class and the processes that grade a submission. A class uses the grader
-//! only through this trait, so that its handling of results can be tested without compiling.
+//! only through this trait, so that the handling of results can be tested without compiling
+//! anything.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -106,7 +107,8 @@ impl SubmissionGrader for Grader<'_> {
 /// Returns the options that scores depend on, as text. Options stored as separate settings and
 /// options that `cargo class` doesn't have are left out.
 fn options_of_scores(options: &GradeOptions) -> String {
-    // Don't use `..` here, so that a new option doesn't compile until this function handles it.
+    // Don't use `..` here, so that adding an option is a compile error until this function handles
+    // it.
     let GradeOptions {
         dependents,
         budget,

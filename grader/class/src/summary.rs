@@ -119,7 +119,7 @@ pub struct Outlier {
 /// A reason that submissions need attention, and advice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reason {
-    /// The cause, which submissions can share.
+    /// The cause, which several submissions can share.
     pub cause: String,
     /// The facts about one submission, or an empty string.
     pub detail: String,
@@ -289,7 +289,7 @@ fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
     causes
 }
 
-/// Returns the causes of a task's lost points, each with the item that shows it, unless the cause
+/// Returns the causes of a task's lost points. Each comes with the item that shows it, unless it
 /// concerns the entire task.
 fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
     let is_cause = |item: &&ItemScore| item.points < item.max_points && item.blocked_by.is_none();
@@ -380,7 +380,8 @@ fn missing_grade(row: &ClassRow) -> Option<Reason> {
     })
 }
 
-/// Returns the reason that a score of 0 points, or one below the fence, needs attention.
+/// If a score is 0 points or below the fence, returns the reason that the submission needs
+/// attention.
 fn low_score(score: &ScoreSummary, fence: f64) -> Option<Reason> {
     let is_uncompiled = |item: &ItemScore| item.verdict == "not_compiled";
     let is_unwritten = |item: &ItemScore| item.verdict == "unimplemented";
@@ -389,7 +390,8 @@ fn low_score(score: &ScoreSummary, fence: f64) -> Option<Reason> {
             "0 points: nothing compiles",
             "; the report shows the errors",
         ),
-        // The code that students get for building and traversing a BVH already runs.
+        // Not every item has this verdict, because the code that students are given for building
+        // and traversing a BVH already runs.
         0 if score.items().any(is_unwritten) => (
             "0 points: some code is not written yet",
             "; ask for the right files",

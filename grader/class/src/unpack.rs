@@ -22,8 +22,8 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// The maximum size of a source file, in bytes. For a longer file, one more byte is unpacked, so
 /// that it is recognised as too long.
 const MAX_TEXT_BYTES: u64 = 1 << 20;
-/// The maximum total size of the unpacked files, in bytes, before [`MAX_EXPANSION`] times the size
-/// of the archive is added. This is enough, since students' archives are already compressed and
+/// The maximum total size of the unpacked files, in bytes, to which [`MAX_EXPANSION`] times the
+/// archive's size is added. The sum is enough, since students' archives are already compressed and
 /// their source files are short.
 const MAX_TOTAL_BYTES: u64 = 1 << 30;
 /// The number of bytes that each byte of the archive adds to [`MAX_TOTAL_BYTES`].
@@ -121,8 +121,8 @@ fn unpack_files(
 }
 
 /// The archive members to read (and how many bytes of each), and the members to create as empty
-/// files. If the contents of one of the latter are needed, the string is the reason that they
-/// aren't read.
+/// files. If an empty file's contents would be needed, the string is the reason for not reading
+/// them.
 type Selection<'a> = (Vec<(&'a Member, u64)>, Vec<(&'a Member, Option<String>)>);
 
 /// Selects the members whose contents are needed. The smallest come first, so that only the largest
@@ -177,8 +177,8 @@ fn max_bytes(path: &str, handed_out: &HandedOut) -> u64 {
     }
 }
 
-/// Calls `put` with `path` joined to `folder`. Returns a message if such a path cannot exist on
-/// this system.
+/// Calls `put` with `path` joined to `folder`. Returns a message if the resulting path cannot exist
+/// on this system.
 fn extract_to(
     folder: &Path,
     path: &str,

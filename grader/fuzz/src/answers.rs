@@ -1,5 +1,5 @@
-//! Well-formed answers with any values, which are judged, compared with known mistakes, scored and
-//! written to all three reports.
+//! Well-formed answers with arbitrary values, which are judged, compared with known mistakes,
+//! scored and written to all three reports.
 
 use std::sync::LazyLock;
 

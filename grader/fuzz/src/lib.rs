@@ -1,5 +1,5 @@
 //! Fuzz targets for all parsers of untrusted input. No input may make a parser panic, hang, or use
-//! memory out of proportion to its size.
+//! memory out of proportion to the input's size.
 //!
 //! Each target is a function that takes bytes. `cargo test -p fuzz` runs it on the corpus, changes
 //! to the corpus and noise, on any machine. `cargo fuzz run` (see README.md) runs it for as long as

@@ -20,7 +20,7 @@ static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
-/// Reads the bytes as the mesh of a scene. Such a mesh may come from anywhere on the Internet.
+/// Reads the bytes as the mesh of a scene. Meshes may come from anywhere on the Internet.
 pub fn read_mesh(bytes: &[u8]) {
     let folder = FOLDER.path();
     fs::write(folder.join("any.obj"), bytes).expect("the file can be written");

@@ -15,9 +15,9 @@ pub enum DrawingData {
     /// No data.
     #[default]
     None,
-    /// Data for tables of `BBox::hit`: for each query, the interval that the ray spends between the
-    /// two planes of each axis, ignoring the query's `times` and the ray's range. If the ray is
-    /// parallel to the planes, the interval is unbounded or empty.
+    /// Data for tables of `BBox::hit`: for each query and each axis, the interval that the ray
+    /// spends between the two planes, ignoring the query's `times` and the ray's range. If the ray
+    /// is parallel to the planes, the interval is unbounded or empty.
     Slabs(#[serde(with = "packed::text")] Vec<[Interval; 3]>),
     /// Data for tables of hits in a tree from the exam: one correct traversal per ray.
     Traversals(#[serde(with = "packed::text")] Vec<Vec<TraversalStep>>),
@@ -58,7 +58,7 @@ impl UpperLevels {
 pub struct LevelNode {
     /// Distance from the root, which is at level 0.
     pub level: u32,
-    /// Number of primitives in the nodes to its left.
+    /// Number of primitives in the nodes to the left of this node.
     pub start: u32,
     /// Number of primitives below the node.
     pub count: u32,

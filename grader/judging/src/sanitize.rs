@@ -42,8 +42,8 @@ pub fn affects_surroundings(c: char) -> bool {
 }
 
 /// Returns whether a character is invisible and doesn't affect the text around it: soft hyphens,
-/// zero width spaces, fillers, tags and variation selectors. With such a character, two names that
-/// look the same can differ.
+/// zero width spaces, fillers, tags and variation selectors. Two names that look the same can
+/// differ in these characters.
 fn is_invisible(c: char) -> bool {
     matches!(
         c,

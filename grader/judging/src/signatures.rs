@@ -42,7 +42,7 @@ impl MistakeSignatures {
     }
 }
 
-/// The answers to an item that one or more mistakes share.
+/// The answers to one item, shared by one or more mistakes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MistakeAnswers {
@@ -67,7 +67,7 @@ pub enum ObservedAnswer {
     Panicked,
     /// The entire item is unanswered.
     NoAnswer(NoAnswerReason),
-    // This variant is last, so that exams from before it existed can still be read.
+    // This variant is last, so that exams written before it existed can still be read.
     /// The code panicked with an error of this kind.
     PanickedBy(PanicKind),
 }
@@ -119,9 +119,9 @@ impl PanicKind {
 
 impl ObservedAnswer {
     /// Maximum difference between the amounts, such as SAH costs, of two tree defects that may come
-    /// from the same mistake. It is relative for amounts of at least 1, and absolute for smaller
-    /// ones. It is larger than for other numbers because builders with the same mistake produce
-    /// slightly different trees.
+    /// from the same mistake. The limit is relative for amounts of at least 1, and absolute for
+    /// smaller amounts. It is larger than the limit for other numbers because builders with the
+    /// same mistake produce slightly different trees.
     const COST: f32 = 0.08;
 
     /// Returns the observation for a panic with this message.
@@ -177,7 +177,7 @@ impl ObservedAnswer {
             })
     }
 
-    /// Returns whether the answer is that nothing is hit.
+    /// Returns whether the answer is a miss.
     pub fn is_miss(&self) -> bool {
         matches!(self, ObservedAnswer::NoHit)
     }

@@ -60,8 +60,8 @@ impl Symptom {
         }
     }
 
-    /// Returns whether this symptom, as part of an assignment's or an item's data, stands for an
-    /// observed one.
+    /// Returns whether this symptom from an assignment's or an item's data covers the observed
+    /// symptom.
     pub fn includes(&self, observed: &Symptom) -> bool {
         self.what == observed.what && (self.side.is_none() || self.side == observed.side)
     }
@@ -74,7 +74,8 @@ impl Side {
         if is_there { Side::More } else { Side::Less }
     }
 
-    /// Returns the side of a value, or `None` if it is equal or NaN.
+    /// Returns the side on which a value is wrong, or `None` if it equals the expected value or if
+    /// either is NaN.
     pub fn of(got: f32, wanted: f32) -> Option<Self> {
         if got < wanted {
             Some(Side::Less)

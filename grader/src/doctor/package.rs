@@ -75,7 +75,7 @@ pub(super) fn read_package(path: &Path) -> Result<PackageContents, Error> {
                 contents.inspected.insert(inspected, bytes);
                 read.map(drop)
             }
-            // Damage is only reported at the end of the contents.
+            // Damage is only detected once the contents have been read to the end.
             None => io::copy(&mut file, &mut io::sink()).map(drop),
         };
         if let Err(error) = unpacked {

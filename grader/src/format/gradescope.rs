@@ -65,8 +65,8 @@ fn results(view: &StudentView, context: &FormatContext, max_chars: usize) -> Val
     results
 }
 
-/// Returns the text above all tests. It omits the total if some items are hidden, since the total
-/// includes their points.
+/// Returns the text shown above the tests. It omits the total if some items are hidden, since the
+/// total includes their points.
 fn output(view: &StudentView) -> String {
     let all_shown = view
         .all_items
@@ -89,7 +89,7 @@ fn output(view: &StudentView) -> String {
 }
 
 /// Returns a test without points that explains the total. It is needed if the total includes hidden
-/// items, because students should see it when Gradescope shows them the total.
+/// items: when Gradescope shows students the total, they should also see how it was calculated.
 fn counted_test(view: &StudentView, number: usize) -> Option<Value> {
     let items = view.all_items.iter().map(|entry| entry.visibility);
     let hidden: Vec<Visibility> = items.filter(|shown| !shown.is_shown_now()).collect();

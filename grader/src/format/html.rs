@@ -1,4 +1,4 @@
-//! A page for students without the exam.
+//! A page for students, which doesn't contain the exam.
 
 use crate::format::{FormatContext, FormatSpec, StudentView};
 use crate::report::html::{feedback, with_counted};

@@ -2,7 +2,7 @@
 //! [`StudentView`] and a [`FormatContext`]. It never gets the score itself, so no format can leak
 //! what the policy hides.
 //!
-//! A format consists of a file that declares its [`FormatSpec`] and of an entry in [`FORMATS`].
+//! A format consists of a file that declares its [`FormatSpec`] and an entry in [`FORMATS`].
 
 mod check50;
 mod classroom50;

@@ -1,8 +1,8 @@
 //! PrairieLearn's `/grade/results/results.json`
 //! (<https://prairielearn.readthedocs.io/en/latest/externalGrading/>, "Grading results").
 //!
-//! If no file compiles, the submission is marked as not gradable, which doesn't cost the student an
-//! attempt.
+//! If no file compiles, the submission is marked as not gradable, so that it doesn't cost the
+//! student an attempt.
 
 use serde_json::{Value, json};
 

@@ -174,7 +174,8 @@ fn verdict_from_points(is_pending: bool, points: u32, max_points: u32) -> Verdic
     }
 }
 
-/// Returns the items of a task that students may see now and one item that combines the others.
+/// Returns the items of a task that students may see now, plus one item that combines all the
+/// others.
 fn items_shown_now(task: &TaskScore, of_task: &[&ItemView]) -> Vec<ItemScore> {
     let (open, hidden): (Vec<&ItemView>, Vec<&ItemView>) = of_task
         .iter()
@@ -234,7 +235,7 @@ mod tests {
         assert_eq!(view.visible.rerun_command, RerunCommand::default());
     }
 
-    /// Students know the ids of the other items.
+    /// Students already know the ids of items that aren't hidden.
     #[test]
     fn only_a_hidden_item_is_named_by_its_task() {
         let hidden = ["bbox.flat".to_owned()];

@@ -18,8 +18,9 @@ pub struct FormatSpec {
     pub file: &'static str,
     /// The environment variables whose values are copied into the file. All of them must be set.
     pub variables: &'static [&'static str],
-    /// The environment variable with the path of a file that the platform shares between commands.
-    /// If it is set, the text is appended to that file unless a different path is requested.
+    /// The environment variable that holds the path of a file shared between commands by the
+    /// platform. If it is set, the text is appended to that file unless a different path is
+    /// requested.
     pub shared_file: Option<&'static str>,
     /// Renders the file. `None` for the score file, which isn't for students.
     pub render: Option<Render>,

@@ -56,8 +56,8 @@ impl StudentView {
         self.counted.explanation_if_changed()
     }
 
-    /// Returns the duration of grading in milliseconds, or `None` if students may not see every
-    /// question, since a program can influence this number by waiting.
+    /// Returns how long grading took, in milliseconds. Returns `None` if some questions are hidden
+    /// from students: a program could leak information about them through this number by waiting.
     pub fn milliseconds(&self) -> Option<u64> {
         let Timings {
             build_ms, exam_ms, ..
@@ -116,9 +116,9 @@ fn item_points(item: &ItemScore) -> ItemPoints<'_> {
     }
 }
 
-/// Returns whether students may see everything about all items of a task. Otherwise, they don't see
-/// everything about any of them: one process answers the whole task, so its answer to an open item
-/// can repeat a question of another item.
+/// Returns whether students may see everything about all items of a task. If even one item is
+/// restricted, they don't see everything about any of them: one process answers the whole task, so
+/// its answer to an open item can repeat a question of another item.
 fn is_open(task: &TaskScore, policy: &Policy, score: &Score) -> bool {
     let mut items = task.items.iter();
     items.all(|item| policy.visibility(&score.exam, &item.id) == Visibility::All)
@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(visibility(&one, "triangle.edge"), Visibility::Points);
         assert_eq!(visibility(&one, "triangle.inside"), Visibility::Feedback);
         assert_eq!(visibility(&one, "camera.corners"), Visibility::All);
-        // Items that aren't open anyway stay unchanged.
+        // Items that weren't open in the first place keep their visibility.
         let all = view("triangle = 'points'\n'triangle.edge' = 'hidden'");
         assert_eq!(visibility(&all, "triangle.inside"), Visibility::Points);
         assert_eq!(visibility(&all, "triangle.edge"), Visibility::Hidden);

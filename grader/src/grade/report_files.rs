@@ -56,8 +56,8 @@ impl ReportFiles {
         own.into_iter().chain(self.outputs.paths())
     }
 
-    /// Writes the score file and the page, if they are due: at the first item, at the end, and at
-    /// intervals in between.
+    /// Writes the score file and the page, if they are due: after the first item, at the end, and
+    /// at intervals in between.
     pub fn write(
         &mut self,
         score: &Score,

@@ -1,4 +1,4 @@
-//! Makes the archive that a student hands in and checks it by reading it as the grader will.
+//! Makes the archive that a student hands in and checks it by reading it the way the grader will.
 
 mod archive;
 mod summary;
@@ -59,8 +59,8 @@ pub struct HandIn {
 }
 
 impl HandIn {
-    /// Makes the archive of a student's own work or of another folder, reads it back and compiles
-    /// its contents.
+    /// Makes an archive from a student's own work or from another folder, reads it back and
+    /// compiles its contents.
     pub fn make(arguments: HandInArguments) -> Result<Self, Error> {
         let handed_out = arguments.assignment.unwrap_or_default();
         let folder = arguments.folder;
@@ -151,7 +151,7 @@ fn keep_lost_work(archive: &Path, now: &Submission) -> Result<Option<PreviousArc
     Ok(Some(PreviousArchive { copy, files }))
 }
 
-/// Reads the archive as the grader will and compares it with the original.
+/// Reads the archive the way the grader will and compares it with the original.
 fn read_back(archive: &Path, original: &Submission, bytes: &[u8]) -> Result<Submission, Error> {
     let changed = || {
         Error::Machine(format!(

@@ -1,4 +1,4 @@
-//! The text about an archive: its contents and what to do with it.
+//! The text about an archive: what it contains and what to do with it.
 
 use std::fmt;
 
@@ -76,7 +76,7 @@ impl HandIn {
         }
     }
 
-    /// Returns the advice on how to continue with the archive.
+    /// Returns advice on what to do next with the archive.
     fn next_step(&self, archive: &str) -> String {
         if !self.is_started() {
             return "You haven't written anything yet: see handout/src/start.md.".to_owned();

@@ -1,4 +1,4 @@
-//! Compares the methods in a submission with the starter's.
+//! Compares the methods in a submission with the methods in the starter.
 
 use judging::assignment::Task;
 
@@ -24,8 +24,8 @@ impl HandedOut {
     ///
     /// # Errors
     ///
-    /// A message that says why the method was not found. A task whose method is a function outside
-    /// an `impl` is never found.
+    /// A message that says why the method was not found. A function outside an `impl` is never
+    /// found, even if it is the task's method.
     ///
     /// # Panics
     ///

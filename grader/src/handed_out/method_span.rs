@@ -26,7 +26,7 @@ pub struct MethodSpan<'a> {
     pub bytes: Range<usize>,
 }
 
-/// Returns the method with this name in an `impl` block of the type `implemented`, or the reason
+/// Returns the method with this name in an `impl` block for the type `implemented`, or the reason
 /// why it cannot be found.
 pub fn find_method<'a>(
     text: &'a str,
@@ -102,7 +102,7 @@ impl Scan<'_> {
         }
         let is_after_fn = mem::take(&mut self.after_fn);
         // A token's text is enough to recognise it: a brace in a string or a character literal is
-        // part of a token with quotation marks.
+        // part of a token that includes the quotation marks.
         match word {
             "impl" if self.open.is_empty() => self.header = Some(bytes.end),
             "{" => {

@@ -167,7 +167,7 @@ impl HandedOut {
     }
 
     /// Returns the given methods in a task file whose versions in `text` differ from the starter's.
-    /// A note mentions these methods.
+    /// A note in the report lists these methods.
     pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<ChangedMethod> {
         let text = tokens(text);
         let is_to_write = |task: &TaskInfo, name| task.file == file.name && task.method == name;

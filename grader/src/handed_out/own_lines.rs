@@ -26,7 +26,7 @@ fn code_lines(text: &str) -> Vec<CodeLine<'_>> {
     lines.filter(|(_, tokens)| !tokens.is_empty()).collect()
 }
 
-/// The maximum size of the table of [`longest_common`]. No file that a student writes by hand comes
+/// The maximum size of the table in [`longest_common`]. No file that a student writes by hand comes
 /// close to it.
 const MAX_TABLE: usize = 10_000_000;
 

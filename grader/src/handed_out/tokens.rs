@@ -2,7 +2,7 @@
 
 use ra_ap_rustc_lexer::{FrontmatterAllowed, TokenKind, tokenize};
 
-/// Returns the tokens of Rust source code as text, without white space and comments. Works on any
+/// Returns the tokens of Rust source code as text, without white space or comments. Works on any
 /// text: anything that isn't a Rust token is kept unchanged.
 pub(super) fn tokens(text: &str) -> Vec<&str> {
     let mut rest = text;

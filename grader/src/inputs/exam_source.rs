@@ -15,7 +15,7 @@ use crate::machine::files::{self, AtPath};
 /// Maximum size of an exam file, in bytes. The committed exams are about 3,000,000 bytes long.
 const MAX_FILE_BYTES: u64 = 64 << 20;
 
-/// The id of the practice exam, which students have, including its answer keys, and can run
+/// The id of the practice exam. Students have this exam, including its answer keys, and can run it
 /// themselves.
 pub const PRACTICE_ID: &str = "practice";
 /// The name of the practice exam's file, for error messages.

@@ -1,7 +1,7 @@
 //! Suggestions for misspelt names.
 
-/// Returns the known name that is nearest to a misspelt one, or `None` if none is near enough to be
-/// a plausible typo, i.e. at most one edit per three characters.
+/// Returns the known name that is nearest to a misspelt one, or `None` if even that name differs by
+/// more than one edit per three characters, which makes a typo implausible.
 pub fn nearest_name<'a>(
     misspelt: &str,
     known: impl IntoIterator<Item = &'a str>,

@@ -1,4 +1,4 @@
-//! References to questions, in the form that users write.
+//! References to questions, as users write them.
 
 use std::str::FromStr;
 
@@ -23,8 +23,8 @@ impl QuestionRef {
     ///
     /// # Errors
     ///
-    /// A message that lists the items the user may have meant: those with this name in several
-    /// tasks, or those of the task.
+    /// A message that lists the items the user may have meant: the items with this name in several
+    /// tasks, the items of the named task, or all items.
     pub fn find_item<'a>(&self, exam: &'a Exam) -> Result<&'a Item, String> {
         let id = &self.item;
         if let Some(item) = exam.items.iter().find(|item| item.id == *id) {

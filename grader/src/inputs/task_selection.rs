@@ -11,7 +11,7 @@ pub enum TaskSelection {
     /// All tasks.
     #[default]
     All,
-    /// Some of the tasks. Their points aren't a score.
+    /// Some of the tasks. Their points don't make up a score.
     Only(Vec<Task>),
 }
 

@@ -3,8 +3,8 @@
 //! Tests install disks that are full, or that fail every operation from some point on, as if the
 //! process had been killed. Outside tests, none is installed.
 //!
-//! It isn't called for the files of the compiler, its sandbox and the probes. They are separate
-//! processes, so tests make the processes fail instead.
+//! The disk isn't called for files used by the compiler, its sandbox or the probes. Those run in
+//! separate processes, so tests make the processes fail instead.
 
 use std::io;
 use std::path::Path;
@@ -21,8 +21,8 @@ pub enum Operation<'a> {
     CreateFolder(&'a Path),
     /// Creates an empty file with a temporary name in a folder.
     CreateTemporary(&'a Path),
-    /// Writes the contents of a file. If the operation is interrupted, part of them may have been
-    /// written.
+    /// Writes the contents of a file. If the operation is interrupted, only part of the contents
+    /// may have been written.
     Write(&'a Path, &'a [u8]),
     /// Renames a complete file to its final name.
     Rename(&'a Path, &'a Path),
@@ -39,8 +39,8 @@ pub trait Disk: Send + Sync {
 
 static INSTALLED: OnceLock<&'static dyn Disk> = OnceLock::new();
 
-/// Installs a disk for the rest of this process. Returns whether it is the first one. Any later
-/// ones have no effect.
+/// Installs a disk for the rest of this process. Returns `false` if a disk has already been
+/// installed. In that case, the new one has no effect.
 pub fn install(disk: &'static dyn Disk) -> bool {
     INSTALLED.set(disk).is_ok()
 }

@@ -1,8 +1,8 @@
 //! Reads and writes files, with errors that name the path.
 //!
-//! The crate `fs-err` isn't used, because it returns `io::Error`, so an error without a path would
-//! still compile where one with a path is expected. It also cannot name the path of a temporary
-//! file or of a program to run.
+//! The crate `fs-err` isn't used, because it returns `io::Error`, so code that returns an error
+//! without a path would still compile where an error with a path is expected. It also cannot name
+//! the path of a temporary file or of a program to run.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
@@ -67,9 +67,9 @@ impl PathError {
     }
 }
 
-/// Returns whether a read error is about the file itself: it is gone, or its permissions deny
-/// reading. Other errors, such as those of a network drive, are the machine's fault, and no
-/// submission may lose points because of them.
+/// Returns whether a read error is about the file itself: it is gone, or its permissions don't
+/// allow it to be read. Other errors, such as those from a network drive, are the machine's fault
+/// and must not cost a submission any points.
 pub fn is_about_file(error: &io::Error) -> bool {
     matches!(
         error.kind(),

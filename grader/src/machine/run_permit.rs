@@ -8,10 +8,10 @@ use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 /// Held while a program runs. Programs that may run concurrently share it.
 static RUNNING: RwLock<()> = RwLock::new(());
 
-/// Attempts something while other programs may run. If the machine may be the reason for the
+/// Attempts an operation while other programs may run. If the machine may be the reason for the
 /// outcome, tries once more while nothing else runs. If the machine may still be the reason,
 /// `control` attempts the same with the grader's own code and returns an error if that fails too.
-/// Otherwise, the outcome stands. A thread must not call this within `attempt` or `control`.
+/// Otherwise, the outcome stands. Neither `attempt` nor `control` may call this function.
 pub fn decide<T>(
     mut attempt: impl FnMut() -> io::Result<T>,
     is_doubtful: impl Fn(&T) -> bool,

@@ -36,9 +36,9 @@ pub struct Entry {
     pub name: String,
     /// The kind of the entry.
     pub kind: EntryKind,
-    /// The nine permission bits of Unix.
+    /// The nine Unix permission bits.
     pub permissions: u32,
-    /// The size that the zip claims, in bytes.
+    /// The size declared in the zip, in bytes.
     pub size: u64,
     method: CompressionMethod,
     is_encrypted: bool,
@@ -87,7 +87,8 @@ impl<R: ReaderAt> Zip<R> {
         Ok(Zip { archive, entries })
     }
 
-    /// Returns a reader of an entry's contents. Damage is only reported at the end of the contents.
+    /// Returns a reader for an entry's contents. Damage is only reported once the contents have
+    /// been read to the end.
     pub fn read(&self, entry: &Entry) -> Result<impl Read + '_, ZipError> {
         if entry.is_encrypted {
             return Err(ZipError::Encrypted);
@@ -123,9 +124,9 @@ impl Entry {
     }
 }
 
-/// Decodes a name. UTF-8 is tried even without its flag, since not every program sets it. Other
-/// names are in code page 437, the original encoding of the format (PKWARE's APPNOTE.TXT, appendix
-/// D).
+/// Decodes a name. UTF-8 is tried even if the flag for it isn't set, since not every program sets
+/// the flag. Other names are in code page 437, the original encoding of the format (PKWARE's
+/// APPNOTE.TXT, appendix D).
 fn decode_name(bytes: &[u8]) -> String {
     match str::from_utf8(bytes) {
         Ok(name) => name.to_owned(),

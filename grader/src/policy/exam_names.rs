@@ -9,7 +9,7 @@ use crate::policy::read::Problem;
 
 impl Policy {
     /// Parses a policy for an exam and rejects names of items and tasks that the exam doesn't
-    /// contain. Otherwise, a misspelled name would go unnoticed.
+    /// contain. Otherwise, a misspelt name would go unnoticed.
     pub fn for_exam<'a>(
         path: &Path,
         text: &str,

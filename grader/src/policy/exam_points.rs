@@ -1,5 +1,5 @@
-//! The points that final points are computed from. They are the exam's points after the policy has
-//! removed items and changed the points for tasks.
+//! The points from which final points are computed: the exam's points after the policy has removed
+//! items and changed the points for tasks.
 
 use std::collections::BTreeSet;
 
@@ -40,7 +40,7 @@ pub(super) struct Basis {
     pub earned: u128,
     /// The denominator of the share. It equals the numerator for a perfect submission.
     pub all: u128,
-    /// The maximum number of points in the course, unless the policy sets its own.
+    /// The maximum number of points in the course, unless the policy sets a different maximum.
     pub out_of: u32,
     /// Sentences about the differences from the exam, without full stops.
     pub changes: Vec<String>,
@@ -99,8 +99,8 @@ impl PointsPolicy {
         })
     }
 
-    /// Returns the ids of the items that are ignored for this submission: those that the policy
-    /// removes, and those that couldn't be graded because of one of them.
+    /// Returns the ids of the items that are ignored for this submission: the items that the policy
+    /// removes, and the items that couldn't be graded because of a removed one.
     fn items_out<'a>(&self, tasks: &[TaskPoints<'a>]) -> BTreeSet<&'a str> {
         let mut out = BTreeSet::new();
         for item in tasks.iter().flat_map(|task| &task.items) {

@@ -20,7 +20,7 @@ pub struct FinalPoints {
     pub manual: i32,
     /// Sentences, without full stops, about items and tasks whose points differ from the exam's.
     pub changes: Vec<String>,
-    /// The number of started days after the due time, including free days.
+    /// The number of days that have started since the due time, including free days.
     pub late_days: u32,
     /// The consequence of being late.
     pub deduction: Deduction,
@@ -77,8 +77,8 @@ impl FinalPoints {
         format!("{self} count towards the grade: {earned}{changes}.")
     }
 
-    /// Returns [`explanation`](Self::explanation), or `None` if the final points are those earned
-    /// and the submission is on time.
+    /// Returns [`explanation`](Self::explanation), or `None` if the final points are the same as
+    /// the points earned and the submission is on time.
     pub fn explanation_if_changed(&self) -> Option<String> {
         self.is_changed().then(|| self.explanation())
     }

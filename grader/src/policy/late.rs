@@ -12,8 +12,8 @@ impl Policy {
         self.counted_points_with(points, max_points, 0, lateness)
     }
 
-    /// Returns the final points like [`final_points`](Self::final_points). Points that staff
-    /// gave manually are added before anything else.
+    /// Like [`final_points`](Self::final_points), but adds the points that staff gave manually
+    /// before anything else.
     pub fn counted_points_with(
         &self,
         points: u32,
@@ -85,7 +85,8 @@ impl LatePolicy {
         extended.max().unwrap_or(due)
     }
 
-    /// Returns the number of started days since the due time, or 0 within the grace period.
+    /// Returns the number of days that have started since the due time, or 0 within the grace
+    /// period.
     fn late_days(&self, lateness: Lateness) -> u32 {
         if lateness.seconds <= u64::from(self.grace_minutes) * 60 {
             0

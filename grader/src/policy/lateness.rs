@@ -11,7 +11,7 @@ const DAY: u64 = 24 * 60 * 60;
 pub struct Lateness {
     /// Seconds after the due time, or 0 if on time.
     pub seconds: u64,
-    /// Days since the due time, including the last one, which has only started.
+    /// Days since the due time. A day that has only started counts in full.
     pub(super) days: u32,
 }
 
@@ -28,8 +28,8 @@ impl Lateness {
         Lateness { seconds, days }
     }
 
-    /// Returns the time from `due` to the submission, in full seconds. With a time zone, days are
-    /// calendar days in that zone, some of which have 23 or 25 hours.
+    /// Returns the time from `due` to the submission, in full seconds. If a time zone is given,
+    /// days are calendar days in that zone, some of which have 23 or 25 hours.
     pub(super) fn since(due: Timestamp, submitted: Timestamp, zone: Option<&TimeZone>) -> Self {
         let seconds = u64::try_from(submitted.duration_since(due).as_secs()).unwrap_or(0);
         let by_hours = Lateness::of_seconds(seconds);
@@ -45,8 +45,8 @@ impl Lateness {
 }
 
 /// Returns the same time of day this number of days later. If clocks skip that time, a later one is
-/// returned. If they show it twice, the second one is returned. Both choices are in the student's
-/// favour.
+/// returned. If clocks show that time twice, its second occurrence is returned. Both choices are in
+/// the student's favour.
 pub(super) fn after_days(due: Timestamp, days: i64, zone: Option<&TimeZone>) -> Timestamp {
     if days == 0 {
         return due;

@@ -1,7 +1,7 @@
 //! A course's policy: how final points are computed, what lateness costs, and what students see.
 //!
-//! A policy never changes a score. `score.json` contains the points of a submission regardless of
-//! its time. The final points are computed from them.
+//! A policy never changes a score. `score.json` contains a submission's points regardless of when
+//! it was handed in. The final points are computed from those points.
 
 mod exam_names;
 mod exam_points;
@@ -66,12 +66,12 @@ pub struct PointsPolicy {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VoidPoints {
-    /// The maximum is reduced by them.
+    /// The maximum is reduced by these points.
     #[default]
     Shrink,
     /// The maximum stays the same, and the other items are scaled up to it.
     Scale,
-    /// Everybody gets them.
+    /// Everybody gets these points.
     Give,
 }
 
@@ -126,7 +126,7 @@ pub struct AttemptsPolicy {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AttemptRule {
-    /// No submission until a person has chosen one.
+    /// No submission, until staff have chosen one.
     #[default]
     Ask,
     /// The one that was handed in last.

@@ -55,7 +55,7 @@ impl Policy {
         let mut extensions = late.extensions.iter();
         let far = extensions.find(|(_, extension)| extension.is_far_from(late.due));
         if let Some((name, _)) = far {
-            return Some((name, "must be at most half a year from the due time"));
+            return Some((name, "must be within half a year of the due time"));
         }
         [
             (self.points.out_of == Some(0), "out_of", "must not be 0"),

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::limits::{ItemLimits, TimeUsed};
 
-/// The total time that a submission may spend waiting in all items together. This is enough even if
+/// The total time that a submission may spend waiting, across all items. This is enough even if
 /// each of the submission's methods waits until it is stopped.
 const TOTAL_WAITING: Duration = Duration::from_secs(40);
 
@@ -72,7 +72,7 @@ pub struct Allowance {
     /// The time that this task has used.
     used: TimeUsed,
     /// The CPU time of the task's slowest item that has passed. Items of other tasks don't affect
-    /// its limits, because they may be running at the same time.
+    /// this task's limits, because they may be running at the same time.
     slowest_passed: Duration,
 }
 
@@ -111,8 +111,8 @@ impl Allowance {
         })
     }
 
-    /// Returns whether all items that this task has run so far would also have been run if it had
-    /// been known from the start that the tasks before it use this much time.
+    /// Returns whether this task would have run the same items so far if it had been known from the
+    /// start that the tasks before it use `before`.
     pub fn holds_after(&self, before: TimeUsed) -> bool {
         before == self.before || !self.budget.is_used_up(before + self.used)
     }

@@ -25,7 +25,7 @@ const PROCESS_CPU: Duration = Duration::from_secs(60);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Culprit {
     /// The indices of the first question that crashes or hangs a fresh program, and of the first
-    /// such element in that question. `None` if the fault doesn't occur again.
+    /// element in that question that does so. `None` if the fault doesn't occur again.
     pub position: Option<(usize, usize)>,
     /// The time that the search took.
     pub used: TimeUsed,

@@ -51,7 +51,7 @@ impl Fault {
         matches!(self, Fault::Crashed(Crash::Killed | Crash::NotStarted))
     }
 
-    /// Converts the fault to a reason to compare with the signatures of known mistakes.
+    /// Converts the fault to a reason that can be compared with the signatures of known mistakes.
     pub fn no_answer_reason(&self) -> NoAnswerReason {
         match self {
             Fault::TimedOut(_) => NoAnswerReason::Time,

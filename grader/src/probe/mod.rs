@@ -62,10 +62,10 @@ pub struct Launcher {
 }
 
 impl Launcher {
-    /// Maximum address space of a probe, in bytes. Its stack uses 64 MiB of it.
+    /// Maximum address space of a probe, in bytes. This includes 64 MiB for its stack.
     pub const MEMORY_LIMIT: u64 = 1 << 30;
     /// Memory use, in bytes, above which a probe that was killed is considered out of memory.
-    /// Correct solutions use less than half of it.
+    /// Correct solutions use less than half of this.
     pub const LARGE_MEMORY: u64 = Self::MEMORY_LIMIT / 4;
 
     /// Starts a probe that waits for questions. `cpu` is the total CPU time it may use. This limit
@@ -113,7 +113,7 @@ impl Probe {
         }
         let questions: Vec<&Question> = questions.into_iter().collect();
         let mut nonces = nonces(questions.len() + 1);
-        let end = nonces.pop().expect("there is one more than questions");
+        let end = nonces.pop().expect("one more nonce than questions");
         let mut batch = Batch::default();
         for (nonce, question) in nonces.iter().zip(questions) {
             let append = |frames| wire::append_question(frames, *nonce, question);
@@ -158,7 +158,7 @@ impl Probe {
         self.program.finish()
     }
 
-    /// Returns the time used since the last call and resets it.
+    /// Returns the time used since the last call and resets it to zero.
     pub fn take_time_used(&mut self) -> TimeUsed {
         mem::take(&mut self.used)
     }

@@ -45,8 +45,8 @@ pub struct RunningProgram {
 }
 
 impl RunningProgram {
-    /// Starts a program. On Linux it ends with the thread that started it, so that it doesn't
-    /// outlive a killed grader.
+    /// Starts a program. On Linux, the program ends when the thread that started it ends, so that
+    /// it doesn't outlive a killed grader.
     pub fn start(program: &Path, sandbox: &Sandbox, limits: Limits) -> io::Result<Self> {
         let folder = program.parent().unwrap_or(Path::new("."));
         let mut command = Command::new(program);

@@ -11,7 +11,7 @@ use super::{Budget, Crash, Fault, Launcher};
 const MAX_ATTEMPTS: usize = 100;
 
 /// Leaves out primitives as long as building the rest still overflows the stack. Returns the
-/// remaining primitives, or `None` if not even all of them together overflow it.
+/// remaining primitives, or `None` if building with all of them doesn't overflow the stack.
 ///
 /// The method is delta debugging (Zeller and Hildebrandt, "Simplifying and Isolating
 /// Failure-Inducing Input", IEEE Transactions on Software Engineering 28, 2002): first leave out

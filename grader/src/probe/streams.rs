@@ -15,7 +15,7 @@ use protocol::wire::{self, Frame, WireError};
 
 use super::fault::Fault;
 
-/// A batch is sent when it reaches this size, in bytes. It is the capacity of a pipe.
+/// A batch is sent when it reaches this size, in bytes. This is the capacity of a pipe.
 const BATCH_BYTES: usize = 1 << 16;
 
 /// A batch of requests to send together.
@@ -46,7 +46,7 @@ impl Batch {
     }
 }
 
-/// The channels to the writing and the reading thread.
+/// The channels to the writing and reading threads.
 #[derive(Debug)]
 pub(super) struct Streams {
     questions: Sender<Vec<u8>>,

@@ -46,7 +46,7 @@ enum Request {
     Methods(Vec<Task>),
 }
 
-/// Returns the part to reset in each file.
+/// Returns the part of each file to reset.
 fn requests(handed_out: &HandedOut, names: &[TaskOrFile]) -> BTreeMap<&'static str, Request> {
     let mut requests: BTreeMap<&'static str, Request> = BTreeMap::new();
     for name in names {
@@ -150,11 +150,11 @@ fn text_handed_out(handed_out: &'static HandedOut, file: &str) -> &'static str {
     let given = || handed_out.given_file(file).map(|file| file.text);
     task_file
         .or_else(given)
-        .expect("only files that were handed out have names on the command line")
+        .expect("only files that were handed out can be named on the command line")
 }
 
-/// Returns the names of the tasks' methods and the text with all of them replaced by the starter's,
-/// or `None` if they already are the starter's.
+/// Returns the names of the tasks' methods, and the text with these methods replaced by the
+/// starter's versions. The text is `None` if the methods are still the same as the starter's.
 ///
 /// # Errors
 ///

@@ -126,7 +126,7 @@ where
         Err(io::Error::other("a thread that runs a task has panicked").into())
     }
 
-    /// Adds hints, which need the answers to the whole task.
+    /// Adds hints, which depend on the answers to the whole task.
     fn record_task(&mut self, task: Task, finished: FinishedTask) {
         self.results.finish(task, &finished);
         let spent = finished.spent;

@@ -1,9 +1,9 @@
 //! Runs the tasks of an exam on several threads, each in processes of its own.
 //!
 //! The results don't depend on the number of threads. Everything that affects an item's result
-//! comes from its own task or from the tasks before it, which are waited for. The only exception is
-//! the time that the tasks before it take from the submission's budget. If that turns out to be so
-//! much that items shouldn't have been run, the caller discards them (see
+//! comes from its own task or from earlier tasks, whose results it waits for. The only exception is
+//! how much of the submission's budget the earlier tasks use up. If they turn out to have used so
+//! much that some items shouldn't have been run, the caller discards those items (see
 //! [`Allowance::holds_after`]).
 
 use std::collections::BTreeSet;
@@ -21,7 +21,7 @@ use crate::probe::{Allowance, Budget, TimeUsed};
 use crate::run_exam::task_sessions::{BlockingItem, FinishedTask, TaskSessions};
 use crate::score::ItemScore;
 
-/// The results of earlier tasks that affect later ones.
+/// The results of earlier tasks that affect later tasks.
 #[derive(Clone, Debug, Default)]
 pub struct PriorResults {
     /// The items that have earned no points, including those that haven't been graded yet.
@@ -166,7 +166,7 @@ impl<'a> TaskRuns<'a> {
         self.changed.notify_all();
     }
 
-    /// Runs a task. If the receiver no longer exists, the run has been cancelled, so errors of
+    /// Runs a task. If the receiver no longer exists, the run has been cancelled, so errors from
     /// `send` are ignored.
     fn run_task(&self, task: Task, events: &Sender<TaskEvent<'a>>) -> Result<(), Cancelled> {
         let mut sessions = TaskSessions::new(self.build);

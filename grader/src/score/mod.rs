@@ -122,11 +122,11 @@ pub struct ItemScore {
     /// For students: where to look. Only for failed items.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub look: Option<String>,
-    /// For students: what to look for instead, if the way in which the item failed tells it.
+    /// For students: what to look for instead, if the way in which the item failed reveals it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clue: Option<String>,
-    /// For students: what to look for instead if the item's own advice is about another quantity
-    /// than the one that is wrong.
+    /// For students: what to look for instead if the item's own advice is about a different
+    /// quantity from the one that is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub symptom_clue: Option<String>,
     /// For students: the section of the handout to read, such as `boxes.md#zero-and-minus-zero`.
@@ -140,7 +140,8 @@ pub struct ItemScore {
     /// item's message names it.
     #[serde(skip)]
     pub symptom: Option<Symptom>,
-    /// For students: hints for the recognised mistake, or for several that give the same answers.
+    /// For students: hints for the recognised mistake, or for several mistakes that give the same
+    /// answers.
     pub hints: Vec<Hint>,
     /// For students: the first wrong answer.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -299,7 +300,7 @@ impl Verdict {
 pub struct BuildReport {
     /// Files that could not be used, and were replaced with the starter's versions.
     pub not_compiled: Vec<FileReport>,
-    /// Notes on files that look like task files or archives, and were not graded or are misnamed.
+    /// Notes on files that look like task files or archives but were not graded or are misnamed.
     pub ignored_copies: Vec<String>,
     /// Other notes that do not affect points.
     pub notes: Vec<String>,
@@ -342,7 +343,7 @@ pub struct Timings {
 }
 
 impl TaskScore {
-    /// If an answer is wrong or missing, returns the warnings, which may explain it.
+    /// If an answer is wrong or missing, returns the warnings, which may explain why.
     pub fn relevant_warnings(&self) -> &[String] {
         let mut kinds = self.items.iter().map(|item| item.verdict.kind());
         let is_wrong =

@@ -81,7 +81,7 @@ pub enum SubmissionError {
         path: PathBuf,
         /// The names of the task files.
         files: Vec<String>,
-        /// Two of the folders or files. The empty path is the top level.
+        /// Two of the folders or files. An empty path stands for the top level.
         copies: Vec<String>,
     },
     /// Task files are unmodified, but changed copies of them exist.

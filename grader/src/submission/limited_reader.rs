@@ -44,7 +44,7 @@ impl ByteBudget {
         self.left() == 0
     }
 
-    /// Sets the number of bytes left. The total still applies too.
+    /// Sets the number of bytes left. The limit on the total still applies.
     pub(super) fn reset(&self, bytes: u64) {
         self.left.set(bytes);
     }

@@ -91,7 +91,7 @@ impl Submission {
         Submission::collect(path, handed_out)
     }
 
-    /// Reads the task files among these files and in the archives among them. Each file is
+    /// Reads the task files among these files, including those in any archives. Each file is
     /// specified by its submitted name and its path on disk.
     pub fn from_files(
         name: &str,

@@ -1,5 +1,5 @@
 //! Determines from a file's name what the file could be: a task file, a copy of one, or an archive.
-//! People, browsers, file managers and editors rename files, so names are compared without their
+//! People, browsers, file managers and editors rename files, so names are compared without such
 //! additions.
 
 use unicode_normalization::UnicodeNormalization;
@@ -27,30 +27,29 @@ const TEXT_EXTENSIONS: [&str; 14] = [
     "txt", "text", "rust", "bak", "old", "orig", "save", "tmp", "swp", "rtf", "doc", "docx", "odt",
     "pages",
 ];
-/// Extensions of archives. Most kinds cannot be read.
+/// Extensions of archives, most of which cannot be read.
 const ARCHIVE_EXTENSIONS: [&str; 30] = [
     "zip", "tar", "gz", "tgz", "rar", "7z", "xz", "txz", "bz2", "tbz", "tbz2", "zst", "tzst", "lz",
     "lz4", "lzma", "lzh", "z", "z01", "zipx", "arj", "ace", "cab", "iso", "dmg", "sit", "sitx",
     "cpio", "wim", "xar",
 ];
-/// The prefix of the names of files where macOS stores metadata about other files.
+/// macOS stores metadata about a file in a second file, whose name has this prefix.
 const MACOS_METADATA: &str = "._";
 
-/// How a name resembles that of a task file.
+/// How a name resembles a task file's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Resemblance {
     /// The name is exactly the task file's.
     Exact,
-    /// The name is that of the task file, with the additions that a browser or a file manager makes
-    /// for a copy: `bvh (1).rs`, `Copy of bvh.rs`. If there is no task file with the exact name,
-    /// the copy is used as that file.
+    /// The name is the task file's, with the additions that a browser or a file manager makes for a
+    /// copy: `bvh (1).rs`, `Copy of bvh.rs`. If there is no task file with the exact name, the copy
+    /// is used as that file.
     Copy,
-    /// The name contains that of the task file, such as `bvh_final.rs`, `Bvh.rs` or `bvh.rs.bak`.
+    /// The name contains the task file's name, as in `bvh_final.rs`, `Bvh.rs` or `bvh.rs.bak`.
     Similar,
 }
 
-/// Returns the resemblance between a file's name and that of a task file, or `None` if there is
-/// none.
+/// Returns how a file's name resembles a task file's name, or `None` if it doesn't.
 pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
     if name == task_file {
         return Some(Resemblance::Exact);
@@ -69,8 +68,8 @@ pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
         let mut others = words(stem_of_name)
             .into_iter()
             .filter(|word| !is_added(word));
-        // The names of hidden files begin with a dot, and those of editors' own files with other
-        // characters.
+        // The names of hidden files begin with a dot, and the names of editors' own files begin
+        // with other special characters.
         let is_plain = name.starts_with(char::is_alphanumeric);
         if is_plain && others.next() == Some(stem) && others.next().is_none() {
             return Some(Resemblance::Copy);

@@ -69,7 +69,7 @@ impl Search {
         }
     }
 
-    /// Adds to the count of a limited quantity. Fails if this exceeds the limit.
+    /// Adds to the count of a limited quantity. Fails if the count then exceeds the limit.
     pub(super) fn spend(&mut self, limit: Limit, count: usize) -> Result<(), SubmissionError> {
         let spent = self.counts.entry(limit).or_default();
         *spent = spent.saturating_add(count);

@@ -103,7 +103,7 @@ fn copies_in_other_folders_do_not_stop_students_at_their_own_work() {
     assert!(found.files.iter().all(|(_, text)| text.is_ok()));
 }
 
-/// Returns the files of a submission that could be read.
+/// Returns the files that could be read from a submission.
 pub(super) fn texts(submission: &Submission) -> Vec<(&str, &str)> {
     let files = submission.files.iter();
     let texts = files.filter_map(|(file, text)| Some((file.name, text.as_deref().ok()?)));
@@ -147,7 +147,7 @@ fn a_link_matters_only_if_files_are_missing_that_it_may_lead_to() {
     assert_eq!(refused(), "src");
     write_files(&source, "new");
     assert!(collect().is_ok());
-    // However, a copy doesn't replace a graded file.
+    // However, a graded file must not be replaced by a link.
     fs::remove_file(source.join("bvh.rs")).unwrap();
     link("work/bvh.rs");
     assert_eq!(refused(), "work/bvh.rs");
@@ -262,7 +262,7 @@ fn of_uploads_with_the_same_name_the_last_one_counts() {
     );
 }
 
-/// Returns the message of a submission that isn't graded, without its path.
+/// Returns the message about a submission that isn't graded, with its path replaced by `it`.
 fn refusal(files: Files) -> String {
     let folder = folder(files);
     let error = Submission::collect(folder.path(), &RAYS).unwrap_err();

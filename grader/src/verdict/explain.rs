@@ -11,8 +11,8 @@ use crate::score::{ItemScore, Verdict, VerdictKind};
 use crate::verdict::{add_clue, add_hints, has_no_clue};
 
 /// Adds the hints for the mistakes that explain a task's answers, which come from the submission's
-/// own program or from the program with substituted parts. If no mistake explains them, adds a
-/// clue: the one for code whose rays never hit anything, or the one for the quantity that is wrong.
+/// own program or from the program with substituted parts. If no mistake explains the answers, adds
+/// a clue, either for code whose rays never hit anything or for the quantity that is wrong.
 pub fn explain_items(
     exam: &Exam,
     lines: &mut [ItemScore],
@@ -44,7 +44,7 @@ pub fn explain_items(
 
 /// Adds the clue for the quantity that is wrong in an item, unless the item is explained already or
 /// its own advice is about that quantity. If an `earlier` item of the task fails in the same way,
-/// the clue says to fix that first.
+/// the clue says to fix that item first.
 fn add_symptom_clue(
     item: &Item,
     line: &mut ItemScore,
@@ -89,7 +89,7 @@ fn is_whole_task<'a>(items: impl Iterator<Item = &'a Item>, info: &TaskInfo) -> 
 }
 
 /// Returns whether a hint is possible: there is a wrong answer, or a known reason for a missing
-/// one.
+/// answer.
 fn can_have_hint(verdict: &Verdict) -> bool {
     // Invalid answers say nothing about the mistake.
     matches!(verdict.kind(), VerdictKind::Failed | VerdictKind::NoAnswer)

@@ -26,8 +26,8 @@ pub enum ItemOutcome<'a> {
     Answered {
         /// The judgements of the answers.
         judgements: Vec<Judgement>,
-        /// Whether the wrong answer shown in the report is right when its question is rerun in
-        /// isolation.
+        /// Whether the question whose wrong answer the report shows is answered correctly when it
+        /// is rerun in isolation.
         right_alone: bool,
     },
 }
@@ -62,9 +62,9 @@ impl ItemOutcome<'_> {
     }
 }
 
-/// Returns the failure shown in an item's report and the index of its question. An item's points
-/// are those of its worst question, so this is that question's failure. Returns `None` if all
-/// answers are right, or if there is no answer to the worst question.
+/// Returns the failure shown in an item's report and the index of its question. An item gets the
+/// credit of its worst question, so this is that question's failure. Returns `None` if all answers
+/// are right, or if there is no answer to the worst question.
 pub fn worst_failure(judgements: &[Judgement]) -> Option<(usize, &Failure)> {
     let worst = judgements.iter().map(|judgement| judgement.credit).min()?;
     if worst == Credit::FULL {

@@ -361,9 +361,8 @@ pub(crate) fn has_no_clue(line: &ItemScore) -> bool {
     line.verdict.kind() == VerdictKind::Failed && line.hints.is_empty() && line.clue.is_none()
 }
 
-/// Returns the score of an item that was graded with substituted parts. This score is used because
-/// mistakes in other files don't cost any points in it, but cannot hide a mistake in this file
-/// either.
+/// Returns the score of an item that was graded with substituted parts. This is the score that
+/// counts: mistakes in other files neither cost points in it nor hide a mistake in this file.
 pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> ItemScore {
     let message = match (own.verdict == Verdict::Pass, substituted.message.as_str()) {
         (true, "") => String::new(),

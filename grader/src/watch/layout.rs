@@ -12,7 +12,7 @@ pub(super) struct Page<'a> {
     pub(super) report: &'a ReportParts,
     /// The next step, if any.
     pub(super) next: &'a str,
-    /// The table in one line.
+    /// The table on one line.
     pub(super) short_table: &'a str,
     /// Returns a line that says how to see the rest. The argument is the task that the rest is
     /// about.

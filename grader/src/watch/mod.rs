@@ -39,7 +39,7 @@ pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
     loop {
         match grade_version(&grader, &submission, last.as_ref(), &screen) {
             Ok(score) => {
-                // Open the page only once. From now on, it reloads itself.
+                // Open the page only once. From then on, it reloads itself.
                 if let Some(files) = page.take() {
                     desktop::show(&files.page);
                 }
@@ -57,7 +57,7 @@ pub fn watch(options: &GradeOptions, open: bool) -> Result<Infallible, Error> {
     }
 }
 
-/// Grades one version of the submission until a new version is saved.
+/// Grades one version of the submission, stopping if a new version is saved.
 fn grade_version(
     grader: &Grader,
     submission: &Submission,
@@ -71,7 +71,7 @@ fn grade_version(
     let build = grader.build(submission)?;
     let is_done = AtomicBool::new(false);
     thread::scope(|scope| {
-        // End a hanging program immediately instead of waiting for the end of its item.
+        // End a hanging program immediately instead of waiting for its item to end.
         scope.spawn(|| {
             let has_changed = || grader.collect().is_ok_and(|now| now != *submission);
             while !is_done.load(Ordering::Relaxed) {
@@ -180,7 +180,7 @@ fn ids_in_order<'a>(exam: &'a Exam, handed_out: &HandedOut) -> impl Iterator<Ite
     tasks.flat_map(of_task).map(|item| item.id.as_str())
 }
 
-/// Returns the report's files. Their page reloads itself when the user returns to it.
+/// Returns the report's files. Their page reloads itself while its window isn't focused.
 fn files(grader: &Grader, submission: &Submission) -> Option<ReportFiles> {
     grader.files(submission, Reload::WhileUnfocused)
 }

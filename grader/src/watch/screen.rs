@@ -39,7 +39,7 @@ pub enum Phase {
     Waiting,
 }
 
-/// The terminal, file or pipe that shows the reports.
+/// The terminal, file or pipe that the reports are written to.
 pub struct Screen<'a> {
     term: Term,
     options: &'a GradeOptions,

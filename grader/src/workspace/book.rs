@@ -41,7 +41,7 @@ impl Book {
     }
 
     /// Returns the text with each mention of a section, such as `handout/src/boxes.md, "Flat
-    /// boxes"`, as a hyperlink for terminals (the escape sequence OSC 8).
+    /// boxes"`, turned into a hyperlink for terminals (the escape sequence OSC 8).
     pub fn with_links(&self, text: &str) -> String {
         let mut linked = String::new();
         let mut rest = text;

@@ -46,8 +46,9 @@ fn mixed(grader: Option<&str>, folders: &[(&str, Option<String>)]) -> Option<Str
     })
 }
 
-/// Returns the bundle's version from a package's version, or `None` if there is none. The outer
-/// `None` means that the manifest doesn't contain a version.
+/// Returns the bundle's version, taken from a package's version. The inner `None` means that the
+/// package's version doesn't include it. The outer `None` means that the manifest doesn't contain a
+/// version.
 fn manifest_version(text: &str) -> Option<Option<String>> {
     let manifest: toml::Table = text.parse().ok()?;
     let version = manifest.get("package")?.get("version")?.as_str()?;

@@ -16,7 +16,7 @@ pub const LIST: &str = "grader/given-files.txt";
 
 /// The folders that contain these files.
 const FOLDERS: [&str; 2] = ["student/framework/", "student/protocol/"];
-/// The number of files that a note names.
+/// The maximum number of files that a note names.
 const MAX_NAMES: usize = 3;
 
 /// Returns the text of the list. `bundle` contains the contents of all files in a bundle, keyed by

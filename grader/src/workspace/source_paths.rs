@@ -29,8 +29,8 @@ impl SourcePaths {
         self.folder.as_deref()
     }
 
-    /// Returns the text with the path added to each task file with a line number: `sphere.rs:7`
-    /// becomes `student/src/sphere.rs:7`.
+    /// Returns the text with the path added to each mention of a task file with a line number:
+    /// `sphere.rs:7` becomes `student/src/sphere.rs:7`.
     pub fn in_text<'a>(&self, text: &'a str) -> Cow<'a, str> {
         let Some(folder) = &self.folder else {
             return Cow::Borrowed(text);

@@ -28,7 +28,7 @@ pub struct Canaries {
 }
 
 impl Canaries {
-    /// The name of the variable in the grader's environment.
+    /// The name of the environment variable that contains the secret.
     pub const VARIABLE: &str = "HOSTILE_SECRET";
 
     pub fn plant() -> Self {

@@ -55,11 +55,11 @@ pub struct Expectation {
     /// Whether the attack calls the function in `hole.rs`.
     #[serde(default)]
     uses_hole: bool,
-    /// The methods where `call` is inserted at the beginning, in the file that the attack is
+    /// The methods that get `call` as their first statement, in the file that the attack is
     /// appended to.
     #[serde(default)]
     within: Vec<String>,
-    /// The statement to insert at the beginning of these methods.
+    /// The statement to insert at the beginning of the methods in `within`.
     #[serde(default = "Expectation::default_call")]
     call: String,
     /// The form in which the entry is submitted. `None` for a plain folder.
@@ -70,7 +70,7 @@ pub struct Expectation {
     /// the same points as without the attack.
     #[serde(default)]
     pub points: BTreeMap<String, u64>,
-    /// The permitted verdicts, in addition to `pass`, for the items of those tasks.
+    /// The permitted verdicts, in addition to `pass`, for the items of the tasks in `points`.
     #[serde(default)]
     pub verdicts: Vec<String>,
     /// Text that the report must contain.

@@ -40,7 +40,7 @@ pub enum Packaging {
     ManyArchives,
     /// A tar with a file name that contains escape sequences, line breaks and right-to-left text.
     OddNames,
-    /// A folder with a file whose name differs from that of a task file in a Cyrillic letter.
+    /// A folder with a file whose name differs from a task file's name by one Cyrillic letter.
     LookAlike,
     /// An empty file.
     Empty,
@@ -60,7 +60,7 @@ pub enum Packaging {
     LinkedFolderOnDisk,
     /// A folder whose `student/src` is a link to a folder of correct files elsewhere.
     LinkedSourceOnDisk,
-    /// A folder whose only folder is a link to a folder of correct files elsewhere.
+    /// A folder whose only subfolder is a link to a folder of correct files elsewhere.
     LinkedOnlyFolderOnDisk,
 }
 

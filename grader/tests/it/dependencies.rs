@@ -5,8 +5,8 @@ use std::process::Command;
 
 use crate::harness::workspace;
 
-/// Returns all direct and indirect dependencies of packages in this format, except
-/// dev-dependencies.
+/// Returns all direct and indirect dependencies of packages, except dev-dependencies, each printed
+/// in this format.
 fn tree(packages: &[&str], format: &str) -> String {
     let output = Command::new(env!("CARGO"))
         .args(["tree", "--offline", "--locked", "--prefix=none"])

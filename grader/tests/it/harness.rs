@@ -27,7 +27,7 @@ pub fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Creates a workspace with the files of this one, where a test can write more files.
+/// Creates a workspace with links to the files of this one. Tests can write more files into it.
 #[cfg(unix)]
 pub fn linked_workspace() -> TempDir {
     let folder = TempDir::new().unwrap();

@@ -1,4 +1,4 @@
-//! The package check finds the problems of a package before it is tried or uploaded.
+//! The package check finds the problems with a package before it is tried or uploaded.
 
 use std::fs;
 use std::io::{Cursor, Write};

@@ -107,7 +107,7 @@ const RULES: [Rule; 4] = [
         ],
         instead: "use grader::files instead",
     },
-    // A jump of the wall clock cannot change a grade, because nothing reads it.
+    // A jump of the wall clock cannot change a grade, because nothing reads the clock.
     Rule {
         folders: &["grader/src", "grader/class/src", "grader/judging/src"],
         is_found: is_call_of_a_clock,
@@ -166,7 +166,7 @@ fn only_the_exceptions_have_what_the_rules_forbid() {
         for exception in rule.exceptions {
             let before = found.len();
             found.retain(|place| !place.starts_with(exception));
-            assert!(found.len() < before, "{exception} is no exception");
+            assert!(found.len() < before, "{exception} needs no exception");
         }
         assert_eq!(found, [""; 0], "{}", rule.instead);
     }

@@ -111,8 +111,8 @@ fn what_depends_on_a_stopped_task_is_not_run() {
     let points = graded.points();
     assert!(points["triangle"] < FULL_POINTS["triangle"], "{points:?}");
     assert_eq!(points["traverse"], FULL_POINTS["traverse"]);
-    // Without the reference, the items that judge complete traces, the pictures and the radiance
-    // cannot be judged.
+    // Without the reference, the items about complete traces, pictures and radiance cannot be
+    // judged.
     assert_costs_blocked_items(&alone, 5);
 }
 

@@ -17,7 +17,7 @@ use crate::seed::Seed;
 use crate::solutions::Solutions;
 use crate::solutions::workbench::Workbench;
 
-/// Generates the file of an assignment's practice exam.
+/// Generates the file with an assignment's practice exam.
 pub fn generated_file(authoring: &'static Authoring) -> Result<GeneratedFile> {
     let practice = exam_text(authoring, "practice", Seed::PRACTICE)?;
     Ok(GeneratedFile::new(authoring.practice_exam, practice))

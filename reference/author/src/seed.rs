@@ -43,8 +43,8 @@ pub struct Rng {
 }
 
 impl Rng {
-    /// Returns a different sequence for the same seed. It is independent of the numbers drawn from
-    /// this one.
+    /// Returns a different sequence for the same seed. It doesn't depend on how many numbers have
+    /// been drawn from this sequence.
     pub fn sequence(&self, name: &str) -> Rng {
         self.seed.rng(name)
     }

@@ -25,11 +25,13 @@ pub const MAX_LEAF_SIZE: usize = 4;
 
 /// A tree over the triangles, which finds closest hits.
 pub trait Contender {
-    /// Returns the distance to the closest hit of each ray, or infinity if it hits nothing.
+    /// Returns the distance to the closest hit of each ray, or infinity for a ray that hits
+    /// nothing.
     fn distances(&self, rays: &[Ray]) -> Vec<f32>;
 }
 
-/// The reference, which students can read. Like the variant, it computes the complete [`Trace`].
+/// The reference, which students can read. Like the variant `wide`, it computes the complete
+/// [`Trace`].
 impl Contender for Bvh {
     fn distances(&self, rays: &[Ray]) -> Vec<f32> {
         trace_distances(rays, |ray| self.hit(ray))
@@ -96,8 +98,8 @@ impl Contender for Obvhs {
     }
 }
 
-/// A tree built by the crate `bvh`. The crate has two ways to traverse it. Which one is faster
-/// depends on the rays.
+/// A tree built by the crate `bvh`. The crate can traverse the tree in two ways. Which of them is
+/// faster depends on the rays.
 pub struct CrateBvhTree {
     bvh: CrateBvh<f32, 3>,
     triangles: Vec<Corners>,
@@ -172,8 +174,8 @@ struct Corners {
 }
 
 impl Corners {
-    /// Returns the distance to the hit, or infinity. This is Möller and Trumbore's test for both
-    /// sides. The crate's own test culls back faces.
+    /// Returns the distance to the hit, or infinity. This is the Möller–Trumbore test, for both
+    /// sides of the triangle. The crate's own test culls back faces.
     fn distance(&self, ray: &Ray) -> f32 {
         let [p0, p1, p2] = self.corners;
         let (e1, e2) = (p1 - p0, p2 - p0);

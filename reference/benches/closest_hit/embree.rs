@@ -1,5 +1,5 @@
 //! Embree 4, loaded at run time from the library named by the variable `EMBREE`. The library isn't
-//! part of this project. The Python package `embreex` contains one.
+//! part of this project. The Python package `embreex` contains a copy.
 //!
 //! This is the only `unsafe` code outside the sandbox. Functions of a C library cannot be called in
 //! any other way. The declarations follow Embree 4's `rtcore.h`.
@@ -28,8 +28,8 @@ const MEDIUM: c_uint = 1;
 /// One thread, the caller's. Embree detects the processor's instruction set itself.
 const CONFIGURATION: &[u8] = b"threads=1,user_threads=1\0";
 
-/// `RTCRayHit`. The last fields differ between builds of the library. The structure is large enough
-/// for both forms.
+/// `RTCRayHit`. The last fields differ between builds of the library. This structure is large
+/// enough for either layout.
 #[repr(C, align(16))]
 struct RayHit {
     origin: [f32; 3],
@@ -71,7 +71,7 @@ pub struct EmbreeScene<'a> {
 }
 
 impl Embree {
-    /// Loads the library named by the variable `EMBREE`. Returns `None` if it isn't set.
+    /// Loads the library named by the variable `EMBREE`. Returns `None` if the variable isn't set.
     pub fn open() -> Option<Self> {
         let path = std::env::var_os("EMBREE")?;
         // SAFETY: by setting the variable, the user promises that the file is Embree 4, whose

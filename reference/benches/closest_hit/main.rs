@@ -27,7 +27,7 @@ mod rays;
 mod report;
 
 /// The default number of rounds. In each round, every contender builds its tree and traces all
-/// rays. The variable `ROUNDS` overrides it.
+/// rays. The variable `ROUNDS` overrides this number.
 const ROUNDS: usize = 5;
 
 /// The width and height of the picture, in pixels.

@@ -26,8 +26,9 @@ const FILES: [(&str, &str, bool); 3] = [
     ("dragon", "dragon871k.obj.gz", false),
 ];
 
-/// Returns the meshes in the folder named by the variable `MESHES`. If it isn't set, returns one of
-/// this project's meshes. The variable `ONLY` selects one mesh in the folder by name.
+/// Returns the meshes in the folder named by the variable `MESHES`. If the variable isn't set,
+/// returns one of this project's meshes. The variable `ONLY` selects one mesh in the folder by
+/// name.
 pub fn meshes() -> Vec<Mesh> {
     let only = std::env::var("ONLY").ok();
     match std::env::var_os("MESHES").map(PathBuf::from) {

@@ -40,8 +40,8 @@ fn primary(mesh: &Mesh, side: u32) -> Vec<Ray> {
     (0..side * side).map(ray).collect()
 }
 
-/// Returns rays that start at the hits of the primary rays in random directions of the hemisphere,
-/// then rays that start at the hits of those rays and so on.
+/// Returns rays that start at the hits of the primary rays and leave the surface in random
+/// directions, then rays that start at the hits of these rays, and so on.
 fn bounce(mesh: &Mesh, bvh: &Bvh, primary: &[Ray]) -> Vec<Ray> {
     let gap = 1e-4 * (mesh.bbox.max - mesh.bbox.min).length();
     let mut numbers = SplitMix64(1);

@@ -59,7 +59,7 @@ impl Report {
     }
 
     /// Returns the speed of a contender relative to the others, for each kind of ray. If there are
-    /// several others, it is compared with the fastest.
+    /// several others, the contender is compared with the fastest of them.
     fn speedups(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
         let mut ratios = [0.0; 3];
         for (ratio, kind) in ratios.iter_mut().zip(RAYS) {

@@ -41,7 +41,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Tests the box of a node. Returns the distance where the ray enters it.
+    /// Tests the box of a node. Returns the distance at which the ray enters the box.
     fn entry(&mut self, node: &Node) -> Option<f32> {
         self.count.boxes += 1;
         Some(node.bbox.hit(&self.ray, self.ray.range)?.min)

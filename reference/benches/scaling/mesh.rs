@@ -40,7 +40,7 @@ fn bumpy(dir: Vec3) -> Vec3 {
     (1.0 + 0.3 * bumps) * dir
 }
 
-/// Returns rays from a sphere around the ball to random points in it.
+/// Returns rays from a sphere around the ball to random points in the unit ball.
 pub fn rays(count: usize) -> Vec<Ray> {
     let mut numbers = SplitMix64(1);
     let ray = |_| {

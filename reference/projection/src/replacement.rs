@@ -1,5 +1,5 @@
 //! The files that make up a variant. Its own files, the *parts*, are `STEM/…/NAME.rs` in the folder
-//! of variants. Helpers used by several variants are in `STEM/shared/NAME.rs`. Such a shared file
+//! of variants. Helpers used by several variants are in `STEM/shared/NAME.rs`. A shared file
 //! belongs to each variant whose code contains the word `NAME` but doesn't define a function with
 //! that name.
 
@@ -19,7 +19,7 @@ pub struct Replacement {
     pub files: Vec<(PathBuf, String)>,
 }
 
-/// The error for a variant's file or folder that cannot be read.
+/// The error that is returned if a variant's file or folder cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot read {}: {source}", path.display())]
 pub struct ReadError {
@@ -30,8 +30,8 @@ pub struct ReadError {
 }
 
 /// Reads a variant's files from `folder`, which contains all variants. `parts` are the paths of its
-/// parts without `.rs`. If there are none, the variant has one part, whose path is the variant's id
-/// with a slash instead of the dot.
+/// parts without `.rs`. If `parts` is empty, the variant has one part, whose path is the variant's
+/// id with a slash instead of the dot.
 pub fn replacements(
     folder: &Path,
     id: &str,

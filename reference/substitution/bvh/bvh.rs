@@ -33,8 +33,8 @@ impl Deref for Bvh {
     }
 }
 
-/// Builds the subtree over these primitives. The first one is at index `start`. Returns the index
-/// of its root.
+/// Builds the subtree over these primitives, the first of which is at index `start`. Returns the
+/// index of the subtree's root.
 fn split_at_median(
     primitives: &mut [Primitive],
     start: usize,

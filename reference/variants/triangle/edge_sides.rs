@@ -1,7 +1,7 @@
 // Computes signed volumes: the sign of the scalar triple product of the ray's direction and two
-// corners determines on which side of their edge the ray passes (Ericson, "Real-Time Collision
-// Detection", section 5.3.4). Here, the edge itself is used instead of one of the corners, since
-// rounding errors would otherwise be too large for small triangles.
+// corners determines on which side of the edge between those corners the ray passes (Ericson,
+// "Real-Time Collision Detection", section 5.3.4). Here, the edge itself is used instead of one of
+// the corners, since rounding errors would otherwise be too large for small triangles.
 
 use glam::Vec3;
 

@@ -1,5 +1,5 @@
 // Computes dot and cross products with fused multiply-adds. The cross product of two parallel
-// vectors is then not exactly 0 if their products are rounded.
+// vectors is then not exactly 0 if the products of their components are rounded.
 
 use glam::Vec3;
 

@@ -4,7 +4,8 @@ impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let corners = [self.p0, self.p1, self.p2];
         let from_origin = corners.map(|corner| corner.position - ray.origin);
-        // For each corner, the side of the opposite edge on which the ray passes.
+        // For each corner, the volume whose sign says on which side of the opposite edge the ray
+        // passes.
         let opposite = from_origin.iter().cycle().skip(1);
         let opposite = opposite.zip(from_origin.iter().cycle().skip(2));
         let sides = opposite.map(|(from, to)| ray.dir.dot((to - from).cross(*from)));

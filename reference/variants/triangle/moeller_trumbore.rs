@@ -1,5 +1,5 @@
 // Uses the algorithm exactly as printed in Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle
-// Intersection", Journal of Graphics Tools 2(1), 1997: P = d × e2, Q = s × e1, and each test as
+// Intersection", Journal of Graphics Tools 2(1), 1997: P = d × e2, Q = s × e1, with each test as
 // early as possible.
 
 impl Triangle {

@@ -1,6 +1,6 @@
 // Uses the equation of the triangle's plane, n · x + k = 0, in world space, with a normal of length
-// one. The weights are the areas of the triangles that the point on the plane forms with two
-// corners each.
+// one. Each weight is the area of the triangle that the point on the plane forms with two of the
+// corners.
 
 use glam::Vec3;
 

@@ -1,7 +1,7 @@
 // Computes three planes once: the triangle's own plane and two planes perpendicular to it. The
-// scaled distances from the latter two are u and v. See Havel and Herout, "Yet Faster Ray-Triangle
-// Intersection (Using SSE4)", IEEE TVCG 16(3), 2010. Here, the planes are relative to p0, so they
-// don't need an offset.
+// scaled distances from the perpendicular planes are u and v. See Havel and Herout, "Yet Faster
+// Ray-Triangle Intersection (Using SSE4)", IEEE TVCG 16(3), 2010. Here, the planes are relative to
+// p0, so they don't need an offset.
 
 use glam::Vec3;
 

@@ -7,7 +7,7 @@ use glam::Vec3;
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         // z is the axis along which the direction has its largest component. x and y are the other
-        // two axes, in the order that keeps the winding.
+        // two axes, in the order that preserves the winding.
         let z = ray.dir.abs().max_position();
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
         if ray.dir[z] < 0.0 {

@@ -9,7 +9,7 @@ pub use protocol::{Aggregate, CameraRays, Hierarchy, Submission};
 pub struct World {
     /// The camera. Its rays are in camera space.
     pub camera: Box<dyn CameraRays>,
-    /// The tree built by `Bvh::build`. Its rays are in world space.
+    /// The tree built by `Bvh::build`. It takes rays in world space.
     pub bvh: Box<dyn Hierarchy>,
 }
 

@@ -19,7 +19,8 @@ pub(crate) fn suggestion(name: &str, known: &[impl AsRef<str>]) -> String {
     }
 }
 
-/// Returns the share of letters that are unchanged. A prefix of a name is as good as the full name.
+/// Returns the share of letters that are unchanged. A prefix of a name scores as high as the full
+/// name.
 fn similarity(name: &str, known: &str) -> f64 {
     if !name.is_empty() && known.starts_with(name) {
         return 1.0;

@@ -59,7 +59,8 @@ pub(crate) struct SphereSubmission {
     pub(crate) alter: fn(&mut Trace),
 }
 
-/// A submission that returns correct hits, and rays for a field of view of 90° on a square sensor.
+/// A submission that returns correct hits, and whose camera has a 90° field of view and a square
+/// sensor.
 pub(crate) const CORRECT: SphereSubmission = SphereSubmission {
     ray: |position| Ray::new(Vec3::ZERO, position.extend(-1.0)),
     alter: |_| {},

@@ -54,7 +54,7 @@ impl Answer {
         }
     }
 
-    /// Returns the texts for printing rows, if this is the answer to a table.
+    /// Returns the templates for printing rows, if this is the answer to a table.
     pub fn result_text(&self) -> Option<ResultText> {
         match self {
             Answer::Rays(_) => Some(<Ray as Output>::RESULT_TEXT),
@@ -102,7 +102,7 @@ impl<T> ElementOutcome<T> {
         }
     }
 
-    /// Returns the outcome with its value, if any, replaced by what `change` returns for it.
+    /// Returns the same outcome after applying `change` to its value, if any.
     pub fn map<'a, U>(&'a self, change: impl FnOnce(&'a T) -> U) -> ElementOutcome<U> {
         match self {
             ElementOutcome::Value(value) => ElementOutcome::Value(change(value)),

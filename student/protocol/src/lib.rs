@@ -1,8 +1,8 @@
 //! Types shared by the grader, which asks questions, and the probe, the process that runs a
-//! submission and answers them.
+//! submission and answers the questions.
 //!
 //! This crate contains plain data and the traits of a submission, but no intersection code. The
-//! grader sends a [`Question`] and receives an [`Answer`]. The module [`wire`] defines how they are
+//! grader sends a [`Question`] and receives an [`Answer`]. The module [`wire`] defines how both are
 //! encoded.
 
 pub mod answer;

@@ -38,7 +38,7 @@ impl Question {
     /// Returns an upper bound on the size of a well-formed answer on the wire, in bytes.
     pub fn max_answer_bytes(&self) -> usize {
         const PANIC_BYTES: usize = 16 * 1024;
-        // A node is six floats and four numbers of variable length.
+        // A node is six floats and four variable-length numbers.
         const NODE_BYTES: usize = 64;
         const PIXEL_BYTES: usize = 12;
         let bytes = match self {

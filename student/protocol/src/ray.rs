@@ -10,7 +10,7 @@ pub struct Ray {
     pub origin: Vec3,
     /// The direction, of length one, so that `t` is a distance.
     pub dir: Vec3,
-    /// The distances from `origin` where the ray can hit something. Both ends are included, and
+    /// The distances from `origin` at which the ray can hit something. Both ends are included, and
     /// neither is negative.
     pub range: Interval,
 }
@@ -42,7 +42,7 @@ impl Ray {
 
 /// A hit: the point where a ray intersects a surface, and the surface's properties there.
 ///
-/// There is no flag for "no hit": a miss is the `None` of `Option<Trace>`.
+/// There is no flag for "no hit": a miss is `None` in an `Option<Trace>`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trace {
     /// The distance from the ray's origin to the hit, along the ray.

@@ -37,7 +37,7 @@ pub trait Hierarchy: Aggregate {
     /// Returns the number of primitives.
     fn primitive_count(&self) -> usize;
 
-    /// Returns the number of the primitive at `index`, in the order that the leaves index them.
+    /// Returns the number of the primitive at `index` in the list that the leaves refer to.
     fn shape(&self, index: usize) -> u32;
 }
 

@@ -51,6 +51,6 @@ pub struct Tree {
     pub nodes: Vec<TreeNode>,
     /// The index of the root in `nodes`.
     pub root: u32,
-    /// The number of each primitive, in the order that the leaves index them.
+    /// The primitives' numbers, in the order of the list that the leaves refer to.
     pub order: Vec<u32>,
 }

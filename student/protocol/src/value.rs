@@ -1,5 +1,5 @@
-//! Fields: the named parts of a function's subject, inputs and outputs. A field's type determines
-//! how it is compared, moved and printed, in all functions.
+//! Fields: the named parts of a function's subject, inputs and outputs. In every function, a
+//! field's type determines how the field is compared, moved and printed.
 
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -71,7 +71,7 @@ impl dyn Record + '_ {
         (0..self.names().len()).map(|index| self.value(index))
     }
 
-    /// Replaces the value of every field with what `change` returns for it.
+    /// Applies `change` to the value of every field.
     pub fn change(&mut self, change: &dyn Fn(Value<'_>) -> Value<'static>) {
         for index in 0..self.names().len() {
             let changed = change(self.value(index));

@@ -25,7 +25,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Returns the sample at this index among those of [`every_pixel`].
+    /// Returns the sample at this index in the order of [`every_pixel`].
     pub(crate) fn of_position(film: UVec2, index: usize) -> Self {
         let (pixel, offset) = (index / PIXEL_OFFSETS.len(), index % PIXEL_OFFSETS.len());
         let width = film.x as usize;

@@ -145,7 +145,8 @@ impl EntryGrader<'_> {
         Ok(EntryOutcome::fault(&why))
     }
 
-    /// Grades an entry once. Its score and its pages are written once all items are graded.
+    /// Makes one attempt to grade an entry. Its score and its pages are written after all items
+    /// have been graded.
     fn grade_once(
         &self,
         entry: &Entry,
@@ -160,8 +161,8 @@ impl EntryGrader<'_> {
     }
 }
 
-/// Returns the cache key: a hash of everything that the output files of an entry depend on. The
-/// only policy setting it includes is the one that controls what students may see, since no other
+/// Returns the cache key: a hash of everything that an entry's output files depend on. The only
+/// policy setting it includes is the one that controls what students may see, since no other
 /// setting affects these files.
 fn cache_key(run: &Run, policy: &Policy, submission: &Submission) -> String {
     let mut hash = ContentHash::default();

@@ -108,7 +108,7 @@ impl Key {
         Key { kind, column, text }
     }
 
-    /// Returns the keys for those of the columns that exist in the table.
+    /// Returns the keys for all `columns` that exist in the table.
     fn of_columns(table: &Table, columns: &[(KeyKind, &str)]) -> Vec<Self> {
         let key = |(kind, name): &(KeyKind, &str)| Some(Key::new(*kind, table.column(name)?));
         columns.iter().filter_map(key).collect()

@@ -46,14 +46,14 @@ pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, 
 }
 
 /// Returns whether the table's first column looks like the first column of a worksheet, with cells
-/// such as `Teilnehmer/in 123`. The header is ignored. Moodle writes headers in the language of the
-/// person who downloads the worksheet.
+/// such as `Teilnehmer/in 123`. The header is ignored, since Moodle writes it in the language of
+/// the person who downloads the worksheet.
 fn is_translated(table: &Table) -> bool {
     let is_numbered = |row: &Vec<String>| {
         let cell = row.first().map_or("", |cell| cell.trim());
         let number = number_at_end(cell);
         let word = cell.strip_suffix(number).unwrap_or_default();
-        // Many student ids begin with one letter before a number.
+        // One letter isn't enough, because many student ids are a letter followed by a number.
         !number.is_empty() && word.chars().rev().skip(1).any(char::is_alphabetic)
     };
     table.column("Identifier").is_none()

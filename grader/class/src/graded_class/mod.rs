@@ -64,8 +64,8 @@ pub enum GradeProblem {
 }
 
 impl GradedClass {
-    /// Returns the results that have a score, except those of superseded attempts and of Canvas's
-    /// test student.
+    /// Returns the results that have a score, except for superseded attempts and submissions by
+    /// Canvas's test student.
     pub fn scores(&self) -> impl Iterator<Item = (&EntryResult, &ScoreSummary)> {
         let counts = |row: &&ClassRow| !row.is_superseded() && !row.is_of_test_student();
         let rows = self.rows.iter().filter(counts);

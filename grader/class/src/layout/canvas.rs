@@ -12,9 +12,10 @@ use crate::file_tree::Node;
 use crate::names::{is_number, joined};
 
 impl Reader<'_> {
-    /// Returns whether the files can be a download from Canvas, rather than other files with two
-    /// numbers in their names, such as a date. In the names of such other files, the number or name
-    /// in the place of the student's is repeated, or the same attachment occurs twice.
+    /// Returns whether the files can be a download from Canvas. Other files may also have two
+    /// numbers in their names, such as parts of a date. They can be told apart because the number
+    /// or name in the student's place is repeated, or because two files have the same attachment
+    /// number.
     pub fn is_canvas_download(&self, root: &Node) -> bool {
         let nodes = root.children().iter();
         let names = nodes.map(|node| (node, first_readings(&self.platform.files, &node.name)));
@@ -37,8 +38,8 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the name under which Canvas shows a page. This is the name of the last attachment, if
-/// the first two numbers in it are those that Canvas uses for the user and the attachment.
+/// Returns the name under which Canvas shows a page: the name of the last attachment, provided that
+/// Canvas reads the first two numbers in it as the user's and the attachment's.
 pub(super) fn attachment_name(
     canvas: &'static Platform,
     files: &[SubmissionNode],

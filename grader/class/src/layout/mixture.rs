@@ -79,8 +79,8 @@ pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     })
 }
 
-/// Returns whether a name is the file's name or that of a numbered copy, such as `bvh (1).rs` or
-/// `bvh(1).rs`.
+/// Returns whether a name is the file's name or the name of a numbered copy, such as `bvh (1).rs`
+/// or `bvh(1).rs`.
 fn is_version(name: &str, file: &str) -> bool {
     let (name, file) = (name.to_lowercase(), file.to_lowercase());
     let number = || {
@@ -125,7 +125,8 @@ pub(super) fn is_section(node: &Node, handed_out: &HandedOut) -> bool {
     !node.is_link && !is_repository(node) && is_section()
 }
 
-/// Returns whether a folder has task files where people are expected to hand them in.
+/// Returns whether a folder has task files in one of the places where students are expected to put
+/// them.
 fn is_submission(node: &Node, handed_out: &HandedOut) -> bool {
     let below = |path: &&str| {
         let mut names = path.split('/').filter(|name| !name.is_empty());

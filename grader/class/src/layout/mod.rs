@@ -122,8 +122,8 @@ pub fn recognise(
     };
     let (mut entries, unmatched, notes) = reader(layout).read(root, metadata, choice)?;
     reject_links(root, &mut entries);
-    // The other layouts specify who handed in each entry. A person who explicitly chooses the plain
-    // layout vouches for that.
+    // In the other layouts, the platform says who handed in each entry. Whoever explicitly chooses
+    // the plain layout vouches that each entry is one submission.
     let mut mixtures = Vec::new();
     if layout == Layout::Plain && choice.layout.is_none() {
         mixtures = mixture::reject_mixtures(root, &mut entries, handed_out, known);
@@ -227,7 +227,7 @@ fn make_ids_unique(entries: &mut [Entry]) {
     }
 }
 
-/// Returns the name, and appends a number to it if it is taken. Adds the result to `used`, in lower
+/// Returns the name, with a number appended if it is taken. Adds the result to `used`, in lower
 /// case.
 pub fn unique_name(wanted: &str, used: &mut BTreeSet<String>) -> String {
     let mut name = wanted.to_owned();

@@ -34,7 +34,7 @@ pub(super) struct SubmissionNode<'a> {
     pub is_text: bool,
 }
 
-/// The names that were read in a class's folder.
+/// The names that were read from a class's folder.
 #[derive(Default)]
 pub(super) struct Names<'a> {
     pub found: Vec<SubmissionNode<'a>>,
@@ -116,8 +116,8 @@ impl Reader<'_> {
         sections.len() == 1 || projects.len() > 1
     }
 
-    /// Rejects a folder that contains the folder of a GitLab group in place of its subgroups, each
-    /// of which would be one submission.
+    /// Rejects a folder that contains a GitLab group's folder rather than the group's subgroups.
+    /// Otherwise, each subgroup would be graded as one submission.
     fn reject_nested_sections(&self, root: &Node) -> Result<(), Error> {
         for group in self.sections(root) {
             let subgroups = self.sections(group);
@@ -145,7 +145,7 @@ impl Reader<'_> {
         if !self.platform.has_attachments {
             ways.truncate(1);
         } else if ways.iter().filter(|parts| self.is_listed(parts)).count() == 1 {
-            // The student's name and the file's may contain numbers as well.
+            // The student's name and the file name may contain numbers as well.
             ways.retain(|parts| self.is_listed(parts));
         }
         if ways.len() > 1 {
@@ -162,7 +162,7 @@ impl Reader<'_> {
         };
         let mut parts = outer.join(own);
         if self.platform.layout == Layout::Plain && !node.is_folder() {
-            // A folder with the same name is a different submission.
+            // A folder with the same name as an archive is a different submission.
             parts.set("whole_name", &node.name);
             parts.set("name", strip_archive_extension(&node.name));
         }
@@ -215,9 +215,10 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Returns the prefix that somebody on the lists follows in the most names, and that more
-    /// than half of all names have. People's names only count if no identifiers are found. If
-    /// several prefixes could be meant, returns an empty string. `None` if there is no such prefix.
+    /// Returns the prefix that more than half of the names have, and that is followed by somebody
+    /// on the lists in the most names. People are recognised by their names only if none is found
+    /// by an identifier. If several prefixes could be meant, returns an empty string. Returns
+    /// `None` if there is no such prefix.
     fn listed_prefix<'a>(
         &self,
         root: &Node,
@@ -267,8 +268,7 @@ fn most_frequent_prefix<'a>(
 }
 
 /// Returns the text that all names begin with. If more than half of them have a longer prefix,
-/// nothing shows whether the other names are those of another assignment, and the class is
-/// rejected.
+/// nothing shows whether the other names belong to another assignment, so the class is rejected.
 fn unlisted_prefix<'a>(names: &[&'a str], separator: char) -> Result<&'a str, Error> {
     let shared = common_prefix(names, separator);
     let longer = names.iter().flat_map(|name| prefixes(name, separator));

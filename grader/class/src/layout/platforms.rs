@@ -1,4 +1,5 @@
-//! The layouts of all platforms, which are data in `platforms.toml`. [`super::reader`] reads them.
+//! The layouts of all platforms, which are described in `platforms.toml`. [`super::reader`] uses
+//! them to read classes.
 
 use std::sync::LazyLock;
 

@@ -27,7 +27,7 @@ const REPEATED_FILE: &str = "two of its files have the same name: remove the one
                              count, or put each student's files into a separate folder";
 /// The reason for not grading two downloads that were unpacked into one folder.
 const SEVERAL: &str = "it is in several folders with this name: keep the one that counts";
-/// The fields that differ between the files of one submission.
+/// The fields that may differ between the files of one submission.
 const OF_FILES: [&str; 4] = ["file", "attachment", "late", "kind"];
 
 /// Reads classes exported by a platform.

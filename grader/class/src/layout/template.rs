@@ -1,6 +1,7 @@
 //! Templates for the names that platforms give to files and folders, such as
 //! `{name}[_{number}]_assignsubmission_file[_{file}]`: text, fields in braces, and optional parts
-//! in brackets. A field is as short as possible. Its name determines which texts it accepts.
+//! in brackets. A field matches as little text as possible, and its name determines which texts it
+//! accepts.
 
 use std::collections::BTreeMap;
 
@@ -67,7 +68,7 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// Returns all readings of a name that follow a template, the most common one first.
+/// Returns all the ways to read a name according to a template, the most likely one first.
 pub fn readings<'a>(template: &'static str, name: &'a str) -> Vec<Parts<'a>> {
     let mut found = Vec::new();
     find_readings(vec![template], name, &Parts::default(), &mut found);
@@ -104,8 +105,8 @@ fn next_item(template: &str) -> Option<(Item<'_>, &str)> {
     }
 }
 
-/// Adds the readings of a string that follow the templates in `pending`, beginning with the last
-/// template.
+/// Adds all the ways to read a string according to the templates in `pending`, beginning with the
+/// last template.
 fn find_readings<'a>(
     mut pending: Vec<&'static str>,
     text: &'a str,
@@ -176,9 +177,9 @@ fn fits(field: &str, text: &str) -> bool {
     }
 }
 
-/// Returns whether Canvas can have written a name. Unlike a date, such a name contains a letter. It
-/// has no number in the middle, because Canvas removes numbers there. `LATE` after the name is not
-/// part of it.
+/// Returns whether a string can be a student's name as Canvas writes it. Unlike a date, the name
+/// contains a letter. It has no number in the middle, because Canvas removes numbers there. `LATE`
+/// after the name is not part of it.
 fn is_canvas_name(name: &str) -> bool {
     let parts: Vec<&str> = name.split('_').collect();
     let inner = parts.get(1..parts.len() - 1).unwrap_or_default();

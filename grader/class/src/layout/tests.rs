@@ -106,7 +106,7 @@ fn the_majority_of_names_decides_the_layout() {
     let canvas = files(&["doe_1_2_a.zip", "lee_3_4_b.zip", "readme.txt"]);
     assert_eq!(layout(&canvas), Layout::Canvas);
     for plain in [
-        // In each of these, both files have the same user, name or attachment.
+        // In each of these pairs, both files have the same user, name or attachment.
         ["hw_1_20_jdoe.zip", "hw_1_21_mkim.zip"],
         ["hw_1_20_jdoe.zip", "hw_2_21_mkim.zip"],
         ["CS_148_3_jdoe.rs", "CS_148_3_mkim.rs"],

@@ -2,11 +2,11 @@
 
 use crate::names::is_number;
 
-/// Returns a platform's time with the usual punctuation, or `None` for other texts. Times without a
-/// zone are local times.
+/// Returns a platform's time with the usual punctuation, or `None` for any other text. Times
+/// without a zone are local times.
 pub fn normalize_time(text: &str) -> Option<String> {
-    // Local times from Blackboard, and from older versions of Sakai, where they end in
-    // milliseconds.
+    // The first form is a local time from Blackboard. The second is from older versions of Sakai,
+    // and ends in milliseconds.
     with_signs(text, "0000-00-00-00-00-00", "0000-00-00 00:00:00")
         .or_else(|| with_signs(text, "00000000000000000", "0000-00-00 00:00:00 UTC"))
         .or_else(|| with_month(text))

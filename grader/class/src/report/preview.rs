@@ -42,7 +42,7 @@ pub fn render_preview(
 }
 
 /// Renders the problems that the teacher has to resolve. They are part of the preview and are also
-/// printed after grading, since the grades don't include them.
+/// printed after grading, since the grades don't show them.
 pub fn render_warnings(class: &RecognisedClass) -> String {
     let mut text = String::new();
     for note in &class.notes {
@@ -82,7 +82,7 @@ fn describe_files(entry: &Entry, handed_out: &'static HandedOut) -> Result<Strin
     Ok(text)
 }
 
-/// For each person with several entries, returns their ids.
+/// For each person with several entries, returns the ids of these entries.
 fn several_of_one_person(entries: &[Entry]) -> BTreeSet<Vec<&str>> {
     let people = entries.iter().map(|entry| entry.info.people.as_slice());
     let of_one = attempts_by_person(people).into_iter().map(|attempts| {

@@ -17,7 +17,8 @@ const STRONG: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
 /// The characters for the columns of a bar chart, from the lowest to the highest.
 const COLUMNS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-/// The maximum length of a sentence that says what to do, which may name many files.
+/// The maximum length of a sentence that says what to do, in characters. Such a sentence may name
+/// many files.
 const MAX_SENTENCE_CHARS: usize = 1_000;
 /// The maximum length of a line that lists submissions, in characters.
 const MAX_WIDTH: usize = 90;
@@ -146,7 +147,7 @@ pub fn render_gradebook(filled: &FilledGradebook) -> String {
     section(&one_line(&filled.title), "", lines)
 }
 
-/// Renders the contents of the archive to hand back.
+/// Renders how many pages the archive to hand back contains, and whose pages were left out.
 pub fn render_hand_back(hand_back: &HandBack) -> String {
     let title = format!("to hand back: {}", counted(hand_back.pages, "page"));
     let left_out = hand_back.left_out.iter();
@@ -247,7 +248,7 @@ fn count_or_no(number: usize, noun: &str) -> String {
     }
 }
 
-/// Returns untrusted text on one line. The text says what to do.
+/// Returns a sentence that says what to do, on one line. The sentence may contain untrusted text.
 pub fn sentence(text: &str) -> String {
     sanitize_line(text, MAX_SENTENCE_CHARS)
 }

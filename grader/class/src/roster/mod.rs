@@ -50,10 +50,10 @@ impl Member {
         person.matches(&self.person) || self.matches_by_name(person)
     }
 
-    /// Returns whether the person's name is the name or an identifier in this row. Names are only
-    /// compared if the person's email address, student id and account name are unknown, as for a
-    /// folder named after a student. If both the row and the person have a platform number, only an
-    /// identifier counts, and only if the numbers are the same.
+    /// Returns whether the person's name is the name or an identifier in this row. It is only
+    /// compared if the person's email address, student id and account name are unknown, e.g. for a
+    /// folder named after a student. If both the row and the person have a platform number, the
+    /// numbers must be the same, and the person's name must be an identifier in the row.
     fn matches_by_name(&self, person: &Person) -> bool {
         if !person.is_bare() {
             return false;

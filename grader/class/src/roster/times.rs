@@ -22,9 +22,9 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
         if theirs.iter().any(|row| row.list == ListKind::Roster) {
             theirs.retain(|row| row.list != ListKind::Downloaded);
         }
-        // If there are several submissions, the last one was cloned. An unreadable time takes
-        // precedence so that it is reported, because it is then unknown which submission is the
-        // last.
+        // If there are several submissions, the last one was cloned. If a time is unreadable,
+        // nobody knows which submission is the last, so the unreadable time takes precedence and is
+        // reported.
         let Some(last) = theirs.iter().max_by_key(|member| {
             let time = time(member);
             (time.is_none(), time)
@@ -48,7 +48,7 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
 }
 
 /// Returns the time for comparisons within a list. All local times in a list are in the same time
-/// zone.
+/// zone, so any zone will do.
 fn time(member: &Member) -> Option<Timestamp> {
     read_time(&member.submitted, Some(&TimeZone::UTC)).ok()
 }

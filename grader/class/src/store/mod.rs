@@ -70,7 +70,7 @@ impl Store {
         Ok(())
     }
 
-    /// Returns the folder of an entry's files.
+    /// Returns the folder with an entry's files.
     pub fn entry_folder(&self, id: &str) -> PathBuf {
         self.folder.join("students").join(id)
     }
@@ -92,7 +92,7 @@ impl Store {
         self.write(RUN, json(run))
     }
 
-    /// Reads a JSON file of the class. Returns `None` if it doesn't exist.
+    /// Reads one of the class's JSON files. Returns `None` if it doesn't exist.
     pub fn read<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, Error> {
         read_json(self.folder.join(name))
     }
@@ -102,12 +102,12 @@ impl Store {
         Ok(list_if_exists(&self.folder.join(name))?)
     }
 
-    /// Writes a file of the class, such as `class.json`, into the output folder.
+    /// Writes one of the class's files, such as `class.json`, into the output folder.
     pub fn write(&self, name: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> Result<(), Error> {
         Ok(atomic_write::write(contents, &self.folder.join(name))?)
     }
 
-    /// Writes a file of an entry.
+    /// Writes one of an entry's files.
     fn write_of_entry(
         &self,
         id: &str,
@@ -118,7 +118,7 @@ impl Store {
         Ok(atomic_write::write(contents, &path)?)
     }
 
-    /// Removes a file of the class from the output folder, if it exists.
+    /// Removes one of the class's files from the output folder, if it exists.
     pub fn remove(&self, name: &str) -> Result<(), Error> {
         Ok(files::remove_if_exists(self.folder.join(name))?)
     }
@@ -137,8 +137,8 @@ impl Store {
             && stamp.is_some_and(|stamp| stamp.result.outcome == *outcome)
     }
 
-    /// Writes the stamp of an entry. If the entry has a score, it must already have been written.
-    /// Otherwise, the entry's files from earlier runs are removed. `round` is the run's round.
+    /// Writes an entry's stamp. If the entry has a score, the score must already have been written.
+    /// If it has none, its files from earlier runs are removed. `round` is the run's round.
     pub fn save_result(&self, result: &EntryResult, key: &str, round: u32) -> Result<(), Error> {
         let folder = self.entry_folder(&result.id);
         if result.score().is_none() {
@@ -172,7 +172,7 @@ impl Store {
         Ok(files::read_to_string(self.entry_folder(id).join(FEEDBACK))?)
     }
 
-    /// Writes sentences that explain how the score contributes to the grade into the entry's pages.
+    /// Adds sentences to the entry's pages that explain how the score contributes to the grade.
     pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), Error> {
         // Older results from a shard may lack a page.
         write_counted(&self.entry_folder(id).join(REPORT), texts)?;
@@ -310,7 +310,7 @@ impl Store {
     }
 }
 
-/// Returns the paths of a folder's entries, or none if the folder doesn't exist.
+/// Returns the paths of a folder's contents, or none if the folder doesn't exist.
 fn list_if_exists(folder: &Path) -> Result<Vec<PathBuf>, PathError> {
     match files::read_dir(folder) {
         Err(error) if error.source.kind() == ErrorKind::NotFound => Ok(Vec::new()),

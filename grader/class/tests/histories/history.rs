@@ -215,7 +215,7 @@ impl History {
 
     fn merge_with(&mut self, disk: DiskFault) -> Result<(), String> {
         let is_possible = self.can_merge();
-        // Merged entries keep the keys of their shards.
+        // Merged entries keep the keys from their shards.
         self.models.entry(Target::Merged).or_default().keys = self.keys();
         let more = [self.manual_option(), EXPORT.to_vec()].concat();
         let ended = self.world.merge(&more, disk);

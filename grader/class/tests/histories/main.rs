@@ -1,7 +1,7 @@
-//! Histories of a class: random sequences of grading, regrading, merging, changed and removed
-//! submissions, exams and policies, while runs are killed at any file operation, disks are full and
-//! processes don't start. After each step, the files must be allowed by a model, and successful
-//! runs must produce the same bytes as a run in a new folder.
+//! Histories of a class: random sequences of grading, regrading, merging, and changes to
+//! submissions, exams and policies, during which runs are killed at any file operation, disks fill
+//! up and processes fail to start. After each step, the files must be allowed by a model, and
+//! successful runs must produce the same bytes as a run in a new folder.
 //!
 //! `cargo test -p class --test histories` runs 100 histories, or fewer if one fails.
 //! `-- --count 10000` runs that many, even if some fail, and `-- --seed 17` runs only the history
@@ -29,7 +29,8 @@ const DEFAULT_COUNT: u64 = 100;
 /// Runs random histories of a class.
 #[derive(Clone, Debug, Parser)]
 struct Arguments {
-    /// Number of histories, which are all run; default: up to 100, until one is lost
+    /// Number of histories to run, even if some fail; default: up to 100, stopping at the first
+    /// failure
     #[arg(long)]
     count: Option<u64>,
     /// Seed of the first history

@@ -57,7 +57,8 @@ pub struct World {
     pub exam: usize,
     /// The policy.
     pub policy: usize,
-    /// The manual points. Number 0 omits the option, so those of the last run are used.
+    /// The manual points. For number 0, the option is left out, so the last run's manual points are
+    /// used.
     pub manual: usize,
 }
 
@@ -73,7 +74,7 @@ pub struct Ended {
 }
 
 impl World {
-    /// Creates a course in a folder. Nobody has submitted anything.
+    /// Creates a course without any submissions in a folder.
     pub fn new(root: &Path) -> Self {
         let world = World {
             root: root.to_owned(),

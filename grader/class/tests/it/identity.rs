@@ -5,7 +5,7 @@ use crate::harness::{TestClass, assert_contains, cell, successful_stdout, unzip}
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
-/// In Moodle, the name of a team's folder contains the group's number. Here, this number equals the
+/// In Moodle, the name of a team's folder contains the group's number. Here, this is also the
 /// number of Ann, who is in the other team.
 #[test]
 fn a_moodle_team_gets_points_by_its_name_and_never_by_its_number() {
@@ -132,7 +132,8 @@ fn folders_of_tutorials_and_flat_folders_of_several_people_are_refused() {
     }
 }
 
-/// A shard has too few entries to tell, so the whole class is checked.
+/// The whole class is checked even if only a shard is graded, since a shard may have too few
+/// entries.
 #[test]
 fn a_class_of_which_most_are_on_no_list_needs_a_confirmation() {
     let class = TestClass::named("class")

@@ -1,4 +1,4 @@
-//! Previews of each platform's export. The names are as unusual as those in real classes.
+//! Previews of each platform's export. The names are as unusual as in real classes.
 
 use std::fs::{self, File};
 use std::io::Write;

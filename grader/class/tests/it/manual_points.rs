@@ -1,5 +1,5 @@
-//! The table of manual points: who its rows belong to, which effect they have, and which problems
-//! they can have.
+//! The table of manual points: who its rows belong to, what effect they have, and what can be wrong
+//! with them.
 
 use crate::harness::{TestClass, cell};
 

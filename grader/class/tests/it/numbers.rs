@@ -205,7 +205,7 @@ impl Files {
         }
     }
 
-    /// Checks the row of a submission on the class's page.
+    /// Checks a submission's row on the class's page.
     fn check_row_of_page(&self, index: usize, entry: &StoredEntry, rules: Rules) {
         let names = people(index, entry).into_iter().map(|who| who.name);
         let names: Vec<String> = names.collect();

@@ -308,7 +308,8 @@ fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
     assert_snapshot!(format!("{flat}\n\n{tutorials}"));
 }
 
-/// One clone of another assignment, or a project of staff, doesn't change where names begin.
+/// A single clone of another assignment, or a project by staff, doesn't change where the accounts
+/// begin in the other names.
 #[test]
 fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
     let scores = "username,first_name,last_name,email,datetime,late\n\

@@ -5,7 +5,7 @@ use crate::harness::{TestClass, assert_contains, source, zip};
 
 const WORK: &str = "// finished";
 
-/// Returns the line of an entry in the output of `--dry-run`.
+/// Returns an entry's line in the output of `--dry-run`.
 fn line<'a>(preview: &'a str, who: &str) -> &'a str {
     let begin = format!("{who}: ");
     let line = preview.lines().map(str::trim);

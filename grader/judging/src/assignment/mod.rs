@@ -160,8 +160,8 @@ impl TaskInfo {
 }
 
 impl Task {
-    /// Returns the task in the id of an item or a mistake, which is the part before the first dot.
-    /// The assignment may not have such a task.
+    /// Returns the task named in the id of an item or a mistake: the part before the first dot. The
+    /// assignment may not have a task with this name.
     pub fn in_id(id: &str) -> Option<Task> {
         let (task, _) = id.split_once('.')?;
         ArrayString::from(task).ok().map(Task)

@@ -8,8 +8,8 @@ use crate::types;
 
 pub use types::{interval, number, one_or_count, point, shapes as each_shape, span, uv};
 
-/// Describes one element of a question. It is a row of a table (described together with the table's
-/// subject), a tree, or a picture.
+/// Describes one element of a question. An element is a row of a table (described together with the
+/// table's subject), a tree, or a picture.
 pub fn element(question: &Question, element: usize) -> String {
     if let Question::Build {
         shapes,

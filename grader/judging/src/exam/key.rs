@@ -14,8 +14,8 @@ pub enum Key {
     /// Key for a table.
     Table {
         /// The quantities to compare, in addition to whether the function returns anything. Each is
-        /// the name of a field of the result, or `unit_` followed by the name of a direction. The
-        /// latter stands for the length of that direction.
+        /// the name of a field of the result or, for the length of a direction, `unit_` followed by
+        /// the direction's name.
         judged: Vec<String>,
         /// The expected row for each call.
         rows: ExpectedRows,
@@ -55,7 +55,7 @@ pub enum Key {
 }
 
 impl Key {
-    /// Returns the key for a table that judges these quantities and requires every row to be right.
+    /// Returns a key for a table that compares these quantities and requires every row to be right.
     pub fn table(judged: &[&str], rows: ExpectedRows) -> Key {
         Key::Table {
             judged: judged.iter().map(|name| (*name).to_owned()).collect(),
@@ -64,7 +64,7 @@ impl Key {
         }
     }
 
-    /// Returns the key for a table whose credit depends on the share of right rows.
+    /// Returns a key for a table where the credit depends on the share of correct rows.
     pub fn share_of_rows(judged: &[&str], rows: ExpectedRows) -> Key {
         let mut key = Key::table(judged, rows);
         if let Key::Table { aggregate, .. } = &mut key {
@@ -194,7 +194,7 @@ impl ExpectedRows {
         }
     }
 
-    /// Returns the rows with the value of every field replaced by what `change` returns for it.
+    /// Returns the rows with `change` applied to the value of every field.
     pub fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> ExpectedRows {
         fn each<R: Record + Copy>(
             rows: &[Option<R>],

@@ -94,7 +94,7 @@ pub struct Item {
     /// its own task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub needs: Vec<String>,
-    /// The questions. The item's credit is that of its worst question.
+    /// The questions. The item earns the credit of its worst question.
     pub questions: Vec<ExamQuestion>,
     /// The answers produced by known mistakes, used to recognise the mistake behind a wrong answer.
     #[serde(default, skip_serializing_if = "MistakeSignatures::is_empty")]
@@ -106,7 +106,7 @@ impl Item {
     ///
     /// # Panics
     ///
-    /// If the id doesn't begin with a task.
+    /// If the id doesn't begin with a task's id.
     pub fn new(id: &str, points: u32, questions: Vec<ExamQuestion>) -> Self {
         Item {
             id: id.to_owned(),

@@ -54,7 +54,7 @@ pub struct Measurement {
     /// The error. If some wrong positions are tolerated, the worst ones are skipped, and this is
     /// the largest error of the rest.
     pub deviation: Deviation,
-    /// The number of wrong positions as a deviation, if they are counted.
+    /// The number of wrong positions, as a deviation, if positions are counted.
     pub count: Option<Deviation>,
 }
 

@@ -20,7 +20,7 @@ pub(crate) struct Quantity {
 }
 
 impl Quantity {
-    /// Returns the quantity with this name, or `None` if none of the fields `names` provides it.
+    /// Returns the quantity with this name, or `None` if none of the fields in `names` provides it.
     pub(crate) fn named(quantity: &str, names: &'static [&'static str]) -> Option<Self> {
         let direction = quantity.strip_prefix(UNIT);
         let field = names
@@ -70,7 +70,7 @@ impl Quantity {
         })
     }
 
-    /// Returns the failure if the quantity is wrong.
+    /// Returns the failure to report if the quantity is wrong.
     pub(super) fn failure(self, got: &dyn Record, wanted: &dyn Record) -> FailureKind {
         let what = if self.is_unit_length {
             format!("length of the {}", self.name)

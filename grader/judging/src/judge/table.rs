@@ -254,7 +254,7 @@ mod tests {
     #[test]
     fn an_error_is_judged_by_the_scale_of_its_ray() {
         for from in [8.0, 800.0] {
-            // Both rays are equally short, but the second has smaller coordinates.
+            // Both hits are at the same distance, but the second ray's coordinates are larger.
             let ray = Ray::new(Vec3::X * from, -Vec3::X);
             let shapes = vec![sphere(Vec3::X * (from - 2.0), 1.0)];
             let hits = ExpectedRows::Hits(vec![Some(HIT)]);

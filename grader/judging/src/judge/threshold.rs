@@ -15,7 +15,7 @@ use crate::types::{self, Tolerance, direction, length, uv};
 pub enum Threshold {
     /// The field with this name in a table.
     Field(&'static str, Tolerance),
-    /// Length of a direction in a table.
+    /// Length of a direction vector in a table.
     UnitLength,
     /// Depth at one position of a picture.
     PictureDepth,
@@ -23,11 +23,11 @@ pub enum Threshold {
     PictureNormal,
     /// Texture coordinates at one position of a picture.
     PictureUv,
-    /// Number of wrong positions of a picture.
+    /// Number of wrong positions in a picture.
     PicturePositions,
     /// Brightness of one pixel of a rendered picture.
     Radiance,
-    /// Number of wrong pixels of a rendered picture.
+    /// Number of wrong pixels in a rendered picture.
     RadiancePixels,
     /// SAH cost of a tree.
     SahCost,
@@ -52,8 +52,7 @@ const OTHER: [Threshold; 10] = [
 ];
 
 impl Threshold {
-    /// Returns all thresholds: those of fields in tables, then those of pictures, then those of
-    /// trees.
+    /// Returns all thresholds: first for fields in tables, then for pictures, then for trees.
     pub fn all() -> Vec<Threshold> {
         let trace = Trace {
             distance: 0.0,

@@ -22,8 +22,8 @@ fn numbers(question: &ExamQuestion, answer: &Answer) -> Vec<Vec<f32>> {
     numbers.collect()
 }
 
-/// Asserts that each number in the wrong answer is six tolerances away from the one in the correct
-/// answer, and that the observation of the correct answer is the one expected from the key.
+/// Asserts that each number in the wrong answer is six tolerances away from the corresponding
+/// number in the correct answer, and that the correct answer is observed as the key predicts.
 fn assert_six_apart(question: &ExamQuestion, wrong: &Answer, correct: &Answer) {
     assert_eq!(
         expected_elements(question),

@@ -308,7 +308,7 @@ mod tests {
         assert_name("leaves: one past the end", |tree| tree.nodes[2].start = 3);
         assert_name("leaves: far past the end", |tree| tree.nodes[2].size = 4);
         assert_name("leaves: unknown primitives", |tree| tree.order[0] = 77);
-        // A longer list or the range of an interior node doesn't make a leaf extend past the list.
+        // Neither a longer list nor an interior node's range makes a leaf extend past the list.
         assert_name("leaves: unknown primitives", |tree| {
             (tree.order[0], tree.nodes[1].start) = (77, 9);
             tree.order.push(0);

@@ -51,7 +51,7 @@ pub enum MaskPixel {
     Empty,
     /// The pixel is correct and shows a surface.
     Right,
-    /// The pixel is wrong. This is the most serious error at its positions.
+    /// The pixel is wrong. Contains the most serious error at its positions.
     Wrong(Aspect),
 }
 
@@ -87,8 +87,8 @@ pub fn compare(question: &ExamQuestion, answer: &Answer) -> Option<Picture> {
 }
 
 /// Returns the layers of a submitted picture that is known to be correct, or `None` if the question
-/// doesn't ask for a picture. Most pictures are correct. For these, [`compare`] would return the
-/// same layers but take ten times as long.
+/// doesn't ask for a picture. Most pictures are correct. For a correct picture, [`compare`] would
+/// return the same layers but take ten times as long.
 pub fn submitted_picture(question: &ExamQuestion, answer: &Answer) -> Option<SubmittedPicture> {
     let (film, per_pixel) = grid(&question.question)?;
     let layers = paint::submitted_layers(question, answer, per_pixel)?;

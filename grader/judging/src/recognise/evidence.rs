@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::exam::{Exam, Item};
 use crate::signatures::ObservedAnswer;
 
-/// The minimum number of items that must fail before a mistake that produces no answers at all is
-/// named.
+/// A mistake that produces no answers at all is only named if at least this many items fail.
 const MIN_FAILED_ITEMS: usize = 3;
 /// The same minimum for a mistake that doesn't explain all answers on its own.
 const MIN_FAILED_ITEMS_OF_SEVERAL: usize = 5;
@@ -64,9 +63,10 @@ impl<'a> Evidence<'a> {
         affected.any(|other| other.item.id == item.id && other.is_explained_by(&[mistake]))
     }
 
-    /// Returns the mistakes that give wrong answers. Many mistakes end in a panic or an overflow,
-    /// so a mistake that does nothing else must do so in at least `min_items` items and be the only
-    /// candidate. If it panics in a way that few others do, one item fewer is enough.
+    /// Returns `causes` without the mistakes that have too little evidence. A mistake that gives
+    /// wrong answers is kept. Many mistakes end in a panic or an overflow, so a mistake that does
+    /// nothing else must affect at least `min_items` items and be the only candidate. If it panics
+    /// in a way that few others do, one item fewer is enough.
     fn with_enough_failures(&self, mut causes: Vec<usize>, min_items: usize) -> Vec<usize> {
         let hints: BTreeSet<&str> = causes.iter().map(|&mistake| self.hint(mistake)).collect();
         causes.retain(|&mistake| {
@@ -92,8 +92,8 @@ impl<'a> Evidence<'a> {
     /// Returns the mistakes whose hint is in every pair that explains all answers, provided that in
     /// one of these pairs each mistake explains an item on its own. Without this condition, the
     /// second mistake might only fill in what the first doesn't explain, and it could do the same
-    /// for the answers of an unknown mistake. For the same reason, at least three in five answers
-    /// to the items that a mistake affects must match the mistake's.
+    /// for the answers of an unknown mistake. For the same reason, at least three out of five
+    /// answers to the items that a mistake affects must match the mistake's.
     fn causes_in_pairs(&self) -> Vec<usize> {
         let mut hints: Option<BTreeSet<&str>> = None;
         let mut members = BTreeSet::new();

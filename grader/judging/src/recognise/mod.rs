@@ -1,9 +1,9 @@
 //! Recognises the known mistakes behind wrong answers.
 //!
-//! A false hint is worse than none, so a mistake is only named in three cases, and only for items
-//! where every answer matches the mistake's. If the mistake gives no answers at all, several items
-//! must fail in the way that the mistake makes them fail. If it makes every ray miss, it is never
-//! named, because any code that finds nothing gives the same answers.
+//! A false hint is worse than none, so a mistake is only named in the three cases below, and only
+//! for items where every answer matches the mistake's. If the mistake gives no answers at all,
+//! several items must fail in the way that the mistake makes them fail. If it makes every ray miss,
+//! it is never named, because any code that finds nothing gives the same answers.
 //!
 //! 1. It explains all answers in the task on its own.
 //! 2. It explains all answers together with one other mistake, and every pair of mistakes that does

@@ -33,8 +33,8 @@ fn index_of(exam: &Exam, id: &str) -> usize {
     exam.items.iter().position(|item| item.id == id).unwrap()
 }
 
-/// Returns a camera's answer to a question about rays. `change` returns the direction of each ray
-/// from its index and the correct direction.
+/// Returns a camera's answer to a question about rays. `change` computes each ray's direction from
+/// the ray's index and the correct direction.
 fn camera_answer(question: &ExamQuestion, change: impl Fn(usize, Vec3) -> Vec3) -> Answer {
     let Key::Table {
         rows: ExpectedRows::Rays(directions),

@@ -11,7 +11,8 @@ use crate::exam::{ExamQuestion, Item, Key};
 use crate::recognise::Observations;
 use crate::signatures::NoAnswerReason;
 
-/// Returns the correct answer. Trees don't have a single one, but are irrelevant here.
+/// Returns the correct answer. A question about a tree has no single correct answer, but such
+/// questions don't matter here.
 fn right_answer(question: &ExamQuestion) -> Answer {
     let answer = question.key.answer();
     answer.unwrap_or(Answer::Tree(ElementOutcome::Skipped))
@@ -37,8 +38,8 @@ fn is_picture(item: &Item) -> bool {
     item.questions.iter().all(of_first_hits)
 }
 
-/// Returns whether a task is reported to miss everything if one item has these answers (or has
-/// none, for this reason) and all other rays miss.
+/// Returns whether a task is reported to miss everything if one item has these answers (or, for the
+/// given reason, no answers) and all other rays miss.
 fn misses_everything(
     items: &[&Item],
     one: &Item,

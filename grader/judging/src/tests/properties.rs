@@ -86,11 +86,11 @@ fn without_a_right_element_an_answer_earns_nothing() {
     }
 }
 
-/// Questions of the same item are skipped. They may ask for the same thing in two sizes, so their
-/// answers may be equal in everything the item compares. Two kinds of questions are skipped because
-/// answers to questions of other items may pass. If one row answers the whole question, as with the
-/// length of a direction, any other question's row does too. A pattern of hits and misses can occur
-/// twice.
+/// Questions of the same item are skipped: they may ask for the same thing in two sizes, so their
+/// answers may be equal in everything that the item compares. Two kinds of questions are skipped as
+/// well, because answers to questions of other items may pass. If one row answers a whole question,
+/// as with the length of a direction, a row of another question may answer it too. And the same
+/// pattern of hits and misses can occur in two questions.
 #[test]
 fn answers_to_questions_of_other_items_do_not_pass() {
     let item = |question: &ExamQuestion| {

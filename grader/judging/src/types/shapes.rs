@@ -34,7 +34,7 @@ fn of_shape(shape: &Shape) -> f32 {
     }
 }
 
-/// Describes each of a few shapes in full. For more, returns only their number.
+/// If there are only a few shapes, describes each in full. Otherwise, returns only their number.
 pub fn text(shapes: &[Shape]) -> String {
     const FEW: usize = 6;
     if shapes.len() > FEW {

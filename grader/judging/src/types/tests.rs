@@ -106,7 +106,7 @@ proptest! {
         prop_assert!(error(2.0).is_none_or(|error| error > 1.0));
     }
 
-    /// The signatures of known mistakes consist of these numbers.
+    /// The signatures of known mistakes consist of observed numbers.
     #[test]
     fn values_that_differ_by_two_tolerances_are_observed_as_different(
         (correct, _) in pair(),

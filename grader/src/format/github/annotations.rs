@@ -12,7 +12,7 @@ const MAX_ANNOTATIONS: usize = 10;
 const MAX_CHARS: usize = 1_000;
 
 /// Returns commands for standard output that annotate the first compiler error in each file and,
-/// for each other task, the first item that lost points.
+/// for each task whose file compiles, the first item that has something to fix.
 pub fn annotations(view: &StudentView, context: &FormatContext) -> String {
     let files = view.visible.build.not_compiled.iter();
     let files = files.map(|file| file_annotation(file, context));
@@ -67,8 +67,8 @@ mod tests {
     use super::*;
     use crate::format::tests::sample;
 
-    /// The annotations are for a file that doesn't compile and for one item of each task that can
-    /// be fixed independently.
+    /// The annotations cover a file that doesn't compile and, in each task that can be fixed
+    /// independently, one item.
     #[test]
     fn the_first_mistake_of_each_task_is_annotated() {
         insta::assert_snapshot!(annotations(&sample::open(), &sample::context()));

@@ -74,8 +74,8 @@ fn each_format_has_its_own_name_and_file() {
     assert_eq!(formats, expected);
 }
 
-/// Compares the rendered text of each format with a snapshot, except for the page, whose style is
-/// too long.
+/// Compares the rendered text of each format with a snapshot, except for the HTML page, whose style
+/// sheet is too long.
 #[test]
 fn everything_is_shown_of_the_practice_exam() {
     let mut settings = insta::Settings::clone_current();

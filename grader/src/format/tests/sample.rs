@@ -17,7 +17,7 @@ use crate::score::{
     BuildReport, CodeLocation, Evidence, FileReport, Hint, ItemScore, Score, Verdict,
 };
 
-/// A policy under which points are doubled and each late day costs a tenth.
+/// A policy that doubles the points and deducts a tenth of them for each late day.
 pub const LATE: &str = "[points]\nout_of = 56\n[late]\npercent_per_day = 10";
 /// A policy that uses each visibility for some items and full visibility for the rest.
 pub const RESTRICTED: &str = "[visibility]\nfinal = 'all'\n[visibility.items]\n\
@@ -90,7 +90,7 @@ pub fn score() -> Score {
     score
 }
 
-/// Adds texts to some items, so that every field has a value in at least one item.
+/// Adds text to some items, so that every field has a value in at least one item.
 fn add_details(item: &mut ItemScore) {
     let text = |text: &str| Some(text.to_owned());
     let location = |file: &str, line| {
@@ -204,7 +204,7 @@ pub fn context() -> FormatContext {
     }
 }
 
-/// Returns an item without texts other than its message.
+/// Returns an item with no text besides its message.
 pub fn item(id: &str, points: u32, max_points: u32, verdict: Verdict, message: &str) -> ItemScore {
     let (_, title) = id.split_once('.').unwrap();
     ItemScore {

@@ -107,10 +107,11 @@ impl CacheKey {
     }
 }
 
-/// Returns a text that contains the options the report depends on, or `None` if a report with these
+/// Returns text that contains the options the report depends on, or `None` if a report with these
 /// options isn't cached.
 fn cacheable_options(options: &GradeOptions) -> Option<String> {
-    // Don't use `..` here, so that a new option doesn't compile until this function handles it.
+    // Don't use `..` here, so that code with a new option doesn't compile until this function
+    // handles it.
     let GradeOptions {
         handed_out,
         submission,

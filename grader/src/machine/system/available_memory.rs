@@ -17,8 +17,8 @@ pub fn available_memory() -> Option<u64> {
     smallest(machine, left_in_groups(Path::new(MOUNTS), &groups))
 }
 
-/// The names of a control group's files. They differ between the two versions (Linux,
-/// Documentation/admin-guide/cgroup-v1/memory.rst and cgroup-v2.rst).
+/// The names of a control group's files. They differ between the two versions of control groups
+/// (Linux, Documentation/admin-guide/cgroup-v1/memory.rst and cgroup-v2.rst).
 struct Files {
     limit: &'static str,
     usage: &'static str,

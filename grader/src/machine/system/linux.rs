@@ -1,4 +1,4 @@
-//! Resource limits and usage of other processes, which only Linux supports.
+//! Limits and measures the resource usage of other processes, which only Linux supports.
 
 use std::fs;
 use std::io;
@@ -28,7 +28,7 @@ pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns the limited resources of a process and their limits.
+/// Returns each limited resource of a process, with its limit.
 pub fn resources(limits: Limits) -> impl Iterator<Item = (Resource, u64)> {
     let all = [
         (Resource::As, limits.memory),
@@ -40,9 +40,9 @@ pub fn resources(limits: Limits) -> impl Iterator<Item = (Resource, u64)> {
     all.into_iter().chain(data)
 }
 
-/// Returns the soft and the hard limit. They differ only for CPU time. A process above the hard
-/// limit gets SIGKILL, which it also gets when memory runs out. The soft limit is lower and sends
-/// SIGXCPU first, so that the two causes can be distinguished.
+/// Returns the soft and the hard limit. They differ only for CPU time. A process that exceeds the
+/// hard limit gets SIGKILL, which it also gets when memory runs out. At the soft limit, which is
+/// lower, it gets SIGXCPU first, so that the two causes can be distinguished.
 pub fn rlimit(resource: Resource, most: u64) -> Rlimit {
     let is_cpu = resource == Resource::Cpu;
     let grace = if is_cpu { CPU_GRACE_SECONDS } else { 0 };
@@ -90,8 +90,8 @@ fn cpu_time_fields(child: &Child, count: usize) -> Option<Duration> {
 
 /// Returns the longest time that any thread of a process has waited for a processor.
 ///
-/// The longest time is used rather than the sum. Otherwise, many threads could excuse more time
-/// than has passed.
+/// The longest time is used because the sum over many threads could exceed the time that has
+/// passed.
 fn delayed(child: &Child) -> Option<Duration> {
     let threads = fs::read_dir(format!("/proc/{}/task", child.id())).ok()?;
     let delays = threads.filter_map(|thread| {

@@ -58,17 +58,17 @@ pub struct Limits {
 pub struct ProcessTime {
     /// CPU time.
     pub cpu: Duration,
-    /// Time when it was ready to run but other processes occupied the processors.
+    /// Time during which it was ready to run but other processes occupied the processors.
     pub delayed: Duration,
 }
 
 impl Limits {
-    /// Part of the available memory that is left to the rest of the system, in bytes.
+    /// Part of the available memory that is left for the rest of the system, in bytes.
     const RESERVE: u64 = 64 << 20;
 
     /// Lowers the memory limit to the machine's available memory, so that a process that uses too
     /// much exceeds its own limit before the system kills a process. `needed` is the memory that a
-    /// correct process may need. The limit never gets lower than that.
+    /// correct process may need. The limit never drops below that.
     pub fn within_available_memory(self, needed: u64) -> Self {
         let left = available_memory().map(|bytes| bytes.saturating_sub(Self::RESERVE));
         Limits {
@@ -78,7 +78,7 @@ impl Limits {
     }
 }
 
-/// The kind of an entry of a [`Folder`]. Links aren't followed.
+/// The kind of an entry in a [`Folder`]. Links aren't followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {
     /// A regular file.
@@ -159,8 +159,8 @@ pub fn keep_search_path(command: &mut Command) {
     }
 }
 
-/// Does nothing: `setrlimit` only limits the calling process, and the job objects of Windows cannot
-/// be used from safe code.
+/// Does nothing: `setrlimit` only limits the calling process, and Windows job objects cannot be
+/// used from safe code.
 #[cfg(not(target_os = "linux"))]
 pub fn set_limits(_: &std::process::Child, _: Limits) -> std::io::Result<()> {
     Ok(())

@@ -1,4 +1,5 @@
-//! Windows, where files inherit their permissions and process groups and signals don't exist.
+//! Windows, where files inherit their permissions, and where process groups and signals don't
+//! exist.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::File;

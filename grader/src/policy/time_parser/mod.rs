@@ -1,4 +1,4 @@
-//! Reads times in the formats of learning platforms.
+//! Reads times in the formats used by learning platforms.
 
 use jiff::civil::{Date, Time};
 use jiff::fmt::strtime::BrokenDownTime;
@@ -45,8 +45,8 @@ pub enum TimeError {
 }
 
 /// Reads a time in a platform's format. A time without an offset from UTC is a local time in
-/// `zone`. If clocks show it twice because they are set back, the first of the two is used, which
-/// is better for students.
+/// `zone`. If clocks show that time twice because they are set back, the first occurrence is used,
+/// which is better for students.
 pub fn read_time(text: &str, zone: Option<&TimeZone>) -> Result<Timestamp, TimeError> {
     let text = normalise(text);
     let (date, rest) = named_date(&text).map_or_else(|| numeric_date(&text), Ok)?;
@@ -71,8 +71,8 @@ pub(super) fn has_plausible_year(time: Timestamp) -> bool {
     (2000..2100).contains(&Offset::UTC.to_datetime(time).year())
 }
 
-/// The greatest plausible distance in days between a time and its due time. A time farther away is
-/// nearer to the same date in another year, and a wrong year is a frequent mistake.
+/// The greatest plausible distance in days between a time and its due time. A time farther away
+/// than this is nearer to the same date in another year, and a wrong year is a frequent mistake.
 pub(super) const MOST_DAYS: i64 = 183;
 
 /// Returns whether two times are so far apart that they cannot belong to the same assignment.

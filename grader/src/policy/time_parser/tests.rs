@@ -124,7 +124,7 @@ proptest! {
         let zone = berlin();
         let time = Timestamp::from_second(seconds / 60 * 60).unwrap();
         let zoned = time.to_zoned(zone.clone());
-        // In a repeated hour, the first of the two is used.
+        // In a repeated hour, the first occurrence is used.
         let earlier = zone.to_ambiguous_timestamp(zoned.datetime()).earlier().unwrap();
         let dates = NAMED_DATES.iter().chain(&["%Y-%m-%d", "%Y/%m/%d", "%d.%m.%Y", "%d.%m.%y"]);
         for (date, hour) in dates.flat_map(|date| TIMES_OF_DAY.map(|hour| (date, hour))) {

@@ -19,8 +19,8 @@ pub(super) fn marks() -> Markup {
     PreEscaped(format!("{START}{END}"))
 }
 
-/// Returns a page with these sentences below its points, replacing earlier ones. A page without the
-/// marks is returned unchanged.
+/// Returns a page with these sentences below its points, replacing any earlier sentences. A page
+/// without the marks is returned unchanged.
 pub fn with_counted(page: &str, texts: &[String]) -> String {
     let parts = page.split_once(START).and_then(|(before, rest)| {
         let (_, after) = rest.split_once(END)?;
@@ -85,7 +85,7 @@ mod tests {
         let read = || std::fs::read_to_string(&path).unwrap();
         assert_eq!(read(), with_counted(&page, &text));
         assert_ne!(read(), page);
-        // Repeating it must not change the page again.
+        // Repeating the call must not change the page again.
         write_counted(&path, &text).unwrap();
         assert_eq!(read(), with_counted(&page, &text));
     }

@@ -1,5 +1,5 @@
-//! Elements that several parts of the page use, and text by the exam's authors, with `code` and
-//! *emphasis* marked as in Markdown.
+//! Renders elements that several parts of the page use, and text by the exam's authors, in which
+//! `code` and *emphasis* are marked as in Markdown.
 
 use maud::{Markup, html};
 

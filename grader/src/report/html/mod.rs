@@ -1,5 +1,5 @@
 //! `report.html`: everything about one score, in one file that loads nothing from the network. The
-//! page depends only on the score, the exam and the answers, and not on the date, for example.
+//! page depends only on the score, the exam and the answers (not on the date, for example).
 //!
 //! Nothing a submission writes can take over the page: `maud` escapes it, `plain_text` removes
 //! control characters, and the content security policy allows only the page's own script and style,
@@ -55,7 +55,7 @@ struct Page<'a> {
     book: Option<&'a Book>,
 }
 
-/// Renders the page of a score. `answers` are the submitted answers to show.
+/// Renders the page for a score. `answers` are the submitted answers to show.
 pub fn page(score: &Score, exam: &Exam, answers: &ReportAnswers, reload: Reload) -> String {
     let page = Page {
         score,
@@ -67,8 +67,8 @@ pub fn page(score: &Score, exam: &Exam, answers: &ReportAnswers, reload: Reload)
     page.render(reload)
 }
 
-/// Renders the page for students without the exam. The page only shows `score`. Everything
-/// students may not see must already have been removed from it.
+/// Renders a page for students, which doesn't contain the exam. The page only shows `score`, from
+/// which everything that students may not see must already have been removed.
 pub fn feedback(score: &Score) -> String {
     let unseen = Exam {
         schema: score.schema,

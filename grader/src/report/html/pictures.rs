@@ -40,8 +40,8 @@ pub(super) fn failing(item: &Item, answers: &ReportAnswers, rerun: &RerunCommand
     }
 }
 
-/// Renders the pictures of an item that passed. Only the submitted ones are shown, since they match
-/// the expected ones.
+/// Renders the pictures of an item that passed. Only the submitted pictures are shown, since they
+/// match the expected ones.
 pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
     let questions = item.questions.iter().enumerate();
     let pictures = questions.filter_map(|(index, question)| {

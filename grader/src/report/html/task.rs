@@ -171,7 +171,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
         ),
         Verdict::Blocked { by } => evidence_table(
             &all,
-            &format!("answers that depend on {by}, so they can't be judged yet"),
+            &format!("answers that can't be judged yet because they depend on {by}"),
             &format!("fix {by} first"),
         ),
         Verdict::Pending => evidence_table(
@@ -230,8 +230,8 @@ fn hints(score: &ItemScore) -> Markup {
     }
 }
 
-/// Renders a drawing of the wrong question, if it can be drawn. If the code isn't written yet,
-/// draws the first question.
+/// Renders a drawing of the question that was answered wrongly, if it can be drawn. If the code
+/// isn't written yet, draws the first question.
 fn figure(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Markup {
     let number = match (&score.evidence, &score.verdict) {
         (Some(evidence), _) => Some(evidence.number),

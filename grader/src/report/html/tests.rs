@@ -12,7 +12,8 @@ use crate::report::answers::ReportAnswers;
 use crate::score::{Evidence, FileReport, Hint, ItemScore, Score, Verdict};
 use crate::verdict::pending_score;
 
-/// Text that attacks the page. The tests use it for every text a submission can write.
+/// Text that attacks the page. The tests use it for every piece of text that a submission can
+/// write.
 const HOSTILE: &str =
     "</title></script><script>alert(1)</script>\"><img src=x>&amp;\u{202e}\u{1b}[2J";
 
@@ -37,13 +38,15 @@ fn page(score: &Score, exam: &Exam, answers: &ReportAnswers) -> String {
     page.replace(super::STYLE, "").replace(super::SCRIPT, "")
 }
 
-/// Returns the page of a submission that passed all items except `id`, which `change` adjusts.
+/// Returns the page for a submission that passed every item except `id`. `change` adjusts the
+/// result of that item.
 fn page_of(id: &str, change: impl Fn(&mut ItemScore)) -> String {
     let (exam, score) = all_passed_except(id, change);
     page(&score, &exam, &ReportAnswers::default())
 }
 
-/// Returns an exam and its score. All items passed except `id`, which `change` adjusts.
+/// Returns an exam and its score. Every item passed except `id`. `change` adjusts the result of
+/// that item.
 fn all_passed_except(id: &str, change: impl Fn(&mut ItemScore)) -> (Exam, Score) {
     let exam = exam();
     let mut score = sample_pending_score(&exam, "alice");

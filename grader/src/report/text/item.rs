@@ -84,7 +84,7 @@ pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> f
     writeln!(out, "    {FAINT}and {items} in this task{how}{FAINT:#}")
 }
 
-/// If a task has a wrong or missing answer, writes the first of the task's warnings, which may
+/// If a task has a wrong or missing answer, writes the first few of the task's warnings, which may
 /// explain that answer.
 pub(super) fn write_warnings(out: &mut String, task: &TaskScore) -> fmt::Result {
     const MAX_WARNINGS: usize = 3;

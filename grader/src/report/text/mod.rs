@@ -48,7 +48,7 @@ pub enum HintDetail {
 pub struct OldResults<'a> {
     /// The ids of the items that haven't been graded again.
     pub items: Option<&'a BTreeSet<String>>,
-    /// Whether the submission hasn't been compiled again.
+    /// Whether the compiler's messages are old because the submission hasn't been compiled again.
     pub build: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The points of all tasks in one line, for small terminals.
+//! The points of all tasks on one line, for small terminals.
 
 use crate::inputs::task_selection::TaskSelection;
 use crate::score::{Score, TaskScore};

@@ -45,8 +45,8 @@ pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io:
 }
 
 /// Returns a user id dedicated to this program. It is derived from the process id, so that programs
-/// running at the same time have different users. Two programs can only get the same id if the few
-/// low ids are used.
+/// running at the same time run as different users. Two programs can only get the same id if the
+/// few low ids are used.
 ///
 /// Returns `None` if this process isn't root. Also returns `None` for a compiler without
 /// namespaces, because its toolchain may be in root's home folder, which no other user can read.

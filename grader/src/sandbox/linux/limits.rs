@@ -23,7 +23,8 @@ pub(super) fn set(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> 
         Profile::Probe => (PROBE_THREADS, 16),
         Profile::Compiler { .. } => (COMPILER_PROCESSES, 1024),
     };
-    // This limit applies to the total of a user's processes, so it only works for a dedicated user.
+    // This limit applies to all of a user's processes together, so it only works for a dedicated
+    // user.
     let processes = user.map(|_| (Resource::Nproc, processes));
     let others = [
         (Resource::Memlock, 0),

@@ -1,5 +1,5 @@
-//! Linux namespaces: separate mounts, network, System V IPC objects and host name and, for the
-//! compiler, separate processes. The new root contains the files of the profile and no others.
+//! Linux namespaces: separate mounts, network, System V IPC objects and host name, plus separate
+//! processes for the compiler. The new root contains only the files listed in the profile.
 
 use std::fs;
 use std::io;
@@ -61,7 +61,7 @@ pub(super) fn enter(profile: &Profile, program: Program) -> io::Result<Program> 
     Ok(program)
 }
 
-/// A file or folder of the machine that is mounted in the new root.
+/// A file or folder on the machine that is mounted in the new root.
 struct BindMount {
     /// The path on the machine. It must not contain symbolic links, because they would be resolved
     /// in the new root.
@@ -89,7 +89,7 @@ impl BindMount {
 
 #[allow(
     unsafe_code,
-    reason = "the call is unsound only with a flag that is not used"
+    reason = "the call would be unsound only with a flag that is not used here"
 )]
 fn unshare(profile: &Profile) -> io::Result<()> {
     let (uid, gid) = (geteuid(), getegid());
@@ -114,7 +114,7 @@ fn unshare(profile: &Profile) -> io::Result<()> {
          kernel.apparmor_restrict_unprivileged_userns user.max_user_namespaces`), forbid it",
     ))?;
     if !uid.is_root() {
-        // Map only this user, and to the same id. If the user was mapped to root, the compiler
+        // Map only this user, and to the same id. If the user were mapped to root, the compiler
         // would behave differently.
         let itself = |id: u32| format!("{id} {id} 1");
         let map = || while_doing("map the user into the namespace");

@@ -136,7 +136,7 @@ impl Program {
 fn children_cpu_time() -> io::Result<Duration> {
     // SAFETY: the struct contains only integers, for which zero is a valid value.
     let mut usage: libc::rusage = unsafe { mem::zeroed() };
-    // SAFETY: the call writes one such struct, into `usage`.
+    // SAFETY: the call writes one struct of this type, into `usage`.
     if unsafe { libc::getrusage(libc::RUSAGE_CHILDREN, &raw mut usage) } != 0 {
         return Err(io::Error::last_os_error());
     }

@@ -27,7 +27,7 @@ use paths::{check_special, duplicate_paths, normalize_path};
 use tarball::Tarball;
 use zip_reader::ZipReader;
 
-/// The maximum number of nested archives to open.
+/// The maximum number of levels of nested archives to open.
 const MAX_LEVELS: usize = 3;
 
 /// The limits on reading from an archive.
@@ -52,8 +52,8 @@ impl ArchiveLimits {
         }
     }
 
-    /// Returns the limits for the archive of a whole class. They are so large that a single
-    /// submission in it is unlikely to reach them.
+    /// Returns the limits for the archive of a whole class. These are so large that a single
+    /// submission in the archive is unlikely to reach them.
     pub fn class() -> Self {
         ArchiveLimits {
             members: 2_000_000,
@@ -71,7 +71,7 @@ pub enum ArchiveError {
     Empty,
     /// The file is an archive of an unsupported kind.
     #[error(
-        "it is a {0} archive, but only .zip, .tar and .tar.gz can be read: pack it as one of these"
+        "it is a {0} archive, but only .zip, .tar and .tar.gz can be read: repack it in one of these formats"
     )]
     UnsupportedKind(&'static str),
     /// The file isn't an archive.
@@ -106,7 +106,7 @@ pub enum ArchiveError {
     /// A member is a link or a device.
     #[error("it contains {0}, which is a link or device, not a regular file: pack the file itself")]
     NotRegular(String),
-    /// The system doesn't allow reading the file.
+    /// The system doesn't allow the file to be read.
     #[error("the file cannot be read: {0}")]
     Io(String),
     /// The machine failed to read the file.
@@ -120,7 +120,7 @@ pub struct Member {
     /// The path, with `/` as the separator and without `.` components. It is relative and stays
     /// inside the archive.
     pub path: String,
-    /// The size that the archive claims, in bytes.
+    /// The size declared in the archive, in bytes.
     pub size: u64,
     /// The index of the file among the archive's members.
     index: usize,

@@ -22,8 +22,8 @@ pub(super) fn normalize_path(path: &str) -> Result<String, ArchiveError> {
     Ok(parts.collect::<Vec<_>>().join("/"))
 }
 
-/// Returns an error for each Rust file with the same path as an earlier one. Which of the two files
-/// is used would depend on the program that unpacks the archive.
+/// Returns an error for each Rust file with the same path as an earlier file. Which of the two
+/// files is used would depend on the program that unpacks the archive.
 pub(super) fn duplicate_paths(members: &[Member]) -> Vec<ArchiveError> {
     let mut known: BTreeMap<String, &str> = BTreeMap::new();
     let mut errors = Vec::new();

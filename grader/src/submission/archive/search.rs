@@ -36,9 +36,10 @@ fn inner_archive(
     }
 }
 
-/// Adds to a search the folders in an archive that contain task files or copies of them. `name` is
-/// prepended to their paths. `level` is 1 unless the archive is nested. A nested archive that
-/// cannot be read is added to the search's errors. Returns the names at the archive's top level.
+/// Searches an archive. Adds its folders that contain task files, or copies of task files, to
+/// `search`. `name` is prepended to their paths. `level` is 1 unless the archive is nested. A
+/// nested archive that cannot be read is added to the search's errors. Returns the names at the
+/// archive's top level.
 pub(in crate::submission) fn search(
     bytes: ArchiveBytes,
     name: &str,

@@ -12,7 +12,7 @@ use super::{
     display_name, normalize_path,
 };
 
-/// The maximum number of bytes per member to read for listing the contents. This is roughly the
+/// The maximum number of bytes to read per member when listing the contents. This is roughly the
 /// size of a member's entry in the central directory.
 const DIRECTORY_BYTES: u64 = 168;
 

@@ -77,7 +77,7 @@ pub(super) struct Lookalike {
     pub(super) path: String,
     /// The name of the task file.
     pub(super) file: &'static str,
-    /// How the file's name resembles that of the task file.
+    /// How the file's name resembles the task file's name.
     pub(super) kind: Resemblance,
     /// The contents of the file.
     pub(super) contents: FileContents,
@@ -93,7 +93,7 @@ pub(super) fn is_skipped(name: &str, handed_out: &HandedOut) -> bool {
     is_skipped_name(name) || handed_out.assignment.other_folders.contains(&name)
 }
 
-/// Chooses the task files to grade: those of a [folder](choose_folder). Returns `None` if there are
+/// Chooses the task files to grade, as described in [`choose_folder`]. Returns `None` if there are
 /// no candidates. `path` is the submission's path, for messages.
 ///
 /// The result is an error if there is a different copy next to a chosen file, or if a chosen file
@@ -191,7 +191,7 @@ pub(super) fn choose(
 }
 
 /// Chooses the folder with the most task files that differ from the starter's, which is the first
-/// of these candidates. Returns notes about the others and about files with a different name.
+/// of these candidates. Returns notes about the other folders and about files with different names.
 ///
 /// A folder is ignored if the chosen folder contains all of its files too. If the files differ,
 /// there is a note. A folder that contains as many files as the chosen one, or a file that the
@@ -234,8 +234,8 @@ fn choose_folder(
     Ok((chosen, notes))
 }
 
-/// Combines the task files in several folders. A file that is unmodified in some folders is taken
-/// from another one. Fails if there are different versions of a file.
+/// Combines the task files in several folders. If a file is modified in some folders but not in
+/// others, the modified version is used. Fails if there are different versions of a file.
 fn combine(
     path: &Path,
     candidates: &[Candidate],
@@ -275,7 +275,7 @@ fn combine(
 /// The bytes of a task file, or the reason there are none.
 pub(super) type FileContents = Result<Vec<u8>, TaskFileError>;
 
-/// Returns the error for different copies of these task files.
+/// Returns the error to report when there are differing copies of these task files.
 fn ambiguous(path: &Path, files: &[&str], copies: Vec<&str>) -> SubmissionError {
     SubmissionError::Ambiguous {
         path: path.to_owned(),
@@ -284,8 +284,8 @@ fn ambiguous(path: &Path, files: &[&str], copies: Vec<&str>) -> SubmissionError 
     }
 }
 
-/// Returns the error for task files that are unmodified although changed copies of them exist. Each
-/// file is named once.
+/// Returns the error to report when task files are unmodified although changed copies of them
+/// exist. The error names each file once.
 fn starter_beside_copies(
     path: &Path,
     starters: BTreeSet<&str>,
@@ -319,8 +319,8 @@ impl Candidate {
             .map(|(name, contents)| (*name, contents))
     }
 
-    /// Returns the files that are changed in the other folder and different in this one. Returns
-    /// `None` if the other folder could be the one that the student meant to hand in.
+    /// Returns the files that are modified in the other folder and differ from those in this one.
+    /// Returns `None` if the other folder could be the one that the student meant to hand in.
     fn differing_files(
         &self,
         other: &Candidate,
@@ -335,8 +335,8 @@ impl Candidate {
         (is_less || differing.is_empty()).then_some(differing)
     }
 
-    /// Returns the error for two different versions of a task file. Other files that also differ in
-    /// these places are named too.
+    /// Returns the error to report when two folders contain different versions of a task file. It
+    /// also names any other files that differ between the same two places.
     fn conflict(
         &self,
         other: &Candidate,
@@ -413,7 +413,7 @@ pub(super) fn is_starter(name: &str, contents: &FileContents, handed_out: &Hande
 }
 
 /// Returns the position of a folder in the assignment's list of folders. A listed folder may be at
-/// the top level or in a folder there. Other folders come last.
+/// the top level or inside a top-level folder. Other folders come last.
 fn rank(folder: &str, handed_out: &HandedOut) -> usize {
     let folders = handed_out.assignment.folders;
     let position = |folder: &str| folders.iter().position(|known| *known == folder);

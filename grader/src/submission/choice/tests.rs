@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::handed_out::RAYS;
 
-/// Returns a folder with these task files, each specified by its number and its text. An empty text
-/// stands for the starter's.
+/// Returns a folder with these task files, each specified by its number and its text. Empty text
+/// stands for the starter's text.
 fn candidate(folder: &str, files: &[(usize, &str)]) -> Candidate {
     let mut candidate = Candidate {
         folder: folder.to_owned(),

@@ -93,7 +93,8 @@ impl Search {
     }
 
     /// Returns the path of the last of these versions of a task file that differs from the
-    /// starter's, or simply the last one. If an earlier one differs too, there is a note.
+    /// starter's or, if none does, of the last version. Adds a note if earlier work differs from
+    /// the version returned.
     fn last_version<'a>(
         &mut self,
         name: &str,
@@ -131,7 +132,7 @@ impl Search {
     }
 
     /// Searches a folder and its subfolders for task files. `below` is the folder's path relative
-    /// to the submission's.
+    /// to the submission.
     fn visit(&mut self, folder: &Folder, below: &str) -> Result<(), SubmissionError> {
         let path = self.submission.join(below);
         let names = list(folder, &path)?;

@@ -1,4 +1,4 @@
-//! does = "It includes the bytes of a file of the machine."
+//! does = "It includes the bytes of a file on the machine."
 //! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]

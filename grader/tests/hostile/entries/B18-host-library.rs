@@ -1,4 +1,4 @@
-//! does = "It links a library of the machine."
+//! does = "It links a library from the machine."
 //! into = "sphere.rs"
 //! verdicts = ["not_compiled"]
 //! slow = true

@@ -1,4 +1,4 @@
-//! does = "Each attempt to compile it finds another file that takes long."
+//! does = "Each attempt to compile it finds another file that takes a long time."
 //! into = "sphere.rs"
 //! also_into = ["bbox.rs"]
 //! within = ["hit"]

@@ -1,4 +1,4 @@
-//! does = "It writes an answer to every file descriptor, which it gets by a soundness hole."
+//! does = "It writes an answer to every file descriptor, through a soundness hole."
 //! into = "camera.rs"
 //! uses_hole = true
 //! within = ["sample_ray"]

@@ -1,4 +1,4 @@
-//! does = "It closes every file descriptor, which it gets by a soundness hole, and keeps running."
+//! does = "It closes every file descriptor through a soundness hole, and keeps running."
 //! into = "camera.rs"
 //! uses_hole = true
 //! within = ["sample_ray"]

@@ -1,4 +1,4 @@
-//! does = "It replaces the folder of the reports with its own."
+//! does = "It replaces the folder for the reports with its own."
 //! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]

@@ -1,4 +1,4 @@
-//! does = "It reads the key, passwords, its own program and the folders of all users."
+//! does = "It reads the key, passwords, its own program file and every user's folders."
 //! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]

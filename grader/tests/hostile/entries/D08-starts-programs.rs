@@ -1,4 +1,4 @@
-//! does = "It starts programs, and itself."
+//! does = "It starts other programs, and itself."
 //! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]

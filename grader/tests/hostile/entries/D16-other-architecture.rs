@@ -9,8 +9,8 @@
 //! [points]
 //! camera = 0
 
-/// Contains, in a constant, the machine code of `mov eax, 20; int 0x80; ret`: the call `getpid` of
-/// 32-bit programs on x86.
+/// Contains, in a constant, the machine code of `mov eax, 20; int 0x80; ret`: the `getpid` system
+/// call of 32-bit x86 programs.
 #[inline(never)]
 fn hidden() -> u64 {
     std::hint::black_box(0xc380_cd00_0000_14b8)

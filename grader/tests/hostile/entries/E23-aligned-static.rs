@@ -1,4 +1,4 @@
-//! does = "Its static variable has the largest alignment, so that it may not start."
+//! does = "Its static variable has the largest possible alignment, so it might not start."
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 //! verdicts = ["crashed", "timed_out", "not_compiled"]

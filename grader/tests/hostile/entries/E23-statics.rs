@@ -1,4 +1,4 @@
-//! does = "Its static variables exceed its limit of memory, so that it does not start."
+//! does = "Its static variables exceed its memory limit, so it does not start."
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 //! verdicts = ["crashed", "timed_out"]

@@ -1,4 +1,4 @@
-//! does = "Its thread-local variables leave no room for the stack, so that it does not start."
+//! does = "Its thread-local variables leave no room for the stack, so it does not start."
 //! # Without a sandbox, programs are linked dynamically, and this one starts.
 //! least = "no-namespaces"
 //! into = "camera.rs"

@@ -1,4 +1,4 @@
-//! does = "Its `bvh.rs` does not start with the reference's parts, but starts with its own files."
+//! does = "A program built from its own files starts, but one built from its `bvh.rs` and the reference's parts does not."
 //! base = "starter"
 //! into = "bvh.rs"
 //! within = ["hit"]

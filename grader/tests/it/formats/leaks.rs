@@ -81,7 +81,7 @@ fn hidden_items_are_left_out_or_summed_up() {
             "hidden", visible, visible, later, later, visible, visible, visible
         ]
     );
-    // Platforms that cannot reveal an item later only get the sum of the points.
+    // If a platform cannot reveal items later, it only gets the sum of their points.
     let others = student_formats().filter(|format| format.id != "gradescope");
     for format in others.map(|format| format.id) {
         let text = models::readable(format, &written[format]);

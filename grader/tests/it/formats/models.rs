@@ -66,7 +66,7 @@ struct Gradescope {
 #[serde(deny_unknown_fields)]
 #[allow(dead_code, reason = "only their presence is tested")]
 struct GradescopeTest {
-    // A test without points only shows a text.
+    // A test without points only shows text.
     score: Option<f64>,
     max_score: Option<f64>,
     status: Option<Status>,

@@ -1,5 +1,5 @@
-//! Text written by a submission never changes a number that a platform reads, as injected markup,
-//! keys or lines would.
+//! Text written by a submission never changes a number that a platform reads. Injected markup, keys
+//! or lines would change numbers.
 
 use std::sync::LazyLock;
 
@@ -34,7 +34,7 @@ fn hostile_text() -> impl Strategy<Value = String> {
     proptest::collection::vec(part, 1..4).prop_map(|parts| parts.concat())
 }
 
-/// The numbers in each format's file for a submission that writes an ordinary text.
+/// The numbers in each format's file for a submission that writes ordinary text.
 static PLAIN_NUMBERS: LazyLock<Vec<(&str, Vec<String>)>> = LazyLock::new(|| all_numbers("x"));
 
 /// Returns the numbers in each format's file for a submission that writes this text everywhere.
@@ -113,7 +113,7 @@ fn xml_numbers(file: &str) -> Vec<String> {
     let elements = document.descendants().filter(roxmltree::Node::is_element);
     let numbers = elements.map(|element| {
         let is_number = |attribute: &roxmltree::Attribute| {
-            // A message is a text, even if it is a number.
+            // A message is text, even if it looks like a number.
             attribute.name() != "message" && attribute.value().parse::<f64>().is_ok()
         };
         let attributes = element.attributes().filter(is_number);

@@ -45,7 +45,7 @@ pub struct Tab {
 }
 
 impl Tab {
-    /// Opens a tab of the browser at `address`.
+    /// Opens a tab in the browser at `address`.
     pub fn open(address: &str) -> Self {
         let host = address.strip_prefix("ws://").unwrap();
         let host = host.split('/').next().unwrap();
@@ -70,12 +70,12 @@ impl Tab {
         tab
     }
 
-    /// Loads a file and waits until it is loaded.
+    /// Opens a file and waits until the page has loaded.
     pub fn load(&mut self, file: &Path, reader: Viewer) {
         self.open_url(&format!("file://{}", file.display()), reader);
     }
 
-    /// Loads an address and waits until it is loaded.
+    /// Opens an address and waits until the page has loaded.
     pub fn open_url(&mut self, url: &str, reader: Viewer) {
         self.resize(reader.width, 900);
         let scheme = if reader.dark { "dark" } else { "light" };
@@ -193,7 +193,7 @@ impl Tab {
             .unwrap()
     }
 
-    /// Returns the errors on the console since the page was loaded, such as exceptions and
+    /// Returns the errors logged to the console since the page was loaded, such as exceptions and
     /// violations of the content security policy.
     pub fn errors(&mut self) -> Vec<String> {
         // Wait for an answer, so that all events sent before it are received.

@@ -4,7 +4,7 @@ use std::fs;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The unit of CPU times, on all usual machines.
+/// The unit of CPU times on all common machines.
 const TICK: Duration = Duration::from_millis(10);
 
 /// Waits until `happened` returns a value. The time limit is long, because other jobs may slow down
@@ -20,7 +20,8 @@ pub fn eventually<T>(mut happened: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// Returns the name of a process and the words after it: the state, the parent and so on.
+/// Returns the name of a process and the words that follow the name in `/proc`: the state, the
+/// parent and so on.
 fn stat(process: u32) -> Option<(String, Vec<String>)> {
     let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     // The name in parentheses may contain spaces and parentheses.

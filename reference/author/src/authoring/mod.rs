@@ -12,16 +12,16 @@ pub use rays::RAYS;
 /// The assignments that `--assignment` selects from. The first is the default.
 pub static ASSIGNMENTS: [&Authoring; 1] = [&RAYS];
 
-/// An assignment as its authors see it. Apart from the reference, its solutions are files in
-/// [`HandedOut::solutions`]: mistakes, variants and equivalent mutants.
+/// An assignment as its authors see it. Its solutions other than the reference (mistakes, variants
+/// and equivalent mutants) are files in the folder [`HandedOut::solutions`].
 #[derive(Debug)]
 pub struct Authoring {
     /// The assignment as handed out to students.
     pub handed_out: &'static HandedOut,
     /// The file of the practice exam, relative to the workspace's root.
     pub practice_exam: &'static str,
-    /// The tasks, in lecture order. Keys for pictures are recorded from the reference, because
-    /// nothing else can provide them.
+    /// The tasks, in lecture order. The keys for rendered pictures are recorded from the reference,
+    /// because nothing else can provide them.
     pub tasks: &'static [&'static AuthoredTask],
     /// The folders and files with oracles, relative to the workspace's root. Their formulas are
     /// secret.
@@ -35,7 +35,7 @@ pub struct Authoring {
 pub struct Attack {
     /// The task file.
     pub file: &'static str,
-    /// The first line of the method.
+    /// The first line of the method that calls the attack.
     pub method: &'static str,
     /// The name of the entry in the corpus, without `.rs`.
     pub entry: &'static str,

@@ -19,7 +19,7 @@ const COPIED: [&str; 7] = [
     "student/framework",
     "student/protocol",
 ];
-/// Names of folders that only staff need. Folders with these names are never copied, at any depth.
+/// The names of folders that only staff need. At any depth, folders with these names are skipped.
 const EXCLUDED_NAMES: [&str; 5] = ["tests", "snapshots", "benches", "fuzz", "target"];
 /// Files and folders about grading a class or running untrusted code, which are only for staff.
 const STAFF_PATHS: [&str; 6] = [

@@ -11,7 +11,8 @@ use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
 const ALIASES: [&str; 5] = ["grade", "handin", "render", "view", "examples"];
-/// The manifest of the only crate whose tests are in the bundle. They are the worked examples.
+/// The manifest of the only crate whose tests are in the bundle. These tests are the worked
+/// examples.
 const STUDENT_MANIFEST: &str = "student/Cargo.toml";
 /// The manifest keys for tests and benches, which aren't in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
@@ -61,8 +62,8 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     Ok(())
 }
 
-/// Declares that a crate contains no tests or benches. Otherwise, editors would try to compile the
-/// leftovers of its tests after each save, which would fail.
+/// Declares that a crate contains no tests or benches. Otherwise, after each save, editors would
+/// try and fail to compile what is left of its tests.
 fn leave_out_tests(manifest: &mut DocumentMut) {
     let programs = manifest.get_mut("bin");
     let programs = programs.and_then(Item::as_array_of_tables_mut);

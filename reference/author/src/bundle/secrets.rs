@@ -17,7 +17,7 @@ use crate::bundle::Bundle;
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
-/// The folders with given code, whose lines solutions may repeat.
+/// The folders with given code. Solutions may repeat lines of this code.
 const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
 /// The minimum length of a secret line, not counting white space. Shorter lines can match by
 /// coincidence.
@@ -77,7 +77,8 @@ impl Secrets {
                 secrets.read(root, &folder)?;
             }
         }
-        // The source with the same name as the file replaces some of the file's functions.
+        // A substitution's folder contains a source with the name of the substituted file, which
+        // replaces some of that file's functions.
         for substituted in handed_out.substitutions {
             let (folder, file) = (substituted.folder(), substituted.file);
             secrets.read(root, &format!("{solutions}/{folder}/{file}"))?;

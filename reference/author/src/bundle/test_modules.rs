@@ -6,7 +6,7 @@ use crate::bundle::Bundle;
 /// The attribute on the line above the declaration of a test module.
 const CFG_TEST: &str = "#[cfg(test)]";
 
-/// Removes every test module in a separate file, along with its declaration.
+/// Removes every test module that has its own file, along with the module's declaration.
 pub(super) fn remove(bundle: &mut Bundle) {
     let sources: Vec<String> = bundle.files.keys().cloned().collect();
     for path in sources.iter().filter(|path| path.ends_with(".rs")) {

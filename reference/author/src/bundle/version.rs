@@ -15,10 +15,10 @@ use toml_edit::{DocumentMut, Item, value};
 use crate::bundle::Bundle;
 use crate::bundle::manifests::parse;
 
-/// The number of digits of a version.
+/// The number of digits in a version.
 const DIGITS: usize = 12;
 
-/// Adds the version to all manifests of a bundle, which must not have a lock file yet.
+/// Adds the version to all manifests in a bundle. The bundle must not have a lock file yet.
 pub(super) fn add(root: &Path, handed_out: &HandedOut, bundle: &mut Bundle) -> Result<()> {
     let mut hash = ContentHash::default();
     // The dependencies are part of what students get.

@@ -17,7 +17,7 @@ use crate::domains::classes::{Cell, Classes, FEWEST};
 use crate::generated_file::GeneratedFile;
 use crate::items::{AuthoredTask, Declaration};
 
-/// The table, relative to the folder of an assignment's solutions.
+/// The path of the table, relative to the folder that contains an assignment's solutions.
 const TABLE: &str = "coverage.md";
 
 /// The table and its problems.
@@ -54,9 +54,10 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
         "# Coverage of the contract\n\n\
          Written by `cargo author coverage` for the {} exam. First come the sentences that \
          document the methods students write, with the items that test them. Then, for each \
-         function, the number of answers that test each class of its domain: those with a result, \
-         those that are `None`, and those where a quantity is judged. Each class needs at least \
-         {FEWEST}. A letter refers to the reason for fewer, below the table.\n",
+         function, come the numbers of answers that test each class of its domain, counted \
+         separately for answers with a result, for answers that are `None` and for each judged \
+         quantity. Each class needs at least {FEWEST} answers. A letter stands for the reason why \
+         there are fewer, which is given below the table.\n",
         exam.id
     );
     let mut coverage = Coverage {
@@ -77,7 +78,7 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
     Ok(coverage)
 }
 
-/// Returns the authored task with this id, which contains its items.
+/// Returns the authored task that contains the items of the task with this id.
 fn authored_task(id: &str, tasks: &[&'static AuthoredTask]) -> Result<&'static AuthoredTask> {
     let is_of_task = |item: &Declaration| item.id.split_once('.').is_some_and(|it| it.0 == id);
     let mut tasks = tasks.iter().copied();

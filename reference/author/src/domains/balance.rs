@@ -8,7 +8,7 @@ use crate::seed::Rng;
 
 /// The number of suitable calls to compare.
 const CANDIDATES: usize = 48;
-/// The maximum number of calls drawn to find that many suitable ones.
+/// The maximum number of calls to draw in search of that many suitable calls.
 const ATTEMPTS: usize = 1000;
 
 /// Counts how often each class has been chosen.
@@ -34,7 +34,7 @@ impl<C> Balance<C> {
         }
     }
 
-    /// Starts a group for the next calls. Each class should occur in every group, too.
+    /// Starts a group for the next calls. Each class should also occur in every group.
     pub fn begin(&mut self, group: usize) {
         self.group = group;
     }

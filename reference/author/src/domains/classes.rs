@@ -14,7 +14,8 @@ const PRESENT: &str = "some";
 /// The column for calls whose answer is `None`.
 const ABSENT: &str = "`None`";
 
-/// How often each class of each aspect is tested, for hits, misses and each quantity of a hit.
+/// How often each class of each aspect is tested, counted separately for hits, for misses and for
+/// each quantity of a hit.
 #[derive(Debug)]
 pub struct Classes {
     /// The columns that occur.
@@ -146,11 +147,11 @@ pub struct Cell {
     pub aspect: &'static str,
     /// The class of the aspect.
     pub class: &'static str,
-    /// The name of the column, such as a quantity that is judged.
+    /// The name of the column, such as a judged quantity.
     pub column: String,
     /// The number of answers.
     pub count: usize,
-    /// The reason an exam need not test it, if there is one.
+    /// The reason why an exam need not test the class in this column, if there is one.
     pub reason: Option<&'static str>,
 }
 
@@ -168,7 +169,7 @@ pub struct Pair {
     pub classes: [(&'static str, &'static str); 2],
     /// The number of answers.
     pub count: usize,
-    /// The reason an exam need not test it, if there is one.
+    /// The reason why an exam need not test the pair, if there is one.
     pub reason: Option<&'static str>,
 }
 

@@ -33,7 +33,8 @@ pub const SIZES: &[&str] = &[
 /// All classes of lengths. Lengths of about one come first, since a report shows the first wrong
 /// answer.
 pub const EVERY_SIZE: &[usize] = &[5, 4, 6, 3, 7, 2, 8, 1, 0];
-/// The classes of most lengths. Others are tested where an absolute threshold could matter.
+/// The classes of lengths that most items use. The other classes are tested where an absolute
+/// threshold could matter.
 pub const USUAL: &[usize] = &[5, 4, 6, 7, 8];
 /// The classes of lengths below one tenth.
 pub const SMALL: &[usize] = &[3, 2, 1, 0];
@@ -128,8 +129,8 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
 }
 
 /// Draws a position for a shape of this size. No coordinate of the shape exceeds the largest
-/// coordinate of a scene, and the shape is at most 5,000 times its size away. Some positions are on
-/// an axis.
+/// coordinate of a scene, and the shape is at most 5,000 times its size away from the origin. Some
+/// positions are on an axis.
 pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
     let furthest = (FURTHEST - size).min(5000.0 * size);
     let mut position = match rng.index(PLACES.len()) {
@@ -280,7 +281,8 @@ pub fn ray_toward(
     (start.abs().max_element() <= FURTHEST).then_some((start, dir))
 }
 
-/// Draws the start of a ray toward a target. The start is up to 30 times this size away.
+/// Draws the start of a ray toward a target. The start is up to 30 times this size away from the
+/// target.
 fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
     let start = rng.vector(0.5, 1.0) * FURTHEST * -target.signum();
     (start.distance(target) < 29.0 * size).then_some(start)
@@ -291,7 +293,7 @@ pub fn is_same_line(a: &Ray, b: &Ray) -> bool {
     a.origin == b.origin && a.dir == b.dir
 }
 
-/// Returns whether two rays differ, but no number differs by more than a five-thousandth of its
+/// Returns whether two rays differ, but none of their numbers by more than a five-thousandth of its
 /// value.
 pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
     const MOST: f32 = 2e-4;

@@ -117,7 +117,7 @@ impl UntestedClasses {
     }
 }
 
-/// An aspect of the first call on a subject that follows another subject.
+/// An aspect that applies only to the first call on a subject, if another subject comes before it.
 const SUBJECT_BEFORE: (&str, &[&str]) = ("first call", &["after another subject"]);
 
 /// The domain of any function.

@@ -120,8 +120,8 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     (!is_known).then(|| format!("no command has the flag {flag}"))
 }
 
-/// Returns the problem with the first argument of `cargo examples` that isn't the name of a file or
-/// a flag of the test harness.
+/// Returns the problem with the first argument of `cargo examples` that is neither the name of a
+/// file nor a flag of the test harness. Returns `None` if every argument is one of the two.
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");

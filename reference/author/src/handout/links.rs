@@ -48,9 +48,9 @@ fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
 /// The file with the table of contents.
 pub const SUMMARY: &str = "SUMMARY.md";
 
-/// Returns a problem for each item without a section, and for each section that the exam or
-/// `others` refer to but that doesn't exist. Each element of `others` consists of a section and a
-/// name for the thing that refers to it.
+/// Returns a problem for each item without a section, and for each reference from the exam or
+/// `others` to a section that doesn't exist. Each element of `others` consists of a name for the
+/// thing that refers to a section, and that section.
 pub fn missing_sections(
     pages: &[Page],
     exam: &Exam,

@@ -49,8 +49,8 @@ pub struct SourceFile {
     pub text: String,
 }
 
-/// Returns all problems with the handout of the workspace at `root`: broken links, missing sections
-/// that the exam refers to, and unknown names and commands.
+/// Returns all problems with the handout of the workspace at `root`: broken links, references from
+/// the exam to missing sections, and unknown names and commands.
 pub fn problems(
     root: &Path,
     assignment: &Assignment,
@@ -84,8 +84,8 @@ pub fn problems(
     Ok(all)
 }
 
-/// Returns the sections that something outside an exam refers to. Each comes with a description of
-/// the thing that refers to it, for use in messages.
+/// Returns the sections that are referred to from outside an exam. Each comes with a description of
+/// what refers to it, for use in messages.
 fn other_sections(assignment: &Assignment) -> impl Iterator<Item = (String, Section)> {
     let challenge = assignment.challenge.into_iter();
     let challenge = challenge.map(|section| ("the challenge".to_owned(), Section::new(section)));
@@ -100,7 +100,7 @@ fn other_sections(assignment: &Assignment) -> impl Iterator<Item = (String, Sect
     challenge.chain(clues).chain(errors)
 }
 
-/// Returns the paths of the figures, relative to the chapters.
+/// Returns the paths of the figures, relative to the chapters' folder.
 fn figures(files: &BTreeSet<String>) -> BTreeSet<String> {
     let chapters = format!("{CHAPTERS}/");
     let names = files.iter().filter_map(|file| file.strip_prefix(&chapters));

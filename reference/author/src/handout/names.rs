@@ -108,8 +108,9 @@ fn is_path(text: &str) -> bool {
     text.chars().all(plain) && (endings.iter().any(|ending| text.ends_with(ending)))
 }
 
-/// Returns whether a path exists. It can be relative to the root or be the end of any file's path.
-/// A path that occurs in the sources also counts, because a program may write the file.
+/// Returns whether a path exists. The path can be relative to the root, or it can be the end of any
+/// file's path. A path that occurs in the sources is accepted too, because a program may write that
+/// file.
 fn path_exists(path: &str, known: &KnownNames) -> bool {
     let folder = path.strip_suffix('/');
     let named = |file: &String| match folder {

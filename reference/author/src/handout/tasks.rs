@@ -30,8 +30,9 @@ const NEXT: &str = "Next: ";
 const END_OF_CONTRACT: &str = "<!-- end of the contract -->";
 
 /// Generates the chapters and the pages that list an assignment's tasks, for the workspace at
-/// `root`. On each page, only the list is replaced. In each chapter, the contract, which is the
-/// documentation of the method to write, and the link to the next chapter are replaced.
+/// `root`. On each of these pages, only the list is replaced. In each chapter, two things are
+/// replaced: the contract, which is the documentation of the method to write, and the link to the
+/// next chapter.
 pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<GeneratedFile>> {
     let mut chapters: Vec<(&str, String)> = Vec::new();
     let (mut links, mut chapter_rows, mut task_rows) = (Vec::new(), Vec::new(), Vec::new());
@@ -91,7 +92,7 @@ fn page(root: &Path, name: &str) -> Result<String> {
     Ok(files::read_to_string(root.join(CHAPTERS).join(name))?)
 }
 
-/// Returns a link to a chapter, with its first heading as the text.
+/// Returns a link to a chapter, with the chapter's first heading as the link's text.
 fn link(root: &Path, chapter: &str) -> Result<String> {
     let headings = Page::new(chapter, &page(root, chapter)?).headings;
     let title = headings.first();

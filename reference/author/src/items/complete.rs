@@ -1,4 +1,4 @@
-//! Makes every exam test every class of a task's domain, by drawing items again until it does.
+//! Draws items again until every exam tests every class of each task's domain.
 
 use std::collections::BTreeMap;
 use std::mem;
@@ -39,8 +39,8 @@ fn practice_items(task: &AuthoredTask, items: &[Declaration]) -> Arc<Vec<Declare
     Arc::clone(practice)
 }
 
-/// Draws the items of a task. As long as a class of the task's domain is missing, an item that
-/// could test it is drawn again. The new item is kept if that leaves fewer classes missing.
+/// Draws the items of a task. While any class of the task's domain is missing, items that could
+/// test it are drawn again. A new item is kept only if fewer classes are missing with it.
 fn draw_complete(
     seed: Seed,
     task: &AuthoredTask,
@@ -91,7 +91,8 @@ fn missing_columns(domain: &dyn Domain, drawn: &[DeclaredItem]) -> Vec<String> {
     cells.chain(pairs.map(|_| String::new())).collect()
 }
 
-/// Returns whether an item tests the domain's function in one of these columns.
+/// Returns whether an item tests the domain's function in at least one of these columns. An empty
+/// name stands for any column.
 fn asks_any(domain: &dyn Domain, item: &DeclaredItem, columns: &[String]) -> bool {
     let asked = Classes::count(domain, [item.item()]).columns;
     let is_asked = |column: &String| column.is_empty() || asked.contains(column);

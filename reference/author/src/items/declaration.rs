@@ -15,7 +15,7 @@ pub struct AuthoredTask {
     pub items: &'static [Declaration],
     /// The points for items whose declarations don't state them.
     pub points: &'static [(&'static str, u32)],
-    /// Changes the questions of all items when they are drawn.
+    /// Changes the items' questions after they have been drawn.
     pub finish: fn(Seed, &mut [DeclaredItem]),
     /// The sentences of the method's documentation that no item tests, each with the reason.
     pub untested: &'static [(&'static str, &'static str)],
@@ -24,7 +24,8 @@ pub struct AuthoredTask {
 }
 
 impl AuthoredTask {
-    /// A task without items, to start a declaration from. All of its contract is tested.
+    /// A task without items, as a starting point for declarations. Its whole contract is considered
+    /// tested.
     pub const NEW: AuthoredTask = AuthoredTask {
         items: &[],
         points: &[],
@@ -50,7 +51,7 @@ impl AuthoredTask {
 pub struct Declaration {
     /// The task's id, a dot, and a name, such as `sphere.near_side`.
     pub id: &'static str,
-    /// The points for correct answers to all questions. Most items are worth one point.
+    /// The points for answering all questions correctly. Most items are worth one point.
     pub points: u32,
     /// A sentence that states the requirement. Students see it as feedback.
     pub title: &'static str,
@@ -61,8 +62,8 @@ pub struct Declaration {
     pub look_fits: &'static [Symptom],
     /// The section of the handout that teaches the requirement.
     pub section: &'static str,
-    /// The sentences of the method's documentation that the item tests, either in full or up to an
-    /// ellipsis.
+    /// The sentences of the method's documentation that the item tests, each quoted in full or up
+    /// to an ellipsis.
     pub tests: &'static [&'static str],
     /// Draws the item's questions.
     pub questions: fn(&mut Rng) -> Vec<ExamQuestion>,
@@ -76,7 +77,7 @@ pub struct Declaration {
 ///
 /// An item needs a group only if mistakes in that group could make the item fail even though its
 /// own task is solved correctly. A student who fails an item and one of the items it needs is
-/// advised to fix the latter first.
+/// advised to fix the needed item first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group(pub &'static str);
 

@@ -8,7 +8,7 @@ use protocol::Answer;
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
-/// Draws an item whose questions all differ from those of this item in the practice exam.
+/// Draws an item whose questions all differ from the same item's questions in the practice exam.
 pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> DeclaredItem {
     const MAX_ATTEMPTS: usize = 1000;
     let is_distinct = |drawn: &DeclaredItem| !shares_a_question(drawn.item(), practice);
@@ -22,10 +22,10 @@ pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> 
 /// Returns whether the correct answer to a question of one item earns points for a question of the
 /// other item.
 ///
-/// Some questions are left out. If all rows have the same answer, e.g. the length of a direction,
-/// or if no ray hits anything, only one answer exists. A tree answers only questions about its own
-/// primitives, and these depend on the seed. The same applies to the random number behind a picture
-/// that hasn't been recorded yet.
+/// Some questions are skipped. If all rows have the same answer, e.g. the length of a direction, or
+/// if no ray hits anything, only one answer is possible. A tree answers only questions about its
+/// own primitives, which depend on the seed. A picture that hasn't been recorded yet depends on a
+/// random number, which also depends on the seed.
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     let answers = other.questions.iter();
     let answers: Vec<Answer> = answers.filter_map(|asked| asked.key.answer()).collect();
@@ -61,7 +61,8 @@ mod tests {
 
     #[test]
     fn an_item_that_shares_a_question_is_drawn_again() {
-        // A small film can only have a few sizes, so some seeds draw one from the practice exam.
+        // A small film can only have a few sizes, so some seeds draw the same size as the practice
+        // exam.
         let sizes = |seed| camera::TASK.draw(seed).remove(0);
         let practice = sizes(Seed::PRACTICE);
         let corners = camera::CORNERS;

@@ -46,7 +46,7 @@ pub fn number_shapes(shapes: impl IntoIterator<Item = Shape>) -> Vec<Shape> {
     with_numbers(shapes, 0..)
 }
 
-/// Returns the shapes with these numbers.
+/// Returns the shapes, with these numbers assigned to them in order.
 pub fn with_numbers(
     shapes: impl IntoIterator<Item = Shape>,
     numbers: impl IntoIterator<Item = u32>,
@@ -68,8 +68,8 @@ pub fn random_flat_triangle(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     flat_triangle(corners.map(|corner| center + corner), 0)
 }
 
-/// Returns a triangle like those of [`random_flat_triangle`], except that `center` is the centre of
-/// its bounding box.
+/// Returns a triangle like those from [`random_flat_triangle`], except that `center` is the centre
+/// of its bounding box.
 pub fn random_triangle_with_box_around(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     let corners = random_corners(rng, size);
     let middle = Bounds::around(corners).center();
@@ -83,8 +83,8 @@ fn random_corners(rng: &mut Rng, size: f64) -> [DVec3; 3] {
     [corner(-0.8, -0.5), corner(0.8, -0.5), corner(0.0, 0.9)]
 }
 
-/// Returns `count` flat triangles with random sizes from half of `size` to `size`. Their centres
-/// are random points in the cube from −`half` to `half`.
+/// Returns `count` flat triangles with random sizes between half of `size` and `size`. Their
+/// centres are random points in the cube from −`half` to `half`.
 pub fn soup(rng: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
     let triangles = (0..count).map(|_| {
         let center = rng.point(half);
@@ -102,8 +102,9 @@ pub fn strand(rng: &mut Rng, center: DVec3, axis: usize, length: f64) -> Shape {
 }
 
 /// Returns long, thin triangles: along x in one region, along y in another, and along z in a third.
-/// Splitting along the strands' direction gains little, but this is the longest axis of a node in
-/// one region, so a builder that only splits along the longest axis builds a poor tree.
+/// Splitting along the strands' direction gains little, but within one region, it is the direction
+/// of a node's longest axis, so a builder that only splits along the longest axis builds a poor
+/// tree.
 pub fn strands(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let strands = (0..count).map(|i| {
         let axis = i % 3;
@@ -167,8 +168,8 @@ pub fn clumps(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
-/// Returns pairs of triangles that form rectangles across the axes. Both triangles of a pair have
-/// the same box.
+/// Returns pairs of triangles that form axis-aligned rectangles. Both triangles of a pair have the
+/// same box.
 pub fn rectangles(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let rectangles = (0..count).flat_map(|index| {
         let [x, y] = [1, 2].map(|next| rng.uniform(0.4, 1.2) * DVec3::AXES[(index + next) % 3]);
@@ -186,9 +187,8 @@ pub fn many_spheres(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
-/// Returns spheres in a cube of the largest extent that a scene may have, half of them in a few
-/// clusters. Their coordinates have few digits, so that even many spheres take up little space in
-/// an exam.
+/// Returns spheres in a cube that is as large as a scene may be, half of them in a few clusters.
+/// Their coordinates have few digits, so that even many spheres take up little space in an exam.
 pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7).map(|_| rng.point(900.0)).collect();
     let spheres = (0..count).map(|i| {

@@ -27,8 +27,8 @@ fn axes(rng: &mut Rng) -> [DVec3; 3] {
 }
 
 /// Creates a question with rays that hit a triangle from the front and rays that pass beside it.
-/// All rays are perpendicular to the triangle. Its legs are parallel to two axes and 4 long, so the
-/// weights are multiples of a quarter.
+/// All rays are perpendicular to the triangle. The triangle's legs are parallel to two axes and
+/// have length 4, so the weights are multiples of a quarter.
 pub(super) fn triangle(rng: &mut Rng) -> ExamQuestion {
     let corner = whole_point(rng);
     let [right, up, _] = axes(rng);
@@ -128,8 +128,8 @@ pub(super) fn tree(rng: &mut Rng) -> (Tree, Vec<Ray>) {
     (tree, rays.to_vec())
 }
 
-/// Returns a ray from outside a box toward its surroundings, if it hits or misses the box as
-/// required.
+/// Draws a ray that starts outside the box. Returns `None` unless the ray clearly hits or misses
+/// the box, as required.
 fn box_ray(rng: &mut Rng, bounds: &Bounds, is_hit: bool) -> Option<Ray> {
     let [one, other, third] = axes(rng);
     let dir = one + 2.0 * other + 2.0 * third;

@@ -2,9 +2,10 @@
 //!
 //! At an edge, correct submissions whose rays differ only in the last bit see different surfaces.
 //! The key for a position is therefore a set of surfaces: those seen at the position itself, at
-//! four neighbours that are closer to it than any mistake would move an edge, and at positions in
-//! between. The surfaces in between are needed because the depth changes so steeply near a sphere's
-//! silhouette that a correct depth may be between the depths at two neighbours.
+//! four neighbours, and at positions in between. The neighbours are so close that any mistake would
+//! move an edge farther than that. The surfaces at positions in between are needed because the
+//! depth changes so steeply near a sphere's silhouette that a correct depth may lie between the
+//! depths at two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use judging::exam::{ExamQuestion, Key, Surface};
@@ -12,7 +13,7 @@ use protocol::{ExamCamera, Geometry, Question, Rows, Sample, Shape, Table, every
 
 use crate::oracle::{Intersection, Ray64, scan};
 
-/// The distance of the neighbours from a position along each axis, in pixels.
+/// The distance from a position to its neighbours along each axis, in pixels.
 const NEIGHBOUR_DISTANCE: f32 = 5e-4;
 /// The maximum depth of bisection between a position and a neighbour with a different surface.
 const HALVINGS: u32 = 12;

@@ -33,8 +33,8 @@ impl Transform {
         Transform { scale, offset }
     }
 
-    /// Returns the transform after which the box around these shapes has this centre and a longest
-    /// side of twice this size.
+    /// Returns the transform that moves the box around these shapes to this centre and scales its
+    /// longest side to twice this size.
     pub(super) fn around(shapes: &[Shape], size: f64, center: DVec3) -> Self {
         let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
         if bounds.half_side() <= 0.0 || shapes.is_empty() {
@@ -123,7 +123,8 @@ impl Transform {
     }
 
     /// Transforms a node. A sphere's centre and its box are rounded separately, so the box grows by
-    /// two units in the last place to still contain the sphere. A flat box stays flat.
+    /// two units in the last place to make sure that it still contains the sphere. A flat box stays
+    /// flat.
     pub(super) fn node(self, node: &TreeNode) -> TreeNode {
         let (mut min, mut max) = (self.point(node.min), self.point(node.max));
         for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! Intersects rays and boxes by clipping the ray to each pair of planes in turn.
+//! Intersects rays with boxes by clipping the ray to each pair of planes in turn.
 
 use glam::{DVec3, Vec3};
 

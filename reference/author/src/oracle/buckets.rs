@@ -3,7 +3,7 @@
 
 use crate::oracle::bbox::Bounds;
 
-/// The box that the buckets divide evenly.
+/// The box that is divided evenly into buckets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BucketExtent {
     /// The box around the centres of the primitives.
@@ -26,14 +26,14 @@ pub enum SideRule {
 pub struct BucketedBuilder {
     /// The number of buckets along each axis.
     pub count: usize,
-    /// The box that the buckets divide.
+    /// The box that is divided into buckets.
     pub extent: BucketExtent,
     /// The buckets on either side of a plane.
     pub sides: SideRule,
 }
 
 /// Returns the cost of this builder's tree, with C_trav = C_isect = 1 and areas relative to the
-/// root's. The builder follows Wald, "On fast Construction of SAH-based Bounding Volume
+/// root's area. The builder follows Wald, "On fast Construction of SAH-based Bounding Volume
 /// Hierarchies", 2007, section 3.
 pub fn cost(boxes: &[Bounds], max_leaf_size: usize, builder: BucketedBuilder) -> f64 {
     cost_with_halves(boxes, max_leaf_size, builder, &|_| false)

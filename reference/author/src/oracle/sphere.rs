@@ -1,5 +1,5 @@
-//! Intersects rays and spheres: the hits are half a chord before and after the closest approach to
-//! the centre.
+//! Intersects rays with spheres: the hits are half a chord before and after the point of closest
+//! approach to the centre.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,5 +1,5 @@
-//! The exact surface area heuristic (SAH), which takes the best of all partitions by a plane at
-//! each node.
+//! The exact surface area heuristic (SAH), which tries all partitions by a plane at each node and
+//! takes the best one.
 
 use judging::drawing_data::{LevelNode, UpperLevels};
 
@@ -71,7 +71,8 @@ pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
 
 /// Returns the gap between the two centres where the best partition splits along this axis. Returns
 /// `None` if the best partition is along another axis, or if a different partition is nearly as
-/// good, including partitions of a few primitives that no plane separates.
+/// good. If there are only a few primitives, this includes partitions whose sides no plane
+/// separates.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let mut all: Vec<Partition> = (0..3)
@@ -98,8 +99,9 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
 /// The minimum cost of the second-best partition, relative to the best.
 const MIN_RATIO: f64 = 1.05;
 
-/// Returns whether it is clear, despite rounding, if a plane across this axis also gives these
-/// sides. It is clear if the sides' centres are clearly separated, clearly mixed, or all equal.
+/// Returns whether builders agree, despite rounding, on whether a plane perpendicular to this axis
+/// also gives these sides. They agree if the sides' centres are clearly separated, clearly mixed,
+/// or all equal.
 fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) -> bool {
     /// The maximum error of a centre, relative to the largest coordinate.
     const ERROR: f64 = 5e-7;
@@ -125,9 +127,9 @@ fn given_order_is_worse(boxes: &[Bounds], cost: f64) -> bool {
     costs.into_iter().all(|other| other >= MIN_RATIO * cost)
 }
 
-/// Returns whether every way to divide a few primitives costs at least `cost`, whether or not a
-/// plane separates the sides. Such divisions are possible because rounding may sort coinciding
-/// centres in any order.
+/// Returns whether every way to divide the primitives costs at least `cost`, even if no plane
+/// separates the sides. Sides like these are possible because rounding may sort coinciding centres
+/// in any order. Checks nothing if there are many primitives.
 fn no_sides_are_cheaper(boxes: &[Bounds], cost: f64) -> bool {
     /// All ways are tried only if there are at most this many primitives.
     const FEW: usize = 10;

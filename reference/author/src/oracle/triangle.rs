@@ -1,4 +1,5 @@
-//! Intersects rays and triangles by intersecting the triangle's plane and then comparing areas.
+//! Intersects rays with triangles by intersecting the ray with the triangle's plane and then
+//! comparing areas.
 
 use glam::{DVec2, DVec3};
 use protocol::Vertex;

@@ -15,7 +15,7 @@ const ENTRY_POINT: (&str, &str) = (
     include_str!("templates/classroom50/autograder.py"),
 );
 
-/// Collects all files of the folder.
+/// Collects all files for the folder.
 pub(super) fn package(root: &Path, handed_out: &HandedOut, policy: &str) -> Result<Bundle> {
     let students = Bundle::collect(root, handed_out, None)?;
     let mut grader = Bundle::default();

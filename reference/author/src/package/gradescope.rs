@@ -25,7 +25,7 @@ const SCRIPTS: [(&str, &str); 3] = [
 /// The placeholder in the scripts for the names of the task files.
 const TASK_FILES: &str = "TASK_FILES";
 
-/// Collects all files of the zip.
+/// Collects all files for the zip.
 pub(super) fn package(
     root: &Path,
     handed_out: &HandedOut,

@@ -19,7 +19,7 @@ const TABLE_ANSWERS: usize = 3;
 const TABLE_SHARE: f64 = 0.2;
 /// The minimum number of wrong positions in a picture, as a multiple of the tolerated number.
 const PICTURE_MULTIPLE: f64 = 3.0;
-/// The minimum number of wrong trees, unless all are wrong.
+/// The minimum number of wrong trees, unless all of an item's trees are wrong.
 const TREES: usize = 2;
 
 /// How an item catches a mistake.
@@ -38,8 +38,8 @@ pub struct Detection {
 }
 
 impl Detection {
-    /// Returns an item's detection of a mistake with these answers, or `None` if the item doesn't
-    /// catch it.
+    /// Returns how an item catches a mistake that gives these answers, or `None` if the item
+    /// doesn't catch it.
     pub fn of_item(item: &Item, answers: &Answers) -> Option<Detection> {
         let mut caught = Detection {
             item: item.id.clone(),
@@ -115,8 +115,9 @@ impl fmt::Display for Detection {
 /// The clearest detection of each mistake, in the exam that catches it least clearly.
 #[derive(Clone, Debug, Default)]
 pub struct Detections {
-    /// For each mistake's id, the number of exams and its least clear detection. `None` if an exam
-    /// doesn't catch it at all.
+    /// For each mistake's id, the number of exams and the mistake's clearest detection in the exam
+    /// that catches it least clearly. The detection is `None` if an exam doesn't catch the mistake
+    /// at all.
     thinnest: BTreeMap<String, (u64, Option<Detection>)>,
 }
 
@@ -195,7 +196,8 @@ impl Detections {
     }
 }
 
-/// Returns how clear a detection is. A missed mistake is less clear than any detection.
+/// Returns how clear a detection is. A mistake that isn't caught gets a lower value than any
+/// detection.
 fn clarity(caught: Option<&Detection>) -> f64 {
     caught.map_or(-1.0, Detection::clarity)
 }

@@ -1,7 +1,8 @@
 //! Determines which items each mistake fails with every seed.
 //!
-//! Some items catch a mistake only by luck: with other random numbers, no ray would reveal it. So
-//! only items that fail with each of many seeds are required to fail with any seed.
+//! Some items catch a mistake only by luck: with other random numbers, no ray would reveal it. So a
+//! mistake must fail an item with every seed only if it has failed that item with each of many
+//! seeds.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -24,7 +25,7 @@ pub const FEW_SEEDS: SeedCounts = SeedCounts {
     all: 1,
     thinnest: 2,
 };
-/// The number of mistakes to grade with more seeds. They are the least clearly caught ones.
+/// The number of mistakes to grade with more seeds: those that are caught least clearly.
 pub const THINNEST: usize = 50;
 
 /// The numbers of seeds that the mistakes are graded with. The first seed is 0.
@@ -106,7 +107,7 @@ fn caught_in(built: &[&(&Solution, BuiltSolution)], exam: &Exam) -> Result<Vec<V
     caught.collect()
 }
 
-/// Returns a mistake's detections by the items for its tasks. No parts of the solution are
+/// Returns a mistake's detections by the items of its tasks. No parts of the solution are
 /// substituted.
 fn detections(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<Vec<Detection>> {
     let mut caught = Vec::new();
@@ -121,7 +122,7 @@ fn detections(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Resu
 }
 
 /// Returns the differences between the committed lists and those from a check, one line each. A
-/// check with fewer seeds finds longer lists, so only items that a mistake passes are reported.
+/// check with fewer seeds finds longer lists, so additional items aren't reported.
 pub fn problems(committed: &FailedItems, found: &FailedItems) -> Vec<String> {
     let command = "run `cargo author mistakes`";
     let path = failed_items::FILE;

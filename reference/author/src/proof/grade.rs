@@ -61,8 +61,8 @@ impl<'a> GradedSolution<'a> {
         listed.filter(is_passed).cloned().collect()
     }
 
-    /// Returns the differences that are problems with any seed: no loss in a mistake's own task, or
-    /// a loss in an undeclared task.
+    /// Returns the differences that are problems regardless of the seed: no loss in a mistake's own
+    /// task, or a loss in an undeclared task.
     pub fn task_problems(&self) -> Vec<String> {
         let Solution { id, expected, .. } = self.solution;
         let is_of = |item: &ItemScore, task: &Task| item.id.starts_with(&format!("{task}."));

@@ -14,8 +14,8 @@ use crate::solutions::mutants::mutants;
 use crate::solutions::sources::Sources;
 use crate::solutions::workbench::Workbench;
 
-/// The step size for a sample. The mutants are sorted by name, and the sample contains every eighth
-/// one.
+/// The step size for a sample. The mutants are sorted by name, and a sample contains every eighth
+/// mutant.
 pub const SAMPLE_STEP: usize = 8;
 
 /// Builds every `step`-th mutant of some tasks and grades each with the practice exam.

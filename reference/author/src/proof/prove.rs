@@ -19,9 +19,9 @@ use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
 
 /// Grades all solutions with the exam for one seed. If the lists of failed items were made with
-/// this seed, a mistake must fail all items in its list. With any other seed, it can pass one of
-/// them by luck: an item that fails to catch it in one exam out of 200 is likely to be in a list
-/// made with 20 seeds.
+/// this seed, a mistake must fail all items in its list. With any other seed, the mistake can pass
+/// one of these items by luck: an item that misses the mistake in one exam out of 200 is still
+/// likely to be in a list made with 20 seeds.
 fn prove_seed(
     solutions: &Solutions,
     seed: u64,
@@ -60,7 +60,7 @@ fn prove_seed(
     Ok(result)
 }
 
-/// Runs the proof for these seeds. Mistakes are only graded with the first `with_mistakes` of them.
+/// Runs the proof for these seeds. Mistakes are only graded with the first `with_mistakes` seeds.
 /// The result of every seed is saved, so that an interrupted proof can be continued.
 pub fn prove(solutions: &Solutions, seeds: Range<u64>, with_mistakes: u64) -> Result<ProofSummary> {
     let workbench = &solutions.workbench;

@@ -27,7 +27,8 @@ pub(super) fn run<'a, R: Send>(
     })
 }
 
-/// Like [`run`], for solutions that may not compile. If one doesn't, `ask` gets no program.
+/// Like [`run`], for solutions that may not compile. If a solution doesn't compile, `ask` gets
+/// `None`.
 pub(super) fn run_compiled<'a, R: Send>(
     workbench: &Workbench,
     solutions: impl IntoIterator<Item = &'a Solution>,
@@ -67,7 +68,8 @@ pub(super) fn exam_of(solutions: &Solutions, seed: u64) -> Result<Exam> {
     exams::generate("proof", Seed(seed), solutions)
 }
 
-/// Returns a progress bar for this many units, such as "seeds".
+/// Returns a progress bar that counts up to `count`. `unit` names the things that are counted, e.g.
+/// "seeds".
 fn progress_bar(count: u64, unit: &'static str) -> ProgressBar {
     let style = ProgressStyle::with_template("{wide_bar} {pos} of {len} {msg}, {eta} left");
     ProgressBar::new(count)

@@ -18,8 +18,8 @@ pub struct SeedResult {
     pub false_fails: BTreeMap<String, Vec<String>>,
     /// The mistakes that didn't lose the points they must lose, each with the problems found.
     pub uncaught: BTreeMap<String, Vec<String>>,
-    /// The mistakes that passed items they fail with all seeds used for `fails.toml`, each with
-    /// these items. Other items still caught them.
+    /// The mistakes that passed items that they fail with all seeds used for `fails.toml`, each
+    /// with those items. Other items still caught these mistakes.
     #[serde(default)]
     pub passed: BTreeMap<String, Vec<String>>,
 }
@@ -29,7 +29,7 @@ pub struct SeedResult {
 pub struct ProofSummary {
     /// The seeds of the exams that were used.
     pub seeds: Range<u64>,
-    /// The result of each seed.
+    /// The result for each seed.
     pub results: Vec<SeedResult>,
     /// The number of mistakes.
     pub mistakes: usize,

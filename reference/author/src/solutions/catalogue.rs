@@ -5,9 +5,9 @@
 //! - Independent mistakes in `independent/*.toml`: known mistakes in a variant's code, where they
 //!   look as they would in the solution of a student who never saw the reference.
 //! - Code in `same_answers/*.toml` that gives the same answers as known mistakes, but for other
-//!   reasons. The hints must be true of it too.
-//! - Unknown mistakes in `unknown/*.toml`. No hint is written for them, so they show whether wrong
-//!   code gets false hints.
+//!   reasons. The hints for those mistakes must be true of this code too.
+//! - Unknown mistakes in `unknown/*.toml`. They have no hints of their own, so they show whether
+//!   wrong code gets false hints.
 //!
 //! [`methods`](crate::solutions::methods) reads further unknown mistakes.
 
@@ -56,15 +56,15 @@ pub struct Mistake {
     #[serde(default)]
     pub also_true_of: Vec<String>,
     /// Pairs of other mistakes that together have the same effect, so the hint is true for code
-    /// that makes both.
+    /// that contains both of them.
     #[serde(default)]
     pub true_of_pairs: Vec<[String; 2]>,
     /// The handout section about the mistake, if it isn't the section that the failed items refer
     /// to.
     #[serde(default)]
     pub section: Option<Section>,
-    /// Additional tasks that may lose points. Only used for two combined mistakes that hide each
-    /// other.
+    /// Additional tasks that may lose points. Only used if the entry combines two mistakes that
+    /// hide each other.
     #[serde(default)]
     pub other_tasks: Vec<Task>,
     /// Additional known mistakes whose hints are true for an independent or unknown mistake.
@@ -108,7 +108,8 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
     Ok(all)
 }
 
-/// Copies the texts that mistakes share. Checks the ids that mistakes use to refer to each other.
+/// Copies nudges and hints to the mistakes that share them with others. Checks the ids that
+/// mistakes use to refer to each other.
 fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
     let known = mistakes.to_vec();
     let find = |id: &String| known.iter().find(|other| other.id == *id);
@@ -210,8 +211,8 @@ impl Solutions {
         read_mistakes(self.workbench.root(), self.workbench.handed_out(), folder)
     }
 
-    /// Returns the task of a wrong solution that isn't a known mistake. Checks the ids in its
-    /// entry.
+    /// Returns the task of a wrong solution that isn't a known mistake. Checks the ids in the
+    /// solution's entry in the catalogue.
     pub(super) fn check_unknown(
         &self,
         id: &str,
@@ -231,7 +232,7 @@ impl Solutions {
 }
 
 impl Mistake {
-    /// Returns the task that must lose points.
+    /// Returns the task in which the mistake must cost points.
     pub fn task(&self) -> Task {
         Task::in_id(&self.id).expect("ids were checked when they were read")
     }
@@ -302,8 +303,8 @@ impl Mistake {
     }
 }
 
-/// Applies changes to a solution. A change that names no file applies to `own_file`. If a text
-/// doesn't occur exactly once, returns the file and the number of occurrences.
+/// Applies changes to a solution. A change that names no file applies to `own_file`. If a text to
+/// replace doesn't occur exactly once, the error contains the file and the number of occurrences.
 fn apply_changes(
     base: &Sources,
     changes: &[Change],

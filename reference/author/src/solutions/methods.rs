@@ -33,7 +33,7 @@ struct Method {
     /// Additional tasks that may lose points.
     #[serde(default)]
     other_tasks: Vec<Task>,
-    /// The known mistakes whose hints are true for it.
+    /// The known mistakes whose hints are true for this method.
     #[serde(default)]
     true_hints: Vec<String>,
     /// The method with its imports and helpers. Each item it defines replaces the item of the same

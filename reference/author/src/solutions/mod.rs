@@ -97,7 +97,8 @@ impl Solutions {
         fits.any(|other| self.have_same_hint(&other.id, hint))
     }
 
-    /// Returns whether a mistake's hint is true for code that makes two others, given by their ids.
+    /// Returns whether a mistake's hint is true for code with both mistakes of a pair. All mistakes
+    /// are given by their ids.
     pub fn is_hint_true_of_pair(&self, hint: &str, pair: [&str; 2]) -> bool {
         let is_pair = |[one, other]: &[String; 2]| {
             pair == [one.as_str(), other.as_str()] || pair == [other.as_str(), one.as_str()]
@@ -122,7 +123,8 @@ impl Solutions {
     }
 }
 
-/// Reads a TOML file. If it isn't TOML or lacks the expected keys, the error says where.
+/// Reads a TOML file. If the file isn't valid TOML or doesn't have the expected keys, the error
+/// says where.
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T> {
     let text = files::read_to_string(path)?;
     toml::from_str(&text).map_err(|error| anyhow!("{}: {error}", path.display()))

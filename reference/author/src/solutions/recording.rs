@@ -48,7 +48,7 @@ impl Recorder {
     }
 
     /// Returns the reference's answer to a question about a picture: the linear red, green and blue
-    /// of each pixel, row by row from the bottom.
+    /// values of each pixel, row by row from the bottom.
     fn picture(&self, question: &Question) -> Result<Vec<Vec3>> {
         let probe = self.reference.launcher().start(LIMITS.cpu);
         let answers = probe

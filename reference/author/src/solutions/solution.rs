@@ -4,7 +4,7 @@ use judging::assignment::Task;
 
 use crate::solutions::sources::Sources;
 
-/// A solution of an assignment: the reference or a variant, possibly with a mistake.
+/// A solution to an assignment: the reference or a variant, possibly with a mistake.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// The id of the variant or mistake, the ids of both, or a mutant's name.
@@ -20,14 +20,14 @@ pub struct Solution {
 /// The results that a solution must have.
 #[derive(Clone, Debug, Default)]
 pub struct Expected {
-    /// The tasks it is about. A wrong solution must lose points in the first task and may lose some
-    /// in the others.
+    /// The tasks that the solution is about. A wrong solution must lose points in the first task
+    /// and may lose points in the others.
     pub tasks: Vec<Task>,
     /// The only items where a correct solution may lose points.
     pub may_lose: Vec<String>,
     /// The items that a wrong solution fails with every seed.
     pub fails: Vec<String>,
-    /// The known mistakes whose hints are true for it.
+    /// The known mistakes whose hints are true for the solution.
     pub true_hints: Vec<String>,
     /// Whether the code keeps state from one call to the next.
     pub keeps_state: bool,

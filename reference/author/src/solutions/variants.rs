@@ -30,12 +30,12 @@ pub struct Variant {
     /// heuristic, they are the items about tree cost.
     #[serde(default)]
     pub may_lose: Vec<String>,
-    /// The paths of its parts, relative to the folder of variants and without `.rs`. Their first
-    /// components are the stems of the files it replaces. Empty if it is a single file, named after
-    /// its id.
+    /// The paths of its parts, relative to the folder of variants and without `.rs`. Each path
+    /// begins with the stem of the file that the part replaces. Empty if the variant is a single
+    /// file, which is then named after the variant's id.
     #[serde(default)]
     pub parts: Vec<String>,
-    /// The crates it uses that submissions may not use.
+    /// The crates that the variant uses although submissions may not use them.
     #[serde(default)]
     pub crates: Vec<String>,
 }
@@ -58,7 +58,7 @@ pub fn variants(root: &Path, handed_out: &HandedOut) -> Result<Vec<Variant>> {
 }
 
 impl Variant {
-    /// Returns the tasks of the assignment that its files solve.
+    /// Returns the tasks of the assignment that the variant's files solve.
     fn tasks(&self, assignment: &Assignment) -> Vec<Task> {
         let parts = self.parts.iter().filter_map(|part| part.split_once('/'));
         let stems = parts.map(|(stem, _)| stem).chain(self.id.split('.').next());
@@ -69,7 +69,8 @@ impl Variant {
         tasks.collect()
     }
 
-    /// Returns the reference with the task files replaced by this variant and its given code.
+    /// Returns the reference with some task files replaced by the variant's files, which are
+    /// completed with the given code.
     pub fn solution(&self, reference: &Sources, root: &Path) -> Result<Solution> {
         let mut sources = reference.clone();
         let folder = folder(root, reference.handed_out());

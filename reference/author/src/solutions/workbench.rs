@@ -29,7 +29,7 @@ const PROCESS_CPU: Duration = Duration::from_secs(120);
 /// The answers to an item's questions, or the reason there are none.
 pub type Answers = Result<Vec<Answer>, Fault>;
 
-/// Builds solutions of an assignment in a workspace.
+/// Builds solutions to an assignment in a workspace.
 #[derive(Debug)]
 pub struct Workbench {
     authoring: &'static Authoring,
@@ -49,7 +49,7 @@ pub struct NotCompiledError {
 
 impl Workbench {
     /// Opens the workspace. Solutions are built as on an instructor's machine: if there is a
-    /// reference, its parts replace wrong ones.
+    /// reference, its parts replace a solution's wrong parts.
     pub fn open(authoring: &'static Authoring) -> Result<Self> {
         let handed_out = authoring.handed_out;
         let workspace = Workspace::find()?;
@@ -133,7 +133,7 @@ impl BuiltSolution {
     }
 
     /// Runs the solution. Returns its answers to each item. As in grading, one process answers all
-    /// items of a task, and a new one is started only after a fault, because mistakes that keep
+    /// items of a task, and a new process is started only after a fault, because mistakes that keep
     /// state from one call to the next only show up in later items.
     pub fn answers_to_each(&self, items: &[&Item]) -> Result<Vec<Answers>> {
         let mut running = None;

@@ -54,7 +54,7 @@ impl Tree {
     /// Refits the boxes of all nodes below `tops` after the primitives in them have been moved.
     pub fn refit_below(&mut self, tops: &[usize]) {
         for &top in tops {
-            // Children come before their parents.
+            // In this order, children come before their parents.
             for &index in self.subtree(top)[1..].iter().rev() {
                 let node = self.nodes[index];
                 let (min, max) = if node.is_leaf() {

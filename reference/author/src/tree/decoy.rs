@@ -8,7 +8,7 @@ use super::traversal::{MARGIN, Traversal, TraversalRule};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 
-/// The reason a correct traversal never enters a leaf.
+/// The reason why a correct traversal never enters a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SkipReason {
     /// The ray misses the leaf's own box.
@@ -25,8 +25,8 @@ pub enum SkipReason {
 pub type Child = fn(&TreeNode) -> u32;
 
 /// Returns whether the leaf is the given child of a node that every correct traversal enters, and
-/// whether the ray clearly misses the leaf's box. If so, only the boxes of the two children decide
-/// whether the leaf is entered.
+/// the ray clearly misses the leaf's box. If so, only the boxes of the two children decide whether
+/// the leaf is entered.
 pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, child: Child) -> bool {
     let path = tree.path(leaf);
     let [.., parent, _] = path[..] else {
@@ -58,8 +58,9 @@ pub fn hits_below_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     primitives.any(|primitive| scan::intersect(ray64, &tree.shapes[primitive]).is_some())
 }
 
-/// Returns the reason no correct traversal with this ray enters the leaf, or `None` if one may
-/// enter it. The reason must apply by a clear margin: [`MARGIN`] times the diagonal of a box.
+/// Returns the reason why no correct traversal with this ray enters the leaf, or `None` if some
+/// correct traversal may enter the leaf. The reason must apply by a clear margin: [`MARGIN`] times
+/// the diagonal of a box.
 pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason> {
     let bounds = tree.bounds(leaf);
     let grown = bounds.grown(MARGIN * bounds.diagonal());

@@ -13,7 +13,8 @@ use crate::seed::Rng;
 /// A tree from an exam question.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
-    /// The primitives, in the order the leaves refer to. Some may not be in any leaf.
+    /// The primitives. Each leaf refers to a range of this list. Some primitives may not be in any
+    /// leaf.
     pub shapes: Vec<Shape>,
     /// The nodes. Some may be unreachable from the root.
     pub nodes: Vec<TreeNode>,

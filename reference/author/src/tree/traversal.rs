@@ -11,7 +11,7 @@ pub struct TraversalRule {
     /// Whether the left child goes first if the ray enters both children at nearly the same
     /// distance.
     pub left_first: bool,
-    /// Whether a node's box is tested when the node is entered, instead of by its parent.
+    /// Whether a node's box is tested on entering the node, rather than while visiting its parent.
     pub tests_on_entry: bool,
     /// Whether to enter every node unless it can be skipped by a clear margin.
     pub conservative: bool,
@@ -40,7 +40,7 @@ pub struct Traversal<'a> {
     pub closest: Option<Intersection>,
     /// The indices of all tested primitives.
     pub tested_primitives: Vec<usize>,
-    /// The indices of all reached nodes, in order, each with whether the node was entered.
+    /// The indices of all reached nodes, in order, and whether each node was entered.
     pub reached_nodes: Vec<(usize, bool)>,
 }
 

@@ -1,5 +1,5 @@
-//! Each question of the item about one split has a best split that good builders find and bad
-//! builders miss.
+//! Each question of `build.one_split` has a best split, which good builders find and bad builders
+//! miss.
 
 use author::items::build::{self, relative_cost};
 use author::items::resolve;
@@ -9,7 +9,8 @@ use judging::exam::ExamQuestion;
 
 const SEEDS: [u64; 4] = [2025, 1, 2, 3];
 
-/// Returns the questions of `build.one_split` without the control. In each, one split is best.
+/// Returns the questions of `build.one_split` except the last, which is a control. In each of the
+/// others, one split is best.
 fn one_split(seed: u64) -> Vec<ExamQuestion> {
     let items = resolve(build::TASK.draw(Seed(seed)));
     let item = items.into_iter().find(|item| item.id == "build.one_split");

@@ -76,8 +76,8 @@ fn a_gradescope_package_needs_a_final_exam() {
     assert!(refused.to_string().starts_with(message), "{refused}");
 }
 
-/// The version of Rust that packages install. Only enter a newer one here after CI has passed with
-/// it.
+/// The version of Rust that packages install. Only enter a newer version here after CI has passed
+/// with it.
 const RUST: &str = "1.95.0";
 
 #[test]

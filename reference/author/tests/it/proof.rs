@@ -65,8 +65,8 @@ fn sampled_mutants_are_caught_or_equivalent() {
     assert!(summary.trim_end().ends_with(", 0 survive"), "{summary}");
 }
 
-/// Checks that at least `count` mistakes are measured, that nine in ten are recognised, and that at
-/// most `with_false_hint` get a false hint.
+/// Checks that at least `count` mistakes are measured, that at least nine in ten are recognised,
+/// and that at most `with_false_hint` get a false hint.
 fn assert_recognised(recognition: &Recognition, count: usize, with_false_hint: usize) {
     assert_eq!(recognition.problems, [""; 0]);
     assert!(recognition.count >= count, "{recognition}");
@@ -85,8 +85,8 @@ fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
     let _lock = lock_builds();
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
     // Three mistakes end with a stack overflow and get the hint for another mistake, which
-    // overflows the stack with the same lists. What this hint says about the answers is true of
-    // them, too.
+    // overflows the stack with the same lists. What this hint says about the answers is also true
+    // of these three mistakes.
     assert_recognised(&recognition, 100, 3);
 }
 

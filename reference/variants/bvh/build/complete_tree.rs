@@ -16,8 +16,8 @@ impl Bvh {
     }
 }
 
-/// Builds the subtree over `primitives` at `index`. The first one is at index `start` in the tree's
-/// list.
+/// Builds the subtree over `primitives`, with its root at `index`. The first primitive is at index
+/// `start` in the tree's list.
 fn fill(
     nodes: &mut [Node],
     index: usize,

@@ -13,7 +13,7 @@ impl Bvh {
     }
 }
 
-/// Builds the subtree over `primitives`. The first one is at index `start` in the tree's list.
+/// Builds the subtree over `primitives`, the first of which is at index `start` in the tree's list.
 /// Returns the index of the subtree's root.
 fn build_subtree(
     primitives: &mut [Primitive],

@@ -17,7 +17,7 @@ impl Bvh {
 /// The minimum number of primitives for which starting a thread is worthwhile.
 const WORTH_A_THREAD: usize = 1024;
 
-/// Builds the subtree over `primitives`. The first one is at index `start` in the tree's list.
+/// Builds the subtree over `primitives`, the first of which is at index `start` in the tree's list.
 fn build_subtree(primitives: &mut [Primitive], start: usize, max_leaf_size: usize) -> Vec<Node> {
     let bbox = bounds_of(primitives);
     let size = primitives.len();

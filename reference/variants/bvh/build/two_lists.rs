@@ -9,7 +9,7 @@ impl Bvh {
         bvh
     }
 
-    /// Adds a node over these primitives and everything below it. Returns the index of the node.
+    /// Adds a node over these primitives and everything below that node. Returns the node's index.
     fn grow(&mut self, primitives: Vec<Primitive>, max_leaf_size: usize) -> usize {
         let mut bbox = BBox::EMPTY;
         for primitive in &primitives {

@@ -49,7 +49,7 @@ impl Bvh {
 }
 
 /// Returns up to four descendants of a node. While there are fewer than four, replaces the interior
-/// node that has the largest box with its children.
+/// node whose box is largest with that node's children.
 fn up_to_four(nodes: &[Node], node: &Node) -> Vec<usize> {
     if node.is_leaf() {
         return Vec::new();

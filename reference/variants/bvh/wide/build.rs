@@ -102,7 +102,8 @@ impl Item {
     }
 }
 
-/// The contents of one slice. In object splits, an item begins and ends in the slice of its centre.
+/// The contents of one slice. In object splits, an item begins and ends in the slice that contains
+/// its centre.
 #[derive(Clone, Copy)]
 struct Bucket {
     bounds: Bounds,

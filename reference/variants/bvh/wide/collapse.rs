@@ -21,8 +21,8 @@ struct Plan {
     /// `costs[n]` is the cost of this subtree when it is collapsed into at most n children of a
     /// wide ancestor. n is at least 1.
     costs: [f32; 8],
-    /// `sides[n]` contains the numbers of these children that come from the left and from the right
-    /// subtree. Both are 0 if the whole subtree is one child.
+    /// `sides[n]` says how many of these children come from the left and from the right subtree.
+    /// Both are 0 if the whole subtree is one child.
     sides: [(u8, u8); 9],
 }
 
@@ -84,7 +84,8 @@ impl<'a> Collapser<'a> {
     }
 
     /// Splits a leaf into two if it doesn't fit in a pack. Returns whether it was split. Both new
-    /// leaves keep the box of the old leaf, which may not be tight in a tree from the caller.
+    /// leaves keep the box of the old leaf, which need not be tight if the tree comes from the
+    /// caller.
     fn split_leaf(&mut self, index: usize) -> bool {
         let Node {
             bbox, start, size, ..

@@ -33,7 +33,8 @@ struct Corners {
 }
 
 impl Corners {
-    /// Returns the lane of a corner, adding it if it is new, or `None` if all lanes are used.
+    /// Returns the lane of a corner, adding the corner if it is new, or `None` if all lanes are
+    /// used.
     fn lane(&mut self, position: Vec3) -> Option<u32> {
         let mut known = self.positions[..self.len].iter();
         let lane = known.position(|known| *known == position);

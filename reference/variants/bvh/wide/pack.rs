@@ -4,8 +4,8 @@
 ///
 /// The triangles have at most eight distinct corners, because neighbours share them. Three
 /// registers hold the corners' coordinates, and the fourth holds one word per triangle with the
-/// lanes of its corners. A lane without a triangle repeats one corner three times, which no ray
-/// hits.
+/// lanes of its corners. A lane without a triangle contains the same corner three times, so no ray
+/// hits it.
 struct Pack<'a>(&'a [CacheLine; Pack::LINES]);
 
 /// A word that describes a triangle. It packs the lanes of the three corners (three bits each), 22

@@ -1,8 +1,8 @@
 // Builds the tree for traversal, in which triangles may be split.
 
-/// A builder of the tree for traversal. If the boxes of a node's two sides would overlap, the node
-/// is split by a plane instead if that is cheaper. A triangle that crosses the plane then has a
-/// piece on each side. See Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume
+/// A builder of the tree for traversal. A node whose two sides would have overlapping boxes is
+/// split by a plane instead, if that is cheaper. A triangle that crosses the plane then has a piece
+/// on each side. See Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume
 /// Hierarchies", 2009.
 struct SpatialBuilder<'a> {
     primitives: &'a [Primitive],

@@ -29,7 +29,7 @@ pub fn keep_panics_quiet() {
 
 /// Runs `code` and returns its value, or the panic if it panics.
 pub fn attempt<T>(code: impl FnOnce() -> T) -> Result<T, Panic> {
-    // This is unwind safe, because each question has its own values, so values left half modified
+    // This is unwind safe, because each question has its own values, so values left half-modified
     // by a panic are never used again.
     let before = ATTEMPTING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(code));
@@ -58,7 +58,7 @@ impl Attempts for AttemptsAtTable {
     }
 }
 
-/// Returns the message of a panic from its payload.
+/// Returns a panic's message, given the panic's payload.
 fn panic_message(payload: &(dyn Any + Send)) -> &str {
     payload
         .downcast_ref::<String>()

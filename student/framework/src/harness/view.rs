@@ -16,7 +16,7 @@ pub enum ViewMode {
     Depth,
     /// `Trace::uv`: the fractional parts of u and v as red and green.
     Uv,
-    /// The number of boxes of the tree around the hit, from blue (few) to red (many), with a
+    /// The number of boxes in the tree that contain the hit, from blue (few) to red (many), with a
     /// different brightness for each leaf.
     Bvh,
 }

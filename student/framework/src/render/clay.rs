@@ -1,4 +1,5 @@
-//! Ambient occlusion: a scene as if everything in it was made of clay, under an overcast sky.
+//! Ambient occlusion: renders a scene as if everything in it were made of clay, under an overcast
+//! sky.
 //!
 //! The light comes from the sky, and only shapes close to a point block it. So corners and gaps are
 //! dark, as in Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", Rendering
@@ -29,7 +30,7 @@ pub struct Clay<'a> {
 }
 
 impl<'a> Clay<'a> {
-    /// Creates a renderer. `world` must be made from `scene`. `seed` is the seed of all random
+    /// Creates a renderer. `world` must be made from `scene`. `seed` is the seed for all random
     /// numbers.
     pub fn new(scene: &'a Scene, world: &'a World, seed: u64) -> Self {
         let tracer = Tracer { scene, world };
@@ -65,8 +66,9 @@ impl Renderer for Clay<'_> {
     }
 }
 
-/// Returns the radiance of an overcast sky: at the horizon and below, a third of that overhead. See
-/// Moon and Spencer, "Illumination from a Non-Uniform Sky", Illuminating Engineering 37, 1942.
+/// Returns the radiance of an overcast sky, which is three times as bright overhead as at the
+/// horizon and below. See Moon and Spencer, "Illumination from a Non-Uniform Sky", Illuminating
+/// Engineering 37, 1942.
 fn sky(direction: Vec3) -> f32 {
     0.5 + direction.y.max(0.0)
 }
@@ -97,8 +99,8 @@ mod tests {
     }
 
     /// The mean radiance of an open sky over a surface that faces the camera, times the albedo of
-    /// clay. On the disc below the hemisphere, directions are uniform, and the mean distance of a
-    /// disc's upper half from its diameter is 4 / 3π.
+    /// clay. Projected onto the disc below the hemisphere, the directions are uniformly
+    /// distributed, and the mean distance of the disc's upper half from the diameter is 4 / 3π.
     fn open() -> f32 {
         CLAY.x * (0.5 + 0.5 * 4.0 / (3.0 * PI))
     }
@@ -111,9 +113,9 @@ mod tests {
 
     #[test]
     fn a_sphere_nearby_hides_a_closed_form_share_of_the_sky() {
-        // The central pixel sees a point at distance 4, so shapes within 1.2 of it hide the sky. A
-        // sphere that subtends a half angle of 30°, in a direction 45° from the normal, covers an
-        // ellipse of the disc with semi-axes sin 30° and sin 30° · cos 45°.
+        // The central pixel sees a point at distance 4, so shapes within 1.2 of that point hide the
+        // sky. A sphere that subtends a half-angle of 30°, in a direction 45° from the normal,
+        // covers an ellipse of the disc with semi-axes sin 30° and sin 30° · cos 45°.
         let ground = sphere(vec3(0.0, 0.0, -1004.0), 1000.0);
         let radiance = |distance: f32| {
             let direction = vec3(1.0, 0.0, 1.0).normalize();

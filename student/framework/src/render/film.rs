@@ -7,7 +7,7 @@ use crate::math::pow;
 /// A picture in linear red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
-    /// The number of pixels, across and up.
+    /// The width and height in pixels.
     pub size: UVec2,
     /// The pixels, row by row **from the bottom**, as for the camera: pixel (0, 0) comes first.
     pub pixels: Vec<Vec3>,

@@ -4,7 +4,7 @@
 //! and the viewpoint, but not on the size of the scene: a ball on a sphere that is a thousand times
 //! as large gets the offset for a ball. The estimates follow the error terms in Pharr, Jakob and
 //! Humphreys, *Physically Based Rendering*, 4th edition, section 6.8 "Managing Rounding Error",
-//! and, for the sphere seen from far away, Haines et al., "Precision Improvements for Ray/Sphere
+//! and, for spheres seen from far away, Haines et al., "Precision Improvements for Ray/Sphere
 //! Intersection", *Ray Tracing Gems*, 2019.
 
 use glam::Vec3;

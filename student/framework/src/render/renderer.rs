@@ -1,4 +1,4 @@
-//! The interface of what computes a picture sample by sample.
+//! The interface for anything that computes a picture sample by sample.
 
 use std::time::Duration;
 
@@ -42,7 +42,7 @@ pub trait Renderer: Sync {
 #[derive(Clone, Copy, Debug)]
 pub struct InvalidSample;
 
-/// Statistics of rendering a picture.
+/// Statistics about the rendering of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RenderStats {
     /// The number of rays traced by the submission, including shadow rays.

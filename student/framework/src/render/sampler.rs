@@ -25,7 +25,7 @@ pub enum Purpose {
     Survival,
 }
 
-/// The random numbers of one bounce, each in `[0, 1)`. Each is used only once.
+/// The random numbers for one bounce, each in `[0, 1)`. Each is used only once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RandomNumbers {
     /// The light to sample.
@@ -40,14 +40,14 @@ pub(crate) struct RandomNumbers {
     pub(crate) survive: f32,
 }
 
-/// The random numbers of one path.
+/// The random numbers for one path.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
     key: u64,
 }
 
 impl Sampler {
-    /// Returns the random numbers of path number `sample` through a pixel.
+    /// Returns the random numbers for path number `sample` through a pixel.
     pub fn new(seed: u64, pixel: UVec2, sample: u32) -> Self {
         let pixel = u64::from(pixel.y) << 32 | u64::from(pixel.x);
         let key = mix(mix(mix(seed) ^ pixel) ^ u64::from(sample));
@@ -66,7 +66,7 @@ impl Sampler {
         vec2(unit((bits >> 32) as u32), unit(bits as u32))
     }
 
-    /// Returns the random numbers of a bounce.
+    /// Returns the random numbers for a bounce.
     pub(crate) fn numbers(&self, bounce: u32) -> RandomNumbers {
         RandomNumbers {
             light: self.one(bounce, Purpose::Light),
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn numbers_match_those_in_recorded_exams() {
-        // The keys of exams were recorded with these numbers, so they must never change.
+        // The keys of exams were recorded with these numbers, so the numbers must never change.
         let pair = Sampler::new(1, uvec2(2, 3), 4).pair(5, Purpose::PointOnLight);
         assert_eq!(pair * 16_777_216.0, vec2(4_298_788.0, 7_366_984.0));
     }

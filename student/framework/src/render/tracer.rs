@@ -10,7 +10,7 @@ use crate::render::renderer::{InvalidSample, RenderStats};
 use crate::scene::Scene;
 use crate::submission::World;
 
-/// A scene, also in a submission's own types.
+/// A scene, both as data and in a submission's own types.
 #[derive(Clone, Copy)]
 pub(super) struct Tracer<'a> {
     pub(super) scene: &'a Scene,
@@ -22,12 +22,12 @@ pub(super) struct Surface<'a> {
     pub(super) shape: &'a Shape,
     /// The origin of the ray that hit the surface.
     pub(super) eye: Vec3,
-    /// The direction back to that origin.
+    /// The direction from the surface back to `eye`.
     pub(super) out: Vec3,
     pub(super) position: Vec3,
     /// The normal, of length one, on the side that the ray comes from.
     pub(super) normal: Vec3,
-    /// Whether the submission's normal also points to that side.
+    /// Whether the submission's normal points to the side that the ray comes from.
     pub(super) outside: bool,
     pub(super) uv: Vec2,
 }

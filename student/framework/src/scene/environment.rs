@@ -31,9 +31,9 @@ impl Environment {
     }
 }
 
-/// A picture of all directions, as an equirectangular projection: the rows are at equal angles from
-/// +y, which is at the top, down to −y. The columns are at equal angles around the y-axis: the first
-/// begins at +x, and a quarter of the way is +z.
+/// A picture of all directions, as an equirectangular projection. The rows are evenly spaced in
+/// angle from +y, at the top, down to −y. The columns are evenly spaced in angle around the y-axis:
+/// the first begins at +x, and +z is a quarter of the way across.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentMap {
     size: UVec2,
@@ -87,7 +87,7 @@ impl EnvironmentMap {
     /// Loads a map from an HDR or EXR file. Its pixels are multiplied by `scale`.
     ///
     /// # Errors
-    /// Fails with the reason.
+    /// Fails with the reason the map can't be loaded.
     #[cfg(feature = "cli")]
     pub(super) fn load(path: &Path, scale: f32) -> Result<Self, String> {
         let in_file = |message: String| format!("{}: {message}", path.display());
@@ -139,8 +139,8 @@ impl EnvironmentMap {
         pixel.as_uvec2().min(self.size - 1)
     }
 
-    /// Returns the direction of a position in the map, in pixels from the top left, and the sine of
-    /// its angle from the y-axis.
+    /// Returns the direction that a position in the map shows, and the sine of the angle between
+    /// the y-axis and that direction. The position is in pixels from the top left.
     pub(crate) fn direction(&self, position: Vec2) -> (Vec3, f32) {
         let part = position / self.size.as_vec2();
         let (sin_around, cos_around) = sin_cos(TAU * part.x);
@@ -152,7 +152,7 @@ impl EnvironmentMap {
     }
 }
 
-/// The largest radiance of a pixel. Larger ones could overflow in sums.
+/// The largest radiance that a pixel may have. Sums of larger values could overflow.
 const LARGEST: f32 = 1e9;
 
 #[cfg(test)]

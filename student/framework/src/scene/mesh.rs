@@ -11,7 +11,8 @@ use crate::math::sin_cos;
 pub(super) struct Face {
     pub(super) corners: [Vec3; 3],
     pub(super) uv: [Vec2; 3],
-    /// The normals at the corners. `None` if the file contains no normals. The triangle is then flat.
+    /// The normals at the corners, or `None` if the file contains no normals. Without normals, the
+    /// triangle is flat.
     pub(super) normals: Option<[Vec3; 3]>,
 }
 
@@ -19,7 +20,7 @@ pub(super) struct Face {
 /// the z-axis, and finally translated.
 pub(super) struct Transform {
     pub(super) scale: f32,
-    /// The angles about the x-, y- and z-axes, in degrees.
+    /// The angles of rotation about the x-, y- and z-axes, in degrees.
     pub(super) rotate: Vec3,
     pub(super) translate: Vec3,
 }

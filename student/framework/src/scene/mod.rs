@@ -43,7 +43,7 @@ pub struct Scene {
     pub about: String,
     /// The camera and its position in the scene.
     pub camera: Camera,
-    /// The light of the environment, which is visible where no shape is.
+    /// The light of the environment, which is visible where there is no shape.
     pub environment: Environment,
     /// The materials, indexed by `shape_materials`.
     pub materials: Vec<Material>,
@@ -84,7 +84,7 @@ impl Scene {
         Scene::load_with_names(path).map(|(scene, _)| scene)
     }
 
-    /// Loads a scene like [`Scene::load`], with the names of its materials.
+    /// Loads a scene like [`Scene::load`], and also returns the names of its materials.
     #[cfg(feature = "cli")]
     pub(crate) fn load_with_names(path: &Path) -> Result<(Scene, Vec<String>), SceneError> {
         let is_mesh = path.extension().is_some_and(|ending| ending == "obj");

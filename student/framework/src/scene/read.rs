@@ -11,7 +11,7 @@ use super::mesh::{Face, Transform};
 use super::value::{Object, Value};
 use super::{MAX_LEAF_SIZE, Scene, polygon};
 
-/// Loads the files that a scene refers to by their paths.
+/// Loads the files that a scene refers to, given their paths.
 pub(super) struct LoadFiles<'a> {
     /// Loads a mesh, or returns the reason it can't be loaded.
     pub(super) mesh: &'a dyn Fn(&str) -> Result<Vec<Face>, String>,
@@ -66,7 +66,7 @@ pub(super) fn scene(text: &str, load: &LoadFiles) -> Result<(Scene, Vec<String>)
     Ok((scene, names))
 }
 
-/// Reads the environment: a radiance, or an object with the file of a map.
+/// Reads the environment: a radiance, or an object with the path of a map.
 fn read_environment(value: &Value, load: &LoadFiles) -> Result<Environment, SceneError> {
     if value.members().is_err() {
         return value.radiance().map(Environment::Constant);
@@ -130,7 +130,8 @@ fn read_shape<'a>(
     }
 }
 
-/// Reads the entry for a mesh, which is in an OBJ file in or below the folder of the scene file.
+/// Reads the entry for a mesh. The mesh itself is in an OBJ file in the scene file's folder or
+/// below it.
 fn read_mesh(keys: &Object, load: &LoadFiles) -> Result<Vec<[Vertex; 3]>, SceneError> {
     let transform = Transform {
         scale: keys.optional("scale", Value::positive)?.unwrap_or(1.0),

@@ -21,7 +21,7 @@ fn check(from: &str, to: &str, expected: &str) {
     check_text(&valid.replacen(from, to, 1), expected);
 }
 
-/// Checks that the message about a text begins with `scene:` and the expected text.
+/// Checks that the error for `text` begins with `scene:` and the expected text.
 fn check_text(text: &str, expected: &str) {
     let error = Scene::from_text(text).expect_err("the scene is invalid");
     let message = error.to_string();

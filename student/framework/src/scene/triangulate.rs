@@ -5,7 +5,8 @@ use std::collections::VecDeque;
 use glam::DVec3;
 
 /// Returns the cross products of the triangles in a fan around the first corner. By Newell's
-/// method, their sum has the direction of the outline's normal, and its length is twice the area.
+/// method, their sum has the direction of the outline's normal, and the sum's length is twice the
+/// area.
 pub(super) fn fan(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
     let from_first = corners[1..].iter().map(|corner| corner - corners[0]);
     let next = from_first.clone().skip(1);

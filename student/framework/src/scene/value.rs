@@ -11,7 +11,7 @@ use crate::suggestion::suggestion;
 /// power of a larger number overflows, so correct code would seem wrong.
 pub(super) const MAX_COORDINATE: f32 = 1e9;
 
-/// A value or a key in a JSON text.
+/// A value or a key in JSON text.
 #[derive(Clone, Debug)]
 pub(super) struct Value<'a> {
     /// The whole text, which is valid JSON.
@@ -104,7 +104,7 @@ impl<'a> Value<'a> {
     }
 
     /// Returns the only member of an object. The member's key is the object's kind. Scene files use
-    /// this form rather than a key `type`, so that the known keys follow from the kind.
+    /// this form rather than a `type` key, so that the known keys follow from the kind.
     pub(super) fn kind(&self) -> Result<(Value<'a>, Value<'a>), SceneError> {
         let expected = || self.unexpected("an object in { } with one key, its kind");
         match <[_; 1]>::try_from(self.members().map_err(|_| expected())?) {

@@ -1,5 +1,5 @@
-//! `BBox::hit`, which takes a ray and an interval and returns the part of the interval that is
-//! inside a box.
+//! `BBox::hit`, which takes a ray and an interval and returns the part of the interval in which the
+//! ray is inside a box.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -30,7 +30,7 @@ pub struct Corners {
 pub struct Query {
     /// The ray. Its range is ignored.
     pub ray: Ray,
-    /// The distances along the ray to search.
+    /// The interval of distances to search along the ray.
     pub times: Interval,
 }
 

@@ -184,7 +184,7 @@ impl Output for Option<Trace> {
         present: "a hit at distance {distance}",
         absent: "no hit",
     };
-    // 12 floats and a number of variable length.
+    // 12 floats and a variable-length number.
     const MAX_BYTES: usize = 12 * size_of::<f32>() + 6;
 
     fn record(&self) -> Option<&dyn Record> {

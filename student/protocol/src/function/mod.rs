@@ -157,7 +157,7 @@ pub struct ResultText {
 pub trait Output: Data {
     /// The names of the record's fields.
     const NAMES: &'static [&'static str];
-    /// The texts for printing values.
+    /// The templates for printing values.
     const RESULT_TEXT: ResultText;
     /// An upper bound on the size of one value on the wire, in bytes.
     const MAX_BYTES: usize;

@@ -1,5 +1,5 @@
-//! `reflect`, which takes the direction toward the viewer and returns the direction that a mirror
-//! reflects into it.
+//! `reflect`, which takes the direction toward the viewer and returns the direction from which a
+//! mirror sends light to the viewer.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use super::{Function, Input, Output, Question, ResultText, Submission, Table};
 use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Fields, Record, fields};
 
-/// Calls `reflect` for directions. The function isn't called on a subject.
+/// Calls `reflect` with directions. The function isn't called on a subject.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reflect;
 

@@ -17,8 +17,8 @@ pub trait Input: Record + Data {
     type View: View<Self>;
 }
 
-/// A picture, with one row for each of the five [`PIXEL_OFFSETS`] in every pixel, row by row from
-/// the bottom.
+/// A picture, with one row of the table for each of the five [`PIXEL_OFFSETS`] in every pixel. The
+/// pixels are in order, line by line from the bottom.
 pub trait View<I>: Data {
     /// Returns the width and height in pixels.
     fn film(&self) -> UVec2;
@@ -94,7 +94,7 @@ impl<I: Input> Rows<I> {
         Rows::List(rows.map(row).collect())
     }
 
-    /// Returns the picture whose positions are the rows, or `None` if they are a list.
+    /// Returns the picture that the rows come from, or `None` if the rows are a list.
     pub fn view(&self) -> Option<&I::View> {
         match self {
             Rows::List(_) => None,

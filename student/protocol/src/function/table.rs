@@ -29,7 +29,7 @@ impl<F: Function> Table<F> {
     }
 }
 
-/// Runs the calls of one table.
+/// Runs the calls in one table.
 pub trait Attempts {
     /// Runs `call` and returns its outcome.
     fn attempt(&mut self, call: &mut dyn FnMut()) -> ElementOutcome<()>;
@@ -52,13 +52,13 @@ pub trait AnyTable {
     /// Returns the arguments in a row, or `None` if the row is out of range.
     fn input(&self, row: usize) -> Option<Box<dyn Record>>;
 
-    /// Returns the picture's width and height in pixels, if the rows are those of a picture.
+    /// Returns the picture's width and height in pixels, if the rows come from a picture.
     fn film(&self) -> Option<UVec2>;
 
     /// Returns the field names of the function's result.
     fn output_names(&self) -> &'static [&'static str];
 
-    /// Returns the texts for printing the function's results.
+    /// Returns the templates for printing the function's results.
     fn result_text(&self) -> ResultText;
 
     /// Returns an upper bound on the size of one row of the answer on the wire, in bytes.
@@ -75,8 +75,8 @@ pub trait AnyTable {
     /// If the range is out of bounds.
     fn subset(&self, rows: Range<usize>) -> Question;
 
-    /// Returns the question with the value of every field in the subject and the rows replaced by
-    /// what `change` returns for it. Returns `None` if the rows are those of a picture.
+    /// Returns the question in which `change` has been applied to the value of every field, both in
+    /// the subject and in the rows. Returns `None` if the rows come from a picture.
     fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> Option<Question>;
 }
 

@@ -101,8 +101,8 @@ fn wide(id: &str, table: &Markup) -> Markup {
     html! { div .wide tabindex="0" role="region" aria-labelledby=(id) { (table) } }
 }
 
-/// Renders the header of a table. It has text columns, number columns, and a last text column,
-/// unless `last` is empty.
+/// Renders the header of a table with text columns, number columns and, unless `last` is empty, one
+/// more text column.
 fn header<T: Render>(texts: &[&str], numbers: impl Iterator<Item = T>, last: &str) -> Markup {
     html! { thead { tr {
         @for title in texts { th scope="col" { (title) } }
@@ -181,7 +181,8 @@ fn causes(causes: &[Cause]) -> Markup {
     section("causes", "Root causes of lost points", &list)
 }
 
-/// Renders the failure rates for each task and item in each section. Items are collapsed.
+/// Renders the failure rates for each task and item in each section. The table of items is
+/// collapsed.
 fn failure_rates(summary: &ClassSummary) -> Markup {
     let table = |title: &str, is_of_items: bool| {
         let rates = summary.failed.iter();

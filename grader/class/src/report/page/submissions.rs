@@ -52,7 +52,7 @@ fn submission_row(row: &ClassRow, tasks: usize) -> Markup {
     }
 }
 
-/// Returns the final points of the people, or a single number if all of them are equal.
+/// Returns each person's final points, or a single number if they are all equal.
 fn counts(row: &ClassRow) -> String {
     let counts = row.grades.iter().map(|grade| match &grade.counted {
         Some(counted) => counted.points.to_string(),

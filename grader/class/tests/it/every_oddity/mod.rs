@@ -16,8 +16,8 @@ const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const POLICY: &str = "[points]\nout_of = 100\n[late]\ndue = 2026-11-20T23:59:59+01:00\n\
                       timezone = \"Europe/Berlin\"\npercent_per_day = 10\n";
 
-/// Grades the class of a platform. Every person must be graded or listed with a reason, and the
-/// totals must add up.
+/// Grades a class exported from a platform. Every person must be graded or listed with a reason,
+/// and the totals must add up.
 fn check(platform: Platform) {
     let cases = cases();
     assert_eq!(Platform::ALL.len() * cases.len(), 60);

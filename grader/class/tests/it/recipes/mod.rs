@@ -53,7 +53,7 @@ fn is_installed(what: &str, found: bool) -> bool {
     found
 }
 
-/// Both recipes refuse this before submitting anything, so no scheduler is needed.
+/// Both recipes refuse these mistakes before submitting anything, so no scheduler is needed.
 #[test]
 fn another_number_of_parts_and_results_among_the_submissions_are_refused() {
     let class = TestClass::of_three();

@@ -1,7 +1,7 @@
 //! Compares pictures of first hits with a key that allows a *set* of answers at every position.
 //!
 //! Near an edge, rounding decides which surface a ray hits, so an answer is correct if a ray moved
-//! by up to ±5e-4 of a pixel would get it. Simply skipping these positions would hide cracks
+//! by up to ±5e-4 of a pixel would produce it. Simply skipping these positions would hide cracks
 //! between triangles, which occur nowhere else.
 
 use std::iter;
@@ -30,7 +30,7 @@ const QUANTITIES: [(Aspect, u32); 4] = [
     (Aspect::Uv, 10),
 ];
 
-/// The deviations of the quantities at one position, up to the first wrong one.
+/// The deviations of the quantities at one position, up to the first wrong quantity.
 type Deviations = ArrayVec<Deviation, { QUANTITIES.len() }>;
 
 /// A picture and its key.
@@ -137,8 +137,8 @@ impl FirstHits<'_> {
                     position_deviations(got.as_ref(), right, self.scale, &mut alike)
                 }
                 ElementOutcome::Panicked(_) | ElementOutcome::Skipped => {
-                    // Consume the alternatives of this position, so that those of the next position
-                    // come first.
+                    // Consume the alternatives of this position, so that the next position's
+                    // alternatives come first.
                     right.for_each(drop);
                     Deviations::from_iter([Deviation::WRONG])
                 }
@@ -161,8 +161,8 @@ impl FirstHits<'_> {
     }
 
     /// Returns whether a quantity was judged at half or more of the positions where the key has a
-    /// hit. Otherwise, an answer without hits would earn points for its normals, since none of them
-    /// are wrong. Hit or miss is judged everywhere.
+    /// hit. Without this condition, an answer without hits would earn points for its normals, since
+    /// none of them are wrong. Hit or miss is judged everywhere.
     fn has_enough_judged(&self, judged: usize) -> bool {
         let to_hit = self.hits.iter().flatten().count();
         judged * 2 >= to_hit

@@ -70,8 +70,8 @@ impl Bounds {
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
-    /// Returns how far this box extends beyond `outer`, ignoring rounding errors of f32. A box with
-    /// a NaN extends infinitely far, so the result is never NaN.
+    /// Returns how far this box extends beyond `outer`, ignoring f32 rounding errors. A box with a
+    /// NaN extends infinitely far, so the result is never NaN.
     pub fn excess_over(self, outer: Bounds) -> f64 {
         let last_bits = self.min.abs().max(self.max.abs()) * 2.0 * f64::from(f32::EPSILON);
         let below = (outer.min - self.min - last_bits).to_array();

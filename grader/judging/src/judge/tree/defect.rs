@@ -146,8 +146,8 @@ impl TreeDefect {
         }
     }
 
-    /// Returns whether there is too little or too much of that part or property, if that can be
-    /// determined.
+    /// Returns whether there is too little or too much of the wrong part or property, if that can
+    /// be determined.
     pub fn side(&self) -> Option<Side> {
         match self {
             TreeDefect::NoNodes { .. } | TreeDefect::NotSplit { .. } => Some(Side::Less),

@@ -152,8 +152,8 @@ impl TreeCriteria<'_> {
             })
     }
 
-    /// Returns the SAH cost of a tree, which is only meaningful if the tree contains every
-    /// primitive exactly once. Otherwise, returns the first defect of that kind.
+    /// Returns the SAH cost of a tree. If the tree doesn't contain every primitive exactly once,
+    /// the cost would mean nothing, so the first defect of that kind is returned instead.
     pub fn cost(&self, nodes: &[ReachedNode]) -> Result<f64, TreeDefect> {
         let mut defects = self.check_defects(TreeCheck::Partition, nodes);
         defects.next().map_or_else(|| Ok(cost(nodes)), Err)
@@ -197,8 +197,8 @@ impl TreeCriteria<'_> {
     }
 }
 
-/// Returns whether a node of a tree over `all` primitives breaks a check. A leaf may have at most
-/// `most` of them. The partition is checked elsewhere, because it involves all leaves.
+/// Returns whether a node of a tree over `all` primitives fails a check. A leaf may have at most
+/// `most` primitives. The partition is checked elsewhere, because it involves all leaves.
 pub fn breaks(check: TreeCheck, node: &ReachedNode, all: usize, most: usize) -> bool {
     let is_leaf = node.leaf_primitives.is_some();
     match check {
@@ -211,7 +211,7 @@ pub fn breaks(check: TreeCheck, node: &ReachedNode, all: usize, most: usize) -> 
     }
 }
 
-/// Returns the defect of a node that breaks a check.
+/// Returns the defect of a node that fails a check.
 fn node_defect(
     check: TreeCheck,
     node: &ReachedNode,

@@ -22,11 +22,11 @@ pub struct ReachedNode<'a> {
     pub leaf_primitives: Option<Vec<usize>>,
     /// Distance from the root, which is at level 0.
     pub level: u32,
-    /// Number of primitives in the leaves to its left.
+    /// Number of primitives in the leaves to the left of this node.
     pub start: usize,
     /// Number of primitives below the node.
     pub count: usize,
-    /// Tightest box around these primitives.
+    /// Tightest box around the primitives below the node.
     pub tight_bounds: Bounds,
 }
 

@@ -38,7 +38,8 @@ fn tree_of(nodes: Vec<TreeNode>, count: u32) -> Tree {
     }
 }
 
-/// Returns a tree over four spheres, with two in each leaf. The root is in the middle of the nodes.
+/// Returns a tree over four spheres, with two in each leaf. The root is in the middle of the list
+/// of nodes.
 pub(crate) fn valid_tree() -> Tree {
     Tree {
         root: 1,

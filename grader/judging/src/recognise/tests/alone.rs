@@ -1,4 +1,4 @@
-//! Mistakes that explain all answers of a task on their own.
+//! Mistakes that explain all answers in a task on their own.
 
 use super::*;
 

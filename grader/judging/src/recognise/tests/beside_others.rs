@@ -46,7 +46,7 @@ fn a_mistake_that_explains_nearly_all_answers_is_not_named() {
         names_known("1*3|2*3|3*3|4*3", &[("known", "7*3|7*3|7*3|7*3")], &answers)
     };
     assert!(named("7 7 7"));
-    assert!(!named("7 7 9"), "one answer is another");
+    assert!(!named("7 7 9"), "one answer differs");
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn a_mistake_that_misses_is_named_if_most_wrong_items_are_its_own() {
     );
 }
 
-/// A miss together with another wrong answer is stronger evidence than misses only.
+/// A miss together with another wrong answer is stronger evidence than misses alone.
 #[test]
 fn a_mistake_that_also_misses_is_named_beside_an_unknown_one() {
     let known = ("known", "miss 7|miss 7|");

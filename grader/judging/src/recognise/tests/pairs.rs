@@ -1,4 +1,4 @@
-//! Pairs of mistakes that together explain all answers of a task.
+//! Pairs of mistakes that together explain all answers in a task.
 
 use super::*;
 
@@ -9,7 +9,7 @@ fn explain_pair(correct: &str, one: &str, other: &str, answers: &str) -> String 
 
 #[test]
 fn two_mistakes_are_named_where_each_explains_an_item_alone() {
-    // Neither is named for the last item, since some answers to it come from the other mistake.
+    // Neither mistake is named for the last item, since each explains only some of its answers.
     let named = |answers| explain_pair("1 2|3 4|5 6", "7 2||7 6", "|3 8|5 8", answers);
     assert_eq!(named("7 2|3 8|7 8"), "one|other|");
     // An answer that neither changes must be correct.

@@ -1,4 +1,4 @@
-//! The number of bits that reach students anyway, since points and verdicts depend on the
+//! The number of bits that inevitably reach students, because points and verdicts depend on the
 //! answers. It is documented in `SECURITY.md`.
 
 use std::fs;

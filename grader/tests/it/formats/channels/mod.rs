@@ -112,7 +112,7 @@ fn an_item_that_is_open_says_nothing_about_others_of_its_task() {
     assert_nothing_arrives(&policy);
 }
 
-/// Shows that counting works, since students can read everything about an exam they have.
+/// Shows that the counting works: if students have the exam, they can read everything about it.
 #[test]
 fn bits_arrive_where_students_see_everything() {
     let (exam, passed) = all_passed();

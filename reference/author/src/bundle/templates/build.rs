@@ -1,4 +1,4 @@
-//! Says what to run instead of `cargo test`. The commands of this project use the release profile.
+//! Says what to run instead of `cargo test`. This project's commands use the release profile.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

@@ -131,8 +131,8 @@ impl BoxCall {
         (dir != self.ray.dir).then_some(BoxCall { ray, ..*self })
     }
 
-    /// Returns the times when the ray's line enters and leaves the box, ignoring the times of the
-    /// call.
+    /// Returns the times at which the ray's line enters and leaves the box, ignoring the call's own
+    /// times.
     pub fn crossing(&self) -> Option<(f64, f64)> {
         let whole = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
         self.bounds.span(&Ray64::from(&self.ray).within(whole))

@@ -10,8 +10,8 @@ use crate::domains::{Call, Change, Generator};
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// Draws boxes of these sizes and, for each box, calls that fit an item's idea. Every other call is
-/// a hit.
+/// Draws boxes of these sizes and, for each box, calls that fit an item's idea. Half of the calls
+/// are hits.
 pub fn tables(
     rng: &mut Rng,
     sizes: &[usize],
@@ -29,8 +29,8 @@ pub fn tables(
         differ: &|one, other| one.differs(other),
     };
     let mut tables = generator.tables(rng, sizes);
-    // If the last two tables have the same calls, they stay unchanged, since one begins with the
-    // call that ends the other.
+    // If the last tables repeat the same calls, they stay unchanged, since each begins with the
+    // last call of the table before it.
     let alone = if tables.len() > sizes.len() {
         sizes.len() - 1
     } else {
@@ -62,7 +62,7 @@ const CHANGES: &[Change<BoxCall>] = &[
     },
 ];
 
-/// Draws a box of this size. Each of two sides may be thin, and one may be flat.
+/// Draws a box of this size. Up to two sides may be thin, and one may be flat.
 fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     let size = fields::size(rng, size);
     let is_cube = rng.index(6) == 0;
@@ -175,7 +175,7 @@ fn short_times(rng: &mut Rng, call: &BoxCall) -> Option<Interval> {
     })
 }
 
-/// Draws a ray in this direction. Sometimes, draws one that starts far away or at the origin
+/// Draws a ray in this direction. Sometimes draws a ray that starts far away or at the origin
 /// instead.
 fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
@@ -276,7 +276,7 @@ fn from_faces(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some(with_times(rng, origin, dir, sides.max_element()))
 }
 
-/// Draws a ray that starts exactly in the centre of the box. Returns `None` if the centre isn't
+/// Draws a ray that starts exactly at the centre of the box. Returns `None` if the centre isn't
 /// exact in single precision.
 fn from_center(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let center = bounds.center();
@@ -371,8 +371,8 @@ fn shorter(bounds: &Bounds, axis: usize) -> Bounds {
     Bounds::new(min, max)
 }
 
-/// Returns the calls in a table. If the box is so thin that the answers are clear, adds three calls
-/// whose rays are almost the same but hit and miss the box in turn.
+/// Returns the calls in a table. If the box is thin enough, adds three calls whose rays are almost
+/// the same but clearly hit and miss the box in turn.
 fn with_almost_the_same_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
@@ -453,9 +453,9 @@ pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     (0..4).map(table).collect()
 }
 
-/// Returns the calls in a table and three more: two whose rays are parallel to the previous one,
-/// and one whose ray starts at the same point. Each of them hits if the previous ray misses, and
-/// vice versa.
+/// Returns the calls in a table and three more: two whose rays are parallel to the previous ray,
+/// and one whose ray starts at the same point as the previous ray. Each of them hits if the
+/// previous ray misses, and vice versa.
 fn with_related_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),

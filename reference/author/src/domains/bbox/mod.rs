@@ -75,7 +75,8 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             &["size"],
             &["500"],
             &["pairs"],
-            "Nothing is 30 sizes away from such a box in a scene whose coordinates end at a thousand.",
+            "In a scene whose coordinates end at 1,000, nothing is 30 sizes away from a box of \
+             this size.",
         ),
         not_asked(
             &["outcome"],
@@ -170,7 +171,7 @@ const FORM: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// Boxes with exactly the same length along two axes, but not the third.
+/// Boxes whose length is exactly the same along two axes, but not along the third.
 const SQUARE: Aspect<BoxCall> = Aspect {
     name: "square",
     classes: &["across x", "across y", "across z"],
@@ -428,7 +429,7 @@ const TIMES_CLASSES: &[&str] = &[
     "one point",
 ];
 
-/// The same classes and an additional class for empty ranges.
+/// The classes in [`TIMES_CLASSES`], and an additional class for empty ranges.
 const RANGE_CLASSES: &[&str] = &[
     "from 0 to ∞",
     "from 0 to an end",

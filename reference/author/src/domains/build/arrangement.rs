@@ -35,7 +35,7 @@ pub const ARRANGEMENT: Aspect<BuildCall> = Aspect {
     class: arrangement,
 };
 
-/// The arrangement again, but regardless of its axis. Each property of a tree is tested with each
+/// The same arrangement, ignoring its axis. Each property of a tree is tested with each
 /// arrangement.
 pub const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
     name: "arrangement along any axis",
@@ -63,7 +63,8 @@ pub const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
 };
 
 fn arrangement(call: &BuildCall) -> Option<usize> {
-    /// The farthest primitive is an outlier if the box shrinks by more than this factor without it.
+    /// The farthest primitive is an outlier if the box without it is smaller by more than this
+    /// factor.
     const OUTLIER: f64 = 5.0;
     /// Sizes count as very different if the ratio of the largest to the smallest is above this
     /// limit.

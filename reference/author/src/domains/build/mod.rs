@@ -109,13 +109,14 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             ],
             &[],
             ALL_BUT_COST,
-            "Only the cost depends on how nodes are split, and on areas.",
+            "Only the cost depends on areas and on how nodes are split.",
         ),
         not_asked(
             &["over 1,024 primitives"],
             &[],
             &["split", "cost"],
-            "The leaf size is judged, which is stricter, and the cost of trees with larger leaves.",
+            "The leaf size is judged instead, which is stricter. The cost is judged for trees with \
+             larger leaves.",
         ),
         not_asked(
             &["levels"],
@@ -128,19 +129,20 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
                 "stops",
                 "cost",
             ],
-            "A builder that stops at a level makes a leaf there, which is too large.",
+            "A builder that stops at a certain level makes a leaf there that is too large.",
         ),
         not_asked(
             &["levels"],
             &["1"],
             &["leaf size"],
-            "A tree of one level is asked of where a node must be a leaf.",
+            "Trees of one level are tested by the questions about when a node must be a leaf.",
         ),
         not_asked(
             &["arrangement along any axis"],
             &["all centres coincide", "over 128 centres coincide"],
             &["split", "cost"],
-            "All partitions of primitives with one centre cost the same, and the leaf size is judged instead.",
+            "If all primitives have the same centre, all partitions cost the same, so the leaf \
+             size is judged instead.",
         ),
         not_asked(
             &["arrangement along any axis"],
@@ -152,7 +154,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &["arrangement along any axis"],
             &["equal boxes, max_leaf_size 1"],
             &["split", "cost"],
-            "Some of the partitions of equal boxes cost the same, and the leaf size is judged.",
+            "Some of the partitions of equal boxes cost the same, so the leaf size is judged \
+             instead.",
         ),
         not_asked(
             &["arrangement along any axis"],
@@ -168,7 +171,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
                 "of very different sizes",
             ],
             &["split"],
-            "The leaf size is judged, which is stricter.",
+            "The leaf size is judged instead, which is stricter.",
         ),
     ],
 };
@@ -316,7 +319,8 @@ const SHAPE_OF_TREE: Aspect<BuildCall> = Aspect {
     },
 };
 
-/// The area of the root's box times the number of primitives. Costs are proportional to it.
+/// The area of the root's box times the number of primitives. Costs are proportional to this
+/// product.
 const WORK: Aspect<BuildCall> = Aspect {
     name: "area times primitives",
     classes: &["above 1e10"],

@@ -15,7 +15,7 @@ pub fn drawn((from, to): (f64, f64), rng: &mut Rng) -> f64 {
     }
 }
 
-/// Draws an offset along one axis, often at an end of the pixel.
+/// Draws an offset along one axis, often close to an edge of the pixel.
 pub fn offset(rng: &mut Rng) -> f32 {
     let offset = match rng.index(6) {
         0 => 0.0,
@@ -37,8 +37,8 @@ pub fn side(rng: &mut Rng, class: usize) -> u32 {
     }
 }
 
-/// Draws cameras with all angles of view, sensors and films. Most differ from the previous one in a
-/// single field and are asked for the same samples, so that a method that keeps state between calls
+/// Draws cameras with all angles of view, sensors and films. Most differ from the previous camera
+/// in a single field and get the same samples, so that a method that keeps state between calls
 /// fails.
 pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let (classes, forms) = (
@@ -84,7 +84,7 @@ pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
 }
 
 /// Draws cameras that each differ from the previous one in a single field, most by less than 1%.
-/// They are asked for the same samples.
+/// All of them get the same samples.
 pub fn almost_equal_cameras(
     rng: &mut Rng,
     first: PinholeCamera,
@@ -148,7 +148,7 @@ pub fn almost_usual_cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> 
     all
 }
 
-/// Draws samples at the ends of narrow views on wide sensors, in the middle of a large film with a
+/// Draws samples at the edges of narrow views on wide sensors, in the middle of a large film with a
 /// usual view, and in a single pixel with a wide view.
 pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let mut all = Vec::new();
@@ -185,8 +185,8 @@ pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     all
 }
 
-/// Draws samples on a film. The first and the last also exist on the rotated film. Some samples
-/// repeat the previous one with x and y swapped.
+/// Draws samples on a film. The first and the last also exist on the rotated film. One sample
+/// repeats the previous one with x and y swapped.
 fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
     let square = UVec2::splat(film.min_element());
     let films = [square, square, film, film, film, film, square, square];

@@ -329,11 +329,11 @@ const VIEW: Aspect<CameraCall> = Aspect {
     classes: &[
         "a single wide pixel",
         "a square film at 90° with another sensor",
-        "an end of a view of 1° to 5° on a wide sensor",
-        "an end of a view of 10° to 15° on a wide sensor",
+        "an edge of a 1° to 5° view on a wide sensor",
+        "an edge of a 10° to 15° view on a wide sensor",
         "the middle of the widest view",
-        "an end of a view of 5° to 10° on a wide sensor",
-        "the middle of a view of 60° to 100° on a wide sensor and a large film",
+        "an edge of a 5° to 10° view on a wide sensor",
+        "the middle of a 60° to 100° view on a wide sensor and a large film",
     ],
     class: |call| {
         let PinholeCamera {

@@ -1,4 +1,4 @@
-//! Calls whose shape differs from a previous one in a single property.
+//! Calls whose shape differs from the previous call's shape in a single property.
 
 use glam::{DVec3, Vec3};
 use protocol::{Ray, Shape};

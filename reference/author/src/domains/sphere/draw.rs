@@ -13,8 +13,8 @@ use crate::domains::{Call, Change, Generator};
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws spheres of these sizes and, for each sphere, rays that fit an item's idea. Every other ray
-/// is a hit. Every correct formula computes the judged quantities within their tolerances.
+/// Draws spheres of these sizes and, for each sphere, rays that fit an item's idea. Half of the
+/// rays are hits. Every correct formula computes the judged quantities within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],

@@ -46,7 +46,8 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["call before"],
             &["the axes in another order"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
-            "Such a ray hits only shapes near the origin, so an exam may test only its distance.",
+            "A ray like this hits only shapes near the origin, so an exam may test only the \
+             distance of the hit.",
         ),
         not_asked(
             &["centre"],
@@ -58,7 +59,8 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["place"],
             &["1,000 sizes away"],
             &["normal", "unit_normal", "uv"],
-            "So far from the origin, rounding the centre changes the normal by more than its tolerance allows.",
+            "At this distance from the origin, rounding the centre changes the normal by more than \
+             its tolerance.",
         ),
         not_asked(
             &["start"],
@@ -76,13 +78,15 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["size"],
             &["500"],
             &["pairs"],
-            "Nothing is 30 radii away from such a sphere in a scene whose coordinates end at a thousand.",
+            "In a scene whose coordinates end at 1,000, nothing is 30 radii away from a sphere of \
+             this size.",
         ),
         not_asked(
             &["distance"],
             &["2000"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
-            "Only the largest spheres are hit so far away, so an exam may test only its distance.",
+            "Only the largest spheres are hit from so far away, so an exam may test only the \
+             distance of the hit.",
         ),
     ],
 };
@@ -125,7 +129,7 @@ const ON_AXIS: Aspect<ShapeCall> = Aspect {
 const TOUCH: Aspect<ShapeCall> = Aspect {
     name: "touches",
     classes: &[
-        "the plane y = 0 from below, as the ground does",
+        "the plane y = 0 from below, like the ground",
         "the plane y = 0 from below, with a radius below 100",
         "another plane",
         "nothing",

@@ -54,11 +54,11 @@ pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
     calls.collect()
 }
 
-/// The leaf of a second hit that is hardly farther away than the closest one.
+/// The leaf of a second hit that is hardly farther away than the closest hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SecondLeaf {
     /// The second hit is in the same leaf at almost the same distance, and its primitive comes
-    /// before that of the closest hit.
+    /// before the primitive of the closest hit.
     Same,
     /// The second hit is in a leaf whose box the ray starts in. Relative to the size of the tree,
     /// both hits are close to the start.
@@ -68,7 +68,8 @@ pub(super) enum SecondLeaf {
 }
 
 impl TraverseCall {
-    /// Returns the leaf of a second hit close behind the closest one, if there is such a hit.
+    /// Returns the leaf of a second hit close behind the closest hit, if there is a second hit like
+    /// this.
     pub(super) fn layer(&self) -> Option<SecondLeaf> {
         /// The largest relative difference between the distances, and the largest distance from the
         /// start as a fraction of the tree's diagonal.
@@ -105,8 +106,8 @@ impl TraverseCall {
         (closest.distance < near && others.any(is_near)).then_some(SecondLeaf::Other)
     }
 
-    /// Returns the number of nodes that the ray enters after the leaf with the hit, among the
-    /// siblings of this leaf and of the nodes above it.
+    /// Returns the number of nodes that wait while a traversal goes to the leaf with the hit:
+    /// siblings of this leaf, or of a node above it, that the ray enters later.
     pub fn nodes_waiting(&self) -> Option<usize> {
         let (tree, ray64) = (&self.subject.tree, Ray64::from(&self.ray));
         let leaf = self.leaf_of_hit()?;
@@ -158,7 +159,7 @@ impl TraverseCall {
     }
 
     /// Returns whether an unreferenced primitive in front of the answer is about as large as the
-    /// tree, or `None` if there is no such primitive.
+    /// tree, or `None` if no unreferenced primitive is in front of the answer.
     pub(super) fn unreferenced_in_front(&self) -> Option<bool> {
         /// A primitive is as large as the tree if, along two axes, it covers at least this fraction
         /// of the tree's side.

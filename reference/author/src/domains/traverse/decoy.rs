@@ -24,7 +24,7 @@ pub(super) struct Decoy {
     /// Whether the decoy's leaf and that leaf's sibling each have four or more primitives, and all
     /// of these are next to each other in the list.
     pub(super) is_beside_a_large_leaf: bool,
-    /// Whether the ray starts in the box of the sibling, which contains the hit.
+    /// Whether the ray starts in the box of the leaf's sibling and hits something there.
     pub(super) is_from_siblings_box: bool,
     pub(super) history: usize,
 }
@@ -73,8 +73,8 @@ impl Decoy {
     }
 }
 
-/// Returns the class of the reason a leaf isn't entered, or `None` if the reason is a node above
-/// it.
+/// Returns the class of the reason why a leaf isn't entered, or `None` if a node above the leaf is
+/// the reason.
 fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
     let reason = decoy::skip_reason(tree, leaf, ray64)?;
     let sibling = tree.sibling(leaf)?;

@@ -4,7 +4,7 @@ use super::call::TraverseCall;
 use crate::domains::Aspect;
 use crate::domains::fields::class_up_to;
 
-/// The reason the decoy must not be tested.
+/// The reason why the decoy must not be tested.
 pub(super) const REASON: Aspect<TraverseCall> = Aspect {
     name: "decoy",
     classes: &[

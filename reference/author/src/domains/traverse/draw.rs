@@ -40,7 +40,7 @@ pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
 }
 
 /// Draws a ray that starts on a sphere and passes through it. The range begins a little after the
-/// ray's start. Returns `None` if it doesn't hit the same sphere.
+/// ray's start. Returns `None` if the ray doesn't hit that sphere.
 pub fn ray_through_the_sphere_that_it_starts_on(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let shape = &tree.shapes[rng.index(tree.shapes.len())];
     let Shape::Sphere { center, radius, .. } = *shape else {

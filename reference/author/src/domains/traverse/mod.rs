@@ -100,13 +100,14 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             &["start before a decoy"],
             &["in the sibling's box, which holds the hit"],
             &["`None`"],
-            "A ray that hits nothing has no box of a hit.",
+            "If a ray hits nothing, no box holds its hit.",
         ),
         not_asked(
             &["decoy's box"],
             &["a line or a point"],
             &["pairs"],
-            "Whether a ray meets a line or a point depends on rounding, so such a box is asked where it is missed.",
+            "Whether a ray hits a line or a point depends on rounding, so a box like this is \
+             tested only where it is missed.",
         ),
         not_asked(
             &["decoy"],
@@ -142,8 +143,8 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             &["size"],
             &["500"],
             &[],
-            "A tree half as large as the largest coordinate allows is tested only where the seed \
-             has room for one.",
+            "A tree half as large as the largest coordinate allows is tested only if the seed \
+             leaves room for one.",
         ),
     ],
 };
@@ -400,7 +401,7 @@ const WAITING: Aspect<TraverseCall> = Aspect {
     class: |call| Some(class_up_to(&[47], call.nodes_waiting()?)),
 };
 
-/// A second hit close behind the closest one.
+/// A second hit close behind the closest hit.
 const LAYERS: Aspect<TraverseCall> = Aspect {
     name: "another hit close behind",
     classes: &[

@@ -15,8 +15,8 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws triangles of these sizes and, for each triangle, rays that fit an item's idea. Every other
-/// ray is a hit. Every correct formula computes the judged quantities within their tolerances.
+/// Draws triangles of these sizes and, for each triangle, rays that fit an item's idea. Half of the
+/// rays are hits. Every correct formula computes the judged quantities within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],

@@ -72,7 +72,8 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["start"],
             &["on the surface"],
             &[],
-            "The start itself is in the range only if the range begins there, and ends of ranges keep a margin. So such a ray hits nothing.",
+            "The start itself is in the range only if the range begins there, but no range begins \
+             or ends so close to the triangle. So a ray like this hits nothing.",
         ),
         not_asked(
             &["crossing"],
@@ -93,7 +94,8 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["call before"],
             &["the axes in another order"],
             &["normal", "origin", "position", "shape", "uv"],
-            "Such a ray hits only shapes near the origin, so an exam may test only its distance.",
+            "A ray like this hits only shapes near the origin, so an exam may test only the \
+             distance of the hit.",
         ),
         not_asked(
             &["call before"],
@@ -146,33 +148,38 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
                 "flat at p2",
             ],
             &["normal", "uv", "origin", "position", "shape"],
-            "In a narrow or flat triangle, the weights of a usual formula in single precision are wrong by more than the tolerances allow, so an item that judges normals or texture coordinates has none. The other quantities do not depend on the weights.",
+            "In a narrow or flat triangle, the weights that a usual formula computes in single \
+             precision are wrong by more than the tolerances allow, so the items that judge \
+             normals or texture coordinates have no triangles like this. The other quantities do \
+             not depend on the weights.",
         ),
         not_asked(
             &["altitude"],
             &[],
             &["normal", "uv", "origin", "position", "shape"],
-            "Such a flat triangle is tested as rarely as other flat ones, for the same reason.",
+            "A triangle as flat as this is tested as rarely as other flat triangles, for the same \
+             reason.",
         ),
         not_asked(
             &["cosine"],
             &["below 0.01"],
             &["normal", "uv"],
-            "At so small a cosine, the weights of a usual formula in single precision are seldom \
-             exact enough, so an exam may test only the other quantities.",
+            "At a cosine this small, the weights that a usual formula computes in single precision \
+             are seldom exact enough, so an exam may test only the other quantities.",
         ),
         not_asked(
             &["place"],
             &["1,000 sizes away"],
             &["normal", "uv"],
-            "So far from the origin, rounding the corners changes the weights by more than the tolerances of normals and texture coordinates allow.",
+            "At this distance from the origin, rounding the corners changes the weights by more \
+             than the tolerances of normals and texture coordinates allow.",
         ),
         not_asked(
             &["distance"],
             &["2000"],
             &["normal", "origin", "position", "shape", "uv"],
-            "Only the largest triangles are hit so far away, so an exam may test only its \
-             distance.",
+            "Only the largest triangles are hit from so far away, so an exam may test only the \
+             distance of the hit.",
         ),
     ],
 };
@@ -630,7 +637,8 @@ const LEAST_WEIGHT: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The axis that the ray is parallel to. Triangles across an axis are rarely seen from both sides.
+/// The axis that the ray is parallel to, in either direction. Triangles perpendicular to an axis
+/// are rarely seen from both sides.
 const AXIS: Aspect<ShapeCall> = Aspect {
     name: "axis",
     classes: &["along x", "along y", "along z", "any"],

@@ -36,8 +36,8 @@ fn driver_error(error: Error) -> anyhow::Error {
     anyhow!("mdBook: {error:#}")
 }
 
-/// Builds the book from a bundle's chapters, which exclude those for instructors, into the folder
-/// `to`.
+/// Builds the book into the folder `to` from a bundle's chapters, which don't include the chapters
+/// for instructors.
 pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<()> {
     let mut chapters = Bundle::default();
     let of_handout = bundle

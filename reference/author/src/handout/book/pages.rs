@@ -1,5 +1,6 @@
 //! The pages that mdBook builds. Figures are inlined, so that they follow the light or dark theme.
-//! Every anchor of the Markdown chapters exists, and no page loads anything from the network.
+//! A page must have every anchor of its Markdown chapter, and must not load anything from the
+//! network.
 
 use std::path::Path;
 

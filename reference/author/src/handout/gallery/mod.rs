@@ -48,7 +48,7 @@ struct Chapter {
 }
 
 impl Chapter {
-    /// The path of the sheet with all pictures, relative to the chapters.
+    /// The path of the sheet with all pictures, relative to the chapters' folder.
     fn sheet(&self) -> String {
         format!("figures/{}", self.page.replace(".md", "-gallery.png"))
     }
@@ -88,7 +88,7 @@ fn gallery(root: &Path, authoring: &Authoring) -> Result<Gallery> {
     read_toml(&root.join(authoring.handed_out.solutions()).join(LIST))
 }
 
-/// Generates the text about the pictures in each chapter, given the text of the chapter.
+/// Returns the chapters with the text about their pictures generated anew.
 pub fn with_pictures(
     root: &Path,
     authoring: &Authoring,

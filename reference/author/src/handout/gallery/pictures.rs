@@ -26,7 +26,7 @@ const COLUMNS: u32 = 3;
 const GAP: u32 = 6;
 /// The colour between pictures, which suits light and dark pages.
 const BACKGROUND: image::Rgb<u8> = image::Rgb([128, 128, 128]);
-/// The maximum mean difference per byte between two sheets that count as the same. It isn't 0
+/// The maximum mean difference per byte at which two sheets are considered the same. It isn't 0
 /// because different machines round differently.
 const TOLERANCE: f64 = 0.5;
 
@@ -65,14 +65,15 @@ fn is_same(path: &Path, picture: &RgbImage) -> bool {
     found.dimensions() == picture.dimensions() && mean <= TOLERANCE
 }
 
-/// A students' workspace in which solutions are drawn.
+/// A students' workspace in which the pictures of solutions are drawn.
 struct Workspace {
     folder: PathBuf,
     reference: Sources,
 }
 
 impl Workspace {
-    /// Unpacks the bundle of an assignment. Compiled files stay in its folder for the next time.
+    /// Unpacks an assignment's bundle. Compiled files stay in the folder and are reused the next
+    /// time.
     fn create(root: &Path, authoring: &'static Authoring) -> Result<Self> {
         let folder = root.join(FOLDER);
         let bundle = Bundle::collect(root, authoring.handed_out, None)?;
@@ -81,7 +82,8 @@ impl Workspace {
         Ok(Workspace { folder, reference })
     }
 
-    /// Draws a chapter's pictures side by side: the reference's, then those of the mistakes.
+    /// Draws a chapter's pictures side by side: the reference's picture, then the mistakes'
+    /// pictures.
     fn sheet(
         &self,
         root: &Path,
@@ -108,7 +110,7 @@ impl Workspace {
         Ok(sheet)
     }
 
-    /// Draws a picture with a solution.
+    /// Draws a chapter's picture with the code of a solution.
     fn picture(&self, sources: &Sources, chapter: &Chapter) -> Result<RgbImage> {
         sources
             .write(&self.folder.join("student/src"))

@@ -55,8 +55,8 @@ fn bbox_question(bounds: Bounds, queries: Vec<Query>) -> ExamQuestion {
     ExamQuestion::new(question, key)
 }
 
-/// Creates questions about boxes of these sizes. Their calls fit an item's idea, and every other
-/// call is a hit.
+/// Creates questions about boxes of these sizes, with calls that `belongs` accepts. Half of the
+/// calls are hits.
 fn questions(
     rng: &mut Rng,
     sizes: &[usize],
@@ -68,8 +68,8 @@ fn questions(
         .collect()
 }
 
-/// Returns whether the box isn't flat and the ray isn't parallel to one of its faces, since
-/// separate items test these cases. It mustn't matter either whether the ray is almost parallel.
+/// Returns whether the box isn't flat, the ray isn't parallel to any of its faces, and it doesn't
+/// matter whether the ray is almost parallel to one of them. Separate items test the other cases.
 fn is_ordinary(call: &BoxCall) -> bool {
     !call.is_flat() && !call.is_parallel() && !call.is_decided_by_slant()
 }

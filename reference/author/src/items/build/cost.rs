@@ -28,10 +28,9 @@ const MAX_CORRECT_COST: f64 = 1.06;
 /// common mistake.
 const MIN_ADJACENT_COST: f64 = 1.2;
 
-/// Creates a question about a random mesh for each of these pairs of a primitive count and a
-/// maximum leaf size. The meshes' sizes and positions are drawn from the domain. On these meshes,
-/// correct builders come close to the exact sweep, but builders that compare only adjacent buckets
-/// don't.
+/// For each pair of a primitive count and a maximum leaf size, creates a question about a random
+/// mesh. The meshes' sizes and positions are drawn from the domain. On these meshes, correct
+/// builders come close to the exact sweep, but builders that compare only adjacent buckets don't.
 fn cost_questions(
     rng: &mut Rng,
     mesh: fn(&mut Rng, usize) -> Vec<Shape>,
@@ -164,7 +163,7 @@ fn lowest_adjacent_cost(question: &ExamQuestion) -> f64 {
     costs.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the cost of a bucketed builder's tree divided by the cost of the exact sweep's.
+/// Returns the cost of a bucketed builder's tree divided by the cost of the exact sweep's tree.
 pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
     match (&question.question, &question.key) {
         (

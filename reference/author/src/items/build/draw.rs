@@ -18,7 +18,7 @@ pub(super) enum Arrangement {
     Scattered,
     /// Boxes that are flat along one axis.
     FlatBoxes,
-    /// Centres in a plane across an axis.
+    /// Centres in a plane perpendicular to an axis.
     Plane,
     /// Centres in a row along an axis.
     Row,
@@ -39,7 +39,8 @@ pub(super) enum Arrangement {
 }
 
 /// Draws questions about `count` trees. Each tree has at most `most` primitives, which are in one
-/// of these arrangements. Each class of each aspect occurs, except in calls that `belongs` rejects.
+/// of these arrangements. Each class of each aspect occurs, unless `belongs` rejects the calls in
+/// that class.
 pub(super) fn questions(
     rng: &mut Rng,
     checks: &[TreeCheck],
@@ -213,7 +214,7 @@ fn without_area(rng: &mut Rng, center: DVec3, size: f64) -> Shape {
     meshes::flat_triangle([center, other, center], 0)
 }
 
-/// Returns a triangle in a plane across an axis.
+/// Returns a triangle in a plane perpendicular to an axis.
 fn flat(rng: &mut Rng, kind: usize, center: DVec3, size: f64, axis: usize) -> Shape {
     let [x, y] = [1, 2].map(|next| size * rng.sign() * DVec3::AXES[(axis + next) % 3]);
     let corners = [center, center + x, center + y];
@@ -226,7 +227,7 @@ fn flat(rng: &mut Rng, kind: usize, center: DVec3, size: f64, axis: usize) -> Sh
 }
 
 /// Returns one of many spheres around the origin. Their centres and radii are multiples of a power
-/// of two, so they still have a common centre after being moved.
+/// of two, so they still have a common centre after they have been moved.
 fn shell(index: usize) -> Shape {
     meshes::sphere(DVec3::ZERO, (index + 3) as f64 / 128.0)
 }

@@ -35,8 +35,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
         cost::COST_STRANDS,
         cost::COST_SHEETS,
         cost::COST_TOWN,
-        // This item comes last, because builders that recurse infinitely on its questions are often
-        // correct otherwise, and a task is stopped after two crashes.
+        // These items come last, because builders that recurse infinitely on their questions are
+        // often correct otherwise, and a task is stopped after two crashes.
         unusual_inputs::COINCIDENT,
         unusual_inputs::CONCENTRIC,
     ],

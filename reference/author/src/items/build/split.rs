@@ -73,7 +73,7 @@ const GAP: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps of which the first is the largest. A builder whose counts come from different buckets
+/// Clumps, the first of which is the largest. A builder whose counts come from different buckets
 /// than its boxes misses this clump and splits at the other gap.
 const HEAVY_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
@@ -82,7 +82,7 @@ const HEAVY_END: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps of which the first consists of large primitives, so that it is best to split off this
+/// Clumps, the first of which consists of large primitives, so that it is best to split off this
 /// clump. The other gap is wider, and a builder that treats primitives as points splits there.
 const LARGE_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)],
@@ -104,7 +104,7 @@ pub(super) const ONE_SPLIT: Declaration = Declaration {
     ..Declaration::ALONE
 };
 
-/// A question that doesn't have a size and a position yet.
+/// A question that doesn't have a size or a position yet.
 struct UnplacedQuestion {
     shapes: Vec<Shape>,
     max_leaf_size: usize,
@@ -277,16 +277,16 @@ fn of_dense_ends() -> Vec<Draw> {
     counts.map(draw).collect()
 }
 
-/// Returns the largest primitive count, up to `most`, that is a multiple of the chunk size, and
-/// this chunk size. If clusters consist of whole chunks, a chunk ends in the gap between them.
+/// Returns the largest primitive count up to `most` that is a multiple of its chunk size, along
+/// with that chunk size. If clusters consist of whole chunks, a chunk ends in the gap between them.
 fn in_whole_chunks(most: usize) -> (usize, usize) {
     let numbers = (1..=most).rev().map(|count| (count, chunk_size(count)));
     let mut whole = numbers.filter(|(count, chunk)| count % chunk == 0);
     whole.next().unwrap_or((most, 1))
 }
 
-/// Returns the chunk size of a builder that, instead of buckets, tries up to 64 chunks with the
-/// same number of primitives. Such a builder is correct as well.
+/// Returns the chunk size of a builder that uses up to 64 chunks of equally many primitives instead
+/// of buckets. Such a builder is correct as well.
 fn chunk_size(count: usize) -> usize {
     count.div_ceil(64)
 }
@@ -339,11 +339,11 @@ fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shap
     row(rng, &layout, axis, is_mirrored)
 }
 
-/// The size of a primitive that is far larger than the spaces between some others.
+/// The size of primitives that are far larger than some of the spaces between them.
 const LARGE: f64 = 0.4;
 
-/// Returns primitives in a row along an axis, evenly spaced in each clump, so that one partition is
-/// the best.
+/// Returns primitives in a row along an axis, evenly spaced in each clump, for which one partition
+/// is clearly the best.
 fn row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     rng.retry(|rng| {
         let shapes = any_row(rng, layout, axis, is_mirrored);
@@ -388,8 +388,8 @@ fn any_row(rng: &mut Rng, layout: &Layout, axis: usize, is_mirrored: bool) -> Ve
     meshes::number_shapes(rng.shuffled(shapes))
 }
 
-/// Returns a primitive of this kind. The centre of its box is `center`. Kinds from 4 on are
-/// triangles in a plane across an axis.
+/// Returns a primitive of this kind. The centre of its box is `center`. Kinds 4 and above are
+/// triangles in a plane perpendicular to an axis.
 fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shape {
     match kind {
         0 | 1 => meshes::random_triangle_with_box_around(rng, center, size),
@@ -405,8 +405,8 @@ fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shap
     }
 }
 
-/// Returns spheres roughly in a row. Builders with at most as many buckets as there are spheres
-/// don't have a plane in the best gap.
+/// Returns spheres roughly in a row. If a builder has no more buckets than there are spheres, none
+/// of its planes falls in the best gap.
 fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
     rng.retry(|rng| {
         let start = rng.point(3.0);
@@ -538,8 +538,8 @@ fn layers(rng: &mut Rng) -> UnplacedQuestion {
 }
 
 /// Returns whether every builder with 8 to 64 buckets, or 64 chunks, finds the best partition. The
-/// partition must be the best by a clear margin and split at a gap along this axis that contains a
-/// plane of every such builder.
+/// partition must be the best by a clear margin. It must also split the primitives at a gap along
+/// this axis that contains a plane of every such builder.
 fn is_unambiguous(shapes: &[Shape], axis: usize) -> bool {
     let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
     let Some(gap) = sweep::clear_gap(&boxes, axis) else {

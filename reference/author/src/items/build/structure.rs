@@ -30,8 +30,8 @@ const ARRANGEMENTS: &[Arrangement] = &[
     Outlier,
 ];
 
-/// Returns these questions and additional ones about primitives in these arrangements, which are
-/// drawn from the domain.
+/// Returns these questions, followed by others about primitives in these arrangements. The others
+/// are drawn from the domain.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -49,14 +49,14 @@ fn is_split(call: &BuildCall) -> bool {
     call.shapes.len() > call.max_leaf_size as usize
 }
 
-/// Returns whether a leaf is too small for a third of the primitives.
+/// Returns whether a leaf is too small to hold a third of the primitives.
 fn is_in_small_leaves(call: &BuildCall) -> bool {
     call.shapes.len() > 3 * call.max_leaf_size as usize
 }
 
-/// Creates a question about small random triangles for each of these pairs of a triangle count and
-/// a maximum leaf size. Up to seven more triangles are added to each question. Every other question
-/// is far from the origin.
+/// For each pair of a triangle count and a maximum leaf size, creates a question about small random
+/// triangles. Up to seven more triangles are added to each question. Every second question is far
+/// from the origin.
 fn soup_questions(
     rng: &mut Rng,
     checks: &[TreeCheck],
@@ -65,7 +65,7 @@ fn soup_questions(
     soup_questions_of_size(0.2, rng, checks, sizes)
 }
 
-/// Creates the same questions as [`soup_questions`], with triangles of this size.
+/// Creates the same questions as [`soup_questions`], but with triangles of this size.
 fn soup_questions_of_size(
     size: f64,
     rng: &mut Rng,
@@ -181,9 +181,9 @@ pub(super) const PARTITION: Declaration = Declaration {
 pub(super) const CONTAINS: Declaration = Declaration {
     id: "build.contains",
     title: "every box contains everything below it",
-    look: "A node's box encloses the whole boxes of all primitives below it. Those of a leaf are \
-           start..start + size in the list that you return: compare a leaf's box with them, and \
-           the boxes of the nodes above with those of their children.",
+    look: "A node's box encloses the whole boxes of all primitives below it. A leaf's primitives \
+           are start..start + size in the list that you return: compare a leaf's box with them, \
+           and the boxes of the nodes above with those of their children.",
     look_fits: &[Symptom::of("box too small")],
     section: "building.md#the-contract",
     tests: &["The box of a node…"],

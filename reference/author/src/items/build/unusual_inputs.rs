@@ -15,9 +15,9 @@ use crate::seed::Rng;
 /// All properties of a tree except its cost.
 const ALL: &[TreeCheck] = &[Partition, Contains, Tight, LeafSize, Stops];
 
-/// Returns these questions and additional ones about primitives in these arrangements, which are
-/// drawn from the domain. The additional questions judge how the primitives are split, using
-/// [`Split`] if a different item tests the exact size of leaves.
+/// Returns these questions, followed by others about primitives in these arrangements. The others
+/// are drawn from the domain. They check how the primitives are split, using [`Split`] if a
+/// different item tests the exact size of leaves.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -91,8 +91,8 @@ pub(super) const COINCIDENT: Declaration = Declaration {
         let center = rng.point(2.0);
         let same = meshes::random_flat_triangle(rng, center, 0.5);
         let all = vec![same; 20];
-        // More than half of the primitives coincide, so a leaf with all of these is considered
-        // unsplit.
+        // More than half of the primitives coincide, so a leaf that holds all of those is
+        // considered unsplit.
         let mut some = meshes::soup(rng, 17, 3.0, 0.4);
         some.extend(vec![same; 30]);
         let ball = meshes::sphere((8.0 * center).round() / 8.0, 0.5);
@@ -103,7 +103,7 @@ pub(super) const COINCIDENT: Declaration = Declaration {
             build_question(&[Partition, Split], rng.shuffled(some), 2),
             build_question(ALL, many, 1),
         ];
-        // These are different triangles with the same box.
+        // These are pairs of different triangles with the same box.
         questions.extend([1, 12].map(|count| {
             let mut shapes = meshes::rectangles(rng, count);
             shapes.push(meshes::sphere(rng.point(4.0), 0.3));
@@ -131,7 +131,8 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
         let center = rng.point(2.0);
         let step = rng.uniform(0.2, 0.3) as f32;
         let shells = (1..=13).map(|i| meshes::sphere(center, (step * i as f32).into()));
-        // All of these are exact in single precision, so their centres coincide exactly.
+        // All of these numbers are exact in single precision, so the spheres' centres coincide
+        // exactly.
         let exact = (8.0 * center).round() / 8.0;
         let many = (3..rng.integer(140, 300)).map(|i| meshes::sphere(exact, f64::from(i) / 128.0));
         let questions = vec![

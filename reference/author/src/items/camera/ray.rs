@@ -138,7 +138,7 @@ fn spread_question(judged: &[&str], rng: &mut Rng) -> ExamQuestion {
 fn questions_about_all_cameras(judged: &[&str], rng: &mut Rng) -> Vec<ExamQuestion> {
     let parts = FIELDS_OF_VIEW.into_iter().enumerate();
     let question = |(index, part)| {
-        // Narrow angles of view go with wide sensors, where directions are longest.
+        // Narrow angles of view are combined with wide sensors, where directions are longest.
         let ratio = (2 * ASPECT_RATIOS.len() - 1 - index) % ASPECT_RATIOS.len();
         let aspect = drawn(ASPECT_RATIOS[ratio], rng);
         let film = uvec2(side(rng, index), side(rng, 3 * index + 4));

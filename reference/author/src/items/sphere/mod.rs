@@ -32,8 +32,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
     ..AuthoredTask::NEW
 };
 
-/// Creates questions about spheres of these sizes. Their rays fit an item's idea, and every other
-/// ray is a hit.
+/// Creates questions about spheres of these sizes, with rays that `belongs` accepts. Half of the
+/// rays are hits.
 fn questions(
     rng: &mut Rng,
     judged: &[&str],

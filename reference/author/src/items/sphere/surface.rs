@@ -1,4 +1,4 @@
-//! Items about the quantities of a hit, and the item with a picture of spheres.
+//! Items about the values that are returned for a hit, and the item with a picture of spheres.
 
 use glam::{DVec3, Vec3, dvec3};
 use judging::exam::ExamQuestion;
@@ -93,7 +93,7 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
         meshes::sphere(center, radius * rng.uniform(0.9, 1.1))
     };
     let camera = |half, pixels| picture::camera_along(Vec3::ZERO, DVec3::NEG_Z, half, pixels);
-    // All spheres are close to the camera's height, so that no pole is visible.
+    // All spheres are roughly level with the camera, so that no pole is visible.
     let from_outside = vec![
         sphere(0.2, 0.0, -5.0, 1.2),
         sphere(-1.6, 0.3, -4.0, 0.7),

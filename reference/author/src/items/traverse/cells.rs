@@ -1,5 +1,5 @@
-//! Trees of cells. Each cell is a small tree with one decoy, whose properties are distributed so
-//! that each reason not to test a decoy occurs with each kind of leaf, index, level and range.
+//! Trees of cells. Each cell is a small tree with one decoy. The decoys' properties are distributed
+//! so that each reason not to test a decoy occurs with each kind of leaf, index, level and range.
 //!
 //! ```text
 //!   missed            missed with sibling       beyond               both beyond
@@ -27,7 +27,7 @@ use crate::seed::Rng;
 use crate::tree::traversal::{Traversal, TraversalRule};
 use crate::tree::{Tree, decoy};
 
-/// The reason the decoy of a cell must not be tested.
+/// The reason why a cell's decoy must not be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CellSkipReason {
     /// The ray misses the box of the decoy's leaf.
@@ -48,11 +48,11 @@ pub(super) enum CellSkipReason {
     FartherOfTwoBeyond,
 }
 
-/// The decoys in a question, which must not be tested for two or three different reasons.
+/// The decoys in a question, with the two or three different reasons why they must not be tested.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Decoys<'a> {
     pub(super) reasons: &'a [CellSkipReason],
-    /// Whether the leaf of a decoy is the left child. If both siblings are beyond the hit, it may
+    /// Whether a decoy's leaf is the left child. If both siblings are beyond the hit, the leaf may
     /// be either child.
     pub(super) is_left: bool,
     /// The answer that the slides' pseudo-code, taken literally, gives for all rays with a decoy.
@@ -116,8 +116,8 @@ fn tests_no_sphere(tree: &Tree, ray: &Ray) -> bool {
     })
 }
 
-/// Returns a chain of cells, with a leaf at each link without a cell. At each node, either child
-/// can be the left one.
+/// Returns a chain of cells, with a leaf at each link without a cell. At each node, the rest of the
+/// chain can be the left or the right child.
 fn chain(rng: &mut Rng, links: Vec<Option<Cell>>, axes: [DVec3; 3], places: &[usize]) -> Tree {
     let mut tree = Tree::default();
     let mut below = None;
@@ -184,8 +184,8 @@ struct Plan {
 }
 
 impl Plan {
-    /// Returns one of `DECOYS` plans. Each class of each property occurs among them and even among
-    /// the first four, including a ray that hits nothing.
+    /// Returns one of `DECOYS` plans. Each class of each property occurs among these plans. Most
+    /// occur even among the first four, including a ray that hits nothing.
     fn new(reason: CellSkipReason, is_left: bool, index: usize, start: usize) -> Self {
         let (group, in_group) = (index / 4, index % 4);
         let size = (in_group + start) % 4;
@@ -235,7 +235,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Draws the orientation of a cell at one of the adjacent positions.
+    /// Draws the orientation of the cell at this place in the grid of cells.
     fn new(rng: &mut Rng, axes: [DVec3; 3], place: usize) -> Self {
         let corner = dvec3(0.0, 10.0 * (place % 6) as f64, 3.0 * (place / 6) as f64);
         let signs = [rng.sign(), rng.sign(), rng.sign()];
@@ -270,7 +270,7 @@ impl Frame {
         meshes::flat_triangle(corners.map(|corner| self.point(corner)), number)
     }
 
-    /// Returns a triangle whose box is exactly this one, which may be flat.
+    /// Returns a triangle whose box has exactly these corners. The box may be flat.
     fn spanning(&self, min: DVec3, max: DVec3, number: u32) -> Shape {
         let third = if min.x < max.x {
             dvec3(max.x, min.y, max.z)
@@ -383,7 +383,7 @@ impl Draft {
         self.number - 1
     }
 
-    /// Adds the leaves of most cells and returns the ray.
+    /// Adds the leaves of a cell without crossing boxes, and returns the ray.
     fn add_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
         let (up, side) = (rng.uniform(0.45, 0.55), rng.uniform(-0.04, 0.04));
         let start = dvec3(rng.uniform(-0.4, 0.0), 0.0, 0.0);
@@ -554,8 +554,8 @@ impl Draft {
         ray.within(min, max)
     }
 
-    /// Adds the leaf with the decoy. The decoy is on the ray. A flat box is flat along `flat`, on
-    /// the side where the ray enters.
+    /// Adds the leaf with the decoy. The decoy is on the ray. A flat box is flattened along `flat`,
+    /// to the side where the ray enters.
     fn add_leaf_of_decoy(&mut self, rng: &mut Rng, decoy: &LeafOfDecoy, ray: &Ray) -> usize {
         let LeafOfDecoy {
             corners: [min, mut max],

@@ -92,8 +92,9 @@ fn built_tree_question(
     ExamQuestion::new(Question::hits(built, rays), key)
 }
 
-/// Creates a question about a row of as many triangles as a mesh has. Its rays enter every node,
-/// since they pass through a corner of every box, but hit only the larger triangle at the end.
+/// Creates a question about a row of triangles, as many as in a typical mesh. The rays enter every
+/// node, since they pass through a corner of every box, but they hit only the larger triangle at
+/// the end.
 fn long_row(rng: &mut Rng) -> ExamQuestion {
     const COUNT: usize = 5000;
     const STEP: f64 = 0.02;
@@ -193,8 +194,8 @@ fn clay_picture(rng: &Rng) -> ExamQuestion {
         env!("CARGO_MANIFEST_DIR"),
         "/../../scenes/cornell-box.json"
     ));
-    /// The maximum number of the 1024 pixels that may differ. In measurements, other correct
-    /// formulas changed no pixels, and cracks of 1e-4 between triangles changed 13.
+    /// How many of the 1024 pixels may differ. In measurements, other correct formulas changed no
+    /// pixels, and cracks of 1e-4 between triangles changed 13.
     const MAX_WRONG_PIXELS: u32 = 7;
     let question = Question::Radiance {
         scene: SCENE.to_owned(),

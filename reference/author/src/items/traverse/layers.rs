@@ -1,5 +1,5 @@
-//! Pairs of triangles close behind each other. A correct traversal returns the hit on the front
-//! triangle, no matter how close the other one is and which one is found first.
+//! Pairs of triangles, one close behind the other. A correct traversal returns the hit on the front
+//! triangle, no matter how close the other triangle is and which of the two is found first.
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
@@ -15,8 +15,8 @@ use crate::tree::{Tree, decoy};
 const PAIRS: usize = 18;
 /// The size of the triangles.
 const SIZE: f64 = 0.2;
-/// The extent of the pairs' positions. It is so large that both distances along a ray that starts
-/// nearby are tiny even compared to the coordinates of its start.
+/// The extent of the pairs' positions. It is so large that, for a ray that starts near a pair, both
+/// distances are tiny even compared to the coordinates of the start.
 const SPREAD: f64 = 52.0;
 /// The distance between the two triangles of a pair.
 const SPACE: f64 = 0.0175;
@@ -79,7 +79,7 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     })
 }
 
-/// Two triangles across an axis.
+/// Two triangles perpendicular to an axis.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     /// The middle of the triangle in front.
@@ -102,7 +102,7 @@ impl Pair {
         meshes::flat_triangle(corners, self.number + number)
     }
 
-    /// Returns a ray from this distance toward the front triangle, and one past it.
+    /// Returns two rays from this distance: one toward the front triangle and one past it.
     fn rays(&self, rng: &mut Rng, distance: f64) -> (Ray, Ray) {
         let [x, y] = self.across;
         let slant = rng.uniform(-0.15, 0.15) * x + rng.uniform(-0.15, 0.15) * y;

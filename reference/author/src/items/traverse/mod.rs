@@ -3,10 +3,10 @@
 //!
 //! Some rays have an unreferenced primitive (one that isn't in any leaf) in front of the correct
 //! hit. A linear scan over all primitives, which ignores the tree, returns this wrong primitive.
-//! [`crate::tree::decoy`] describes the decoys, which reveal that a node was entered that should
-//! have been skipped. `cells` spreads the decoys over all kinds, leaves, levels and ranges. One
-//! item tests the position of the root. In all other items, starting at the first or the last node
-//! also gives correct answers.
+//! [`crate::tree::decoy`] describes the decoys, which reveal that a traversal entered a node that
+//! it should have skipped. `cells` spreads the decoys over all kinds, leaves, levels and ranges.
+//! One item tests the position of the root. In all other items, starting at the first or the last
+//! node also gives correct answers.
 
 mod cells;
 mod end_to_end;
@@ -133,7 +133,8 @@ fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     }
 }
 
-/// Returns a triangle across an axis that is almost as large as the tree and inside its box.
+/// Returns a triangle that is perpendicular to an axis, almost as large as the tree and inside its
+/// box.
 fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
     let bounds = tree.bounds(tree.root);
     let axis = rng.index(3);
@@ -150,10 +151,10 @@ fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
     meshes::flat_triangle(corners, number)
 }
 
-/// Returns the rays and additional ones. Some of these are followed by a ray that is almost the
-/// same but hits at a clearly different distance.
+/// Returns the rays, followed by up to three groups of additional rays. In each group, consecutive
+/// rays are almost the same but hit at clearly different distances.
 fn with_almost_the_same_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
-    /// The maximum number of attempts to draw such a pair of rays.
+    /// The maximum number of attempts to draw the two rays of a group.
     const ATTEMPTS: usize = 2000;
     /// The minimum difference between the distances.
     const LEAST: f64 = 7e-4;
@@ -188,7 +189,7 @@ fn question_without_decoys(
 /// Adds unreferenced primitives to a tree and creates a question about it.
 fn with_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: Vec<Ray>) -> ExamQuestion {
     add_unreferenced(rng, tree, &rays);
-    // A tree of a single node stays a single node.
+    // A tree with a single node stays that way.
     if tree.nodes.len() > 1 {
         *tree = tree.with_roots_at_both_ends(rng);
     }
@@ -201,8 +202,8 @@ fn linear_scan_control(rng: &mut Rng) -> ExamQuestion {
     question_without_decoys(rng, tree, [8, 4], ray_from_around)
 }
 
-/// Returns a tree over random triangles. Most items use leaves of one primitive, because larger
-/// leaves are the idea of a separate item.
+/// Returns a tree over random triangles. Most items use leaves of one primitive, because a separate
+/// item tests larger leaves.
 fn soup_tree(rng: &mut Rng, count: usize, size: f64, max_leaf_size: usize) -> Tree {
     construction::median_split(meshes::soup(rng, count, 2.0, size), max_leaf_size)
 }

@@ -1,5 +1,5 @@
-//! Questions about trees are drawn with sizes of about one, near the origin. Here, they get sizes
-//! and positions from the domain.
+//! Questions about trees are drawn with sizes of about one, near the origin. This module gives them
+//! sizes and positions from the domain.
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
@@ -98,7 +98,7 @@ fn is_far_away(ray: &Ray) -> bool {
 }
 
 /// Returns a question scaled to the largest size that keeps all rays and shapes in the scene, or
-/// `None` if it isn't fair there.
+/// `None` if it isn't fair at that size.
 pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
     let starts = rays(asked)?;
     let starts = starts.iter().map(|ray| {
@@ -142,8 +142,8 @@ fn shapes(asked: &ExamQuestion) -> &[Shape] {
     }
 }
 
-/// Returns a transformed question with a key for its new numbers, or `None` if the question isn't
-/// fair there.
+/// Returns a transformed question with a key for its new numbers, or `None` if the transformed
+/// question isn't fair.
 pub(super) fn transformed(transform: Transform, asked: &ExamQuestion) -> Option<ExamQuestion> {
     let asked = moved(transform, asked)?;
     let (Question::Hit(table), Key::Table { judged, .. }) = (&asked.question, &asked.key) else {
@@ -177,9 +177,9 @@ pub(super) fn transformed(transform: Transform, asked: &ExamQuestion) -> Option<
     })
 }
 
-/// Returns whether rays along an axis or in a coordinate plane avoid the planes of all box faces,
-/// since no question tests whether a ray in the plane of a face hits the box. The boxes of decoys
-/// don't matter.
+/// Returns whether all rays along an axis or parallel to a coordinate plane avoid the planes of all
+/// box faces. No question tests whether a ray in the plane of a face hits the box. The boxes of
+/// decoys are ignored.
 pub(super) fn are_clear_of_faces(tree: &Tree, rays: &[Ray], margin: f64) -> bool {
     let ordinary = tree.ordinary_primitives();
     let shapes = tree.shapes.iter().zip(&ordinary);
@@ -211,7 +211,7 @@ pub(super) fn is_clear_of_faces(tree: &Tree, ray: &Ray) -> bool {
 const FACE_MARGIN: f64 = 1e-4;
 
 /// Returns whether all correct formulas compute every quantity of a hit well within its tolerance,
-/// both here and as far away as most trees are moved.
+/// both here and as far from the origin as most trees are moved.
 pub(super) fn is_exact_elsewhere(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
     let transform = Transform::around(&[], 1.0, DVec3::splat(50.0));
     let (shapes, ray) = (transform.shapes(shapes), transform.ray(ray));

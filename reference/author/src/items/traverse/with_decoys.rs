@@ -28,7 +28,7 @@ pub(super) const FIRST_DECOY: u32 = 20_000;
 /// A filter for the leaves that may contain a decoy for a ray.
 type LeafFilter<'a> = &'a dyn Fn(&Tree, usize, &Ray64) -> bool;
 
-/// The number of rays in a question that may get a decoy. All other rays come after them.
+/// How many of a question's rays may get a decoy. All other rays come after them.
 const RAYS_WITH_DECOYS: usize = 10;
 const OTHER_RAYS: [usize; 2] = [4, 4];
 /// The minimum number of decoys in a question. A question with fewer decoys is drawn again.
@@ -105,13 +105,13 @@ pub(super) enum SlidesAnswer {
     Wrong,
 }
 
-/// Returns a filter for the leaves that no correct traversal enters, because of `reason`.
+/// Returns a filter for the leaves that, for this reason, no correct traversal enters.
 fn skipped_for(reason: SkipReason) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| decoy::skip_reason(tree, leaf, ray64) == Some(reason)
 }
 
-/// Returns a filter for the leaves that are this child of a node, where the ray misses the leaf's
-/// box but hits the box of the other child.
+/// Returns a filter for the leaves that are this child of their parent and whose box the ray
+/// misses, although it hits the sibling's box.
 fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
         decoy::is_missed_child(tree, leaf, ray64, child)
@@ -119,8 +119,8 @@ fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     }
 }
 
-/// Returns a filter for the leaves that are this child of a node, where the ray misses the boxes of
-/// both children.
+/// Returns a filter for the leaves that are this child of their parent, where the ray misses both
+/// the leaf's box and its sibling's.
 fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
         decoy::is_missed_child(tree, leaf, ray64, child) && decoy::misses_sibling(tree, leaf, ray64)
@@ -209,7 +209,7 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
         fork.is_some_and(|fork| fork.toward_leaf == leaf && fork.exits_hit_side_last(tree, ray64))
             && fits(tree, leaf, ray64)
     };
-    // The centre of the box that the ray enters last is nearer than the other box's.
+    // The box that the ray enters last has the nearer centre.
     let nearer_center = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         let fork = decoy::find_fork(tree, leaf, ray64);
         let distance = |index: usize| tree.bounds(index).center().distance(ray64.origin);

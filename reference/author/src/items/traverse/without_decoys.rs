@@ -30,7 +30,7 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
     tests: &["Returns the ray's…", "Boxes overlap, so…"],
     questions: |rng| {
-        // At least half of the hits are found after a farther one.
+        // At least half of the closest hits are found after a farther hit.
         let kind = |rng: &mut Rng, tree: &Tree| {
             let any = rng.coin();
             rng.retry(|rng| {
@@ -56,9 +56,9 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Creates questions about three trees with the same rays. The last ray in each question is the
-/// first one in the next but has a different answer there. The trees have the same boxes down to
-/// the third level, and the last two have the same nodes.
+/// Creates questions about three trees with the same rays. The last ray in each question is also
+/// the first ray in the next, but it has a different answer there. The trees have the same boxes
+/// down to the third level, and the last two have the same nodes.
 fn same_rays_in_three_trees(rng: &mut Rng) -> [ExamQuestion; 3] {
     let first = soup_tree(rng, 48, 1.2, 1);
     let second = with_other_contents(rng, &first);
@@ -110,7 +110,8 @@ fn mirrored_in_their_boxes(rng: &mut Rng, tree: &Tree) -> Tree {
 }
 
 /// Returns a tree with the same nodes but with primitives in different positions. Primitives at the
-/// faces of the third level's boxes stay, so that the boxes of the first three levels are the same.
+/// faces of the third level's boxes stay in place, so that the boxes of the first three levels are
+/// the same.
 fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
     const LEVELS: usize = 3;
     let mut other = tree.clone();
@@ -137,7 +138,7 @@ fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
 }
 
 /// Creates a question about a few triangles far from the origin. Half of the rays start so close to
-/// their hits that moving the start forward by a fraction of its coordinates would skip them.
+/// their hits that moving the start forward by a fraction of its coordinates would skip the hits.
 fn next_to_the_start(rng: &mut Rng) -> ExamQuestion {
     /// The largest coordinates, as a multiple of the triangles' size.
     const COORDINATES: f64 = 5000.0;
@@ -262,7 +263,7 @@ pub(super) const RANGE: Declaration = Declaration {
 fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut tree = soup_tree(rng, 40, 1.4, 1);
     // The range starts before the first hit or between the first two. It ends before, between or
-    // after them, or never.
+    // after these two hits, or never.
     let kind = |rng: &mut Rng, tree: &Tree| {
         rng.retry(|rng| {
             let ray = ray_from_around(rng, tree).within(0.0, f32::INFINITY);
@@ -286,7 +287,8 @@ fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
         })
     };
     let rays = unambiguous_rays(rng, &tree, [18, 8], kind);
-    // Every other ray is repeated without an end, either just before or just after the original.
+    // Every second ray is repeated with an unlimited range, either just before or just after the
+    // original.
     let again = |(index, ray): (usize, &Ray)| {
         let whole = ray.within(0.0, f32::INFINITY);
         let is_clear = is_clear_of_faces(&tree, &whole) && decoy::is_fair(&tree, &[whole]);
@@ -333,8 +335,8 @@ fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     tree
 }
 
-/// Returns a function that draws rays. The closest of several hits in a leaf is on the first
-/// primitive, the last one, or any of them, in turn. Some rays hit nothing.
+/// Returns a function that draws rays. In turn, the closest of several hits in a leaf is on the
+/// first primitive, on the last one, or on any of them. Some rays hit nothing.
 fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {
@@ -415,7 +417,8 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
 }
 
 /// Creates a question about a chain whose first leaves are the farthest ones. Most rays enter
-/// almost all boxes, so that almost all leaves wait until the end of the chain has been traversed.
+/// almost all boxes, so that almost all leaves have to wait until the end of the chain has been
+/// traversed.
 fn along_the_chain(rng: &mut Rng) -> ExamQuestion {
     const LEVELS: usize = 60;
     /// The minimum number of boxes that a ray enters.

@@ -137,7 +137,7 @@ pub(super) const TINY: Declaration = Declaration {
     ..Declaration::ALONE
 };
 
-/// A coordinate system along the world's axes, which are permuted and in part reversed. The
+/// A coordinate system that uses the world's axes in random order, some of them reversed. The
 /// coordinates of its origin are small integers.
 struct Frame {
     origin: Vec3,

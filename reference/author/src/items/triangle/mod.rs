@@ -39,8 +39,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
     ..AuthoredTask::NEW
 };
 
-/// Creates questions about triangles of these sizes. Their rays fit an item's idea, and every other
-/// ray is a hit.
+/// Creates questions about triangles of these sizes, with rays that `belongs` accepts. Half of the
+/// rays are hits.
 fn questions(
     rng: &mut Rng,
     judged: &[&str],
@@ -52,12 +52,12 @@ fn questions(
     tables.map(question).collect()
 }
 
-/// Returns whether the ray doesn't graze the triangle, since a separate item tests that.
+/// Returns whether the ray doesn't graze the triangle. A separate item tests grazing rays.
 fn is_steep(plane: &Plane) -> bool {
     plane.slope.abs() > 0.1
 }
 
-/// Returns whether the ray doesn't pass close to an edge, since a separate item tests that.
+/// Returns whether the ray doesn't pass close to an edge. A separate item tests rays that do.
 fn is_well_inside(plane: &Plane) -> bool {
     plane.least_weight().abs() > 0.02
 }

@@ -1,4 +1,4 @@
-//! Items about the quantities of a hit.
+//! Items about the values that are returned for a hit.
 
 use judging::symptom::Symptom;
 

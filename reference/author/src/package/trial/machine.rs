@@ -1,5 +1,5 @@
 //! Simulates a platform's machine: a root directory with only this system's programs, no network,
-//! the platform's user and capabilities, half a core and 768 MiB.
+//! the platform's user and capabilities, half a core and 768 MiB of memory.
 //!
 //! This needs root privileges, directly or via `sudo`.
 
@@ -88,7 +88,7 @@ impl Machine {
     }
 
     /// Installs Rust for root as rustup does: with proxies that look for the toolchain in the home
-    /// folder. Returns the value of `PATH` that contains these proxies, but not the toolchain
+    /// folder. Returns the definition of a `PATH` that contains these proxies but not the toolchain
     /// itself.
     pub fn install_rustup(&self) -> Result<String> {
         let toolchains = self.host_path("root/.rustup/toolchains");
@@ -122,8 +122,8 @@ impl Machine {
     /// variables, each in the form `NAME=value`.
     ///
     /// `user` is `container`, i.e. root with the capabilities of a Docker container, or `runner`,
-    /// the user of GitHub's runners. With limits, the command gets half a core and 768 MiB.
-    /// Platforms build images without limits.
+    /// the user on GitHub's runners. If `is_limited` is true, the command gets half a core and 768
+    /// MiB of memory. Platforms set no limits while they build an image.
     pub fn run(
         &self,
         user: &str,

@@ -19,10 +19,10 @@ const METADATA: &str = r#"{"id": 1, "created_at": "2026-11-20T21:09:58.000000-08
 "title": "Path Tracer", "due_date": "2026-11-21T00:00:00.000000-08:00", "late_due_date": null,
 "release_date": "2026-11-01T00:00:00.000000-08:00", "group_submission": false, "group_size": null,
 "total_points": "100.0"}, "submission_method": "upload", "previous_submissions": []}"#;
-/// The folder where GitHub's runners check out a repository with this name.
+/// The folder where GitHub's runners check out a repository named `pathtracing`.
 const CHECKOUT: &str = "/home/runner/work/pathtracing/pathtracing";
-/// The environment variables of a step on GitHub's runners and on classroom50's. Cargo is offline,
-/// uses the crates in the home folder and reuses compiled files for the next submission.
+/// The environment variables of a workflow step on GitHub's and classroom50's runners. Cargo is
+/// offline, uses the crates in the home folder and reuses compiled files for the next submission.
 const RUNNER_VARIABLES: [&str; 17] = [
     "CI=true",
     "GITHUB_ACTIONS=true",
@@ -147,8 +147,8 @@ impl Setup {
             run: GRADESCOPE,
             checkout: Bundle::default(),
             command: vec!["/autograder/run_autograder".to_owned()],
-            // Gradescope's own images don't include Rust, so setup.sh downloads it. A course's
-            // image may include it.
+            // Gradescope's own images don't include Rust, so setup.sh downloads it there. This
+            // machine is like a course's own image, which may include Rust.
             variables: vec![machine.install_rustup()?],
         };
         let script = ["bash", "/autograder/source/setup.sh"].map(str::to_owned);

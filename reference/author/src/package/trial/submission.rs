@@ -9,7 +9,7 @@ use grader::handed_out::HandedOut;
 use crate::authoring::{Attack, Authoring};
 use crate::package::Platform;
 
-/// The folder of the corpus of hostile submissions.
+/// The folder with the corpus of hostile submissions.
 const CORPUS: &str = "grader/tests/hostile/entries";
 /// The placeholders in the corpus, and the files they stand for, which the attacks look for.
 const TARGETS: [(&str, &str); 2] = [

@@ -5,8 +5,8 @@ use judging::judge::{Deviation, Measurement, Threshold, measure};
 
 use crate::solutions::workbench::Answers;
 
-/// Returns the deviations of a correct solution from every threshold that applies. A tree's cost is
-/// ignored for solutions that may lose points for it.
+/// Returns a correct solution's deviations, relative to every threshold that applies. If the
+/// solution may lose points for a tree's cost, that cost is ignored.
 pub(super) fn of_correct(item: &Item, answers: &Answers, may_lose: bool) -> Vec<Deviation> {
     let deviations = measure_all(item, answers)
         .into_iter()

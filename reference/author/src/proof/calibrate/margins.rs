@@ -58,7 +58,7 @@ impl Margin {
     }
 }
 
-/// The purpose of keeping a sample. For each purpose, only the nearest sample is kept.
+/// The purpose for which a sample is kept. For each purpose, only the nearest sample is kept.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum SamplePurpose {
     /// The largest deviation of a correct solution.
@@ -99,9 +99,9 @@ impl Margins {
         self.keep_nearest(purpose, sample);
     }
 
-    /// Adds a mistake's deciding deviations for the items it must fail in one exam. Items that
-    /// barely catch the mistake are only considered if no other item catches it clearly, because
-    /// the lists of items are generated and also contain items about something else.
+    /// Adds a mistake's deciding deviations in one exam, for the items that it must fail. Items
+    /// that barely catch the mistake are only considered if no other item catches it clearly,
+    /// because the lists of items are generated and also contain items that test something else.
     pub fn add_mistake_of_exam(&mut self, samples: Vec<DeviationSample>) {
         let is_clear = |sample: &DeviationSample| sample.deviation.value >= MIN_MARGIN;
         let is_caught = samples.iter().any(is_clear);
@@ -122,7 +122,7 @@ impl Margins {
         }
     }
 
-    /// Keeps the sample unless one that is at least as near is already kept.
+    /// Keeps the sample, unless a sample that is at least as near has already been kept.
     fn keep_nearest(&mut self, purpose: SamplePurpose, sample: DeviationSample) {
         let is_nearer = |known: &DeviationSample| {
             let (new, old) = (sample.deviation.value, known.deviation.value);

@@ -64,7 +64,7 @@ impl Calibration {
 }
 
 /// Measures the margins with the exams for these seeds. All variants are graded with every exam,
-/// and all mistakes with the first `with_mistakes` of them.
+/// and all mistakes with the first `with_mistakes` exams.
 pub fn calibrate(
     solutions: &Solutions,
     seeds: Range<u64>,

@@ -13,7 +13,7 @@ use crate::generated_file::GeneratedFile;
 use crate::proof::calibrate::Calibration;
 use crate::proof::calibrate::margins::{DeviationSample, MIN_MARGIN, Margin};
 
-/// Builds the table of an assignment.
+/// Builds an assignment's table.
 pub fn generated_file(handed_out: &HandedOut, calibration: &Calibration) -> GeneratedFile {
     GeneratedFile::new(path(handed_out), table(calibration))
 }
@@ -65,18 +65,18 @@ fn header(calibration: &Calibration) -> String {
          {}.\n\n\
          Values are multiples of the threshold, as computed by the judge: a value up to 1 is \
          correct. A margin is the factor by which a threshold could be made stricter before \
-         the first correct answer counts as wrong, or more lenient before an item stops catching a \
+         the first correct answer is judged wrong, or more lenient before an item stops catching a \
          mistake that must fail it. `cargo author calibrate --check` fails if a margin is below \
          {MIN_MARGIN}.\n\n\
          - Where an item tolerates a number of wrong positions or pixels, that many of the worst \
-         ones are ignored. To be caught there, a mistake must exceed two thresholds: the \
+         are ignored. To be caught there, a mistake must exceed two thresholds: the \
          deviation, and the number of wrong positions. The table shows the smaller of the two \
          values.\n\
          - For the cost of a tree, only the excess over the exact sweep's tree is measured: a tree \
          with the same cost has the value 0. Correct builders that do not use the surface area \
          heuristic are left out.\n\
-         - If an item catches a mistake by less than that margin and another item of the same exam \
-         catches it clearly, only the latter is measured.\n\
+         - If an item catches a mistake by a margin below {MIN_MARGIN} and another item of the \
+         same exam catches the mistake clearly, only the other item is measured.\n\
          - Hits and misses, panics, and the structure of trees have no threshold. The limits of \
          partial credit are not measured, since they only distinguish between wrong answers.\n\n\
          | threshold | value | defined in | worst correct answer | margin | mildest mistake | margin |\n\

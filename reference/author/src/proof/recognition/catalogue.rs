@@ -20,18 +20,18 @@ use crate::solutions::workbench::Answers;
 
 /// The report's statements about a mistake.
 struct ReportedMistake {
-    /// The id of the mistake and of the variant that makes it.
+    /// The mistake's id, followed by the variant's id if the mistake is in a variant.
     id: String,
-    /// The hints that are true of it.
+    /// The hints in the report that are true of the mistake.
     true_hints: BTreeSet<String>,
-    /// The hints that are false.
+    /// The hints in the report that are false.
     false_hints: BTreeSet<String>,
     /// If the report says that state is kept between calls, whether that is true.
     names_state: Option<bool>,
     /// If the mistake gets no true hint, the items where its answers differ from those of the same
     /// mistake in the reference.
     unlike: Vec<String>,
-    /// A message if the code loses no points in its task or loses points in another task.
+    /// Messages if the code loses no points in its task or loses points in another task.
     problems: Vec<String>,
 }
 
@@ -69,8 +69,8 @@ fn report(
     })
 }
 
-/// Grades every independent mistake, and the code that gives the same answers as known mistakes for
-/// other reasons. Determines their hints.
+/// Grades every independent mistake, and every solution that gives the same answers as a known
+/// mistake for another reason. Determines the hints that they get.
 pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     let all = [independent_mistakes(solutions)?, other_causes(solutions)?].concat();
     let rows = report(solutions, &all, exam)?;
@@ -149,7 +149,8 @@ fn items_unlike_signature(exam: &Exam, mistake: &str, answers: &[(&Item, Answers
     unlike.collect()
 }
 
-/// Returns the answers the exam has recorded for a mistake at an item's signature elements.
+/// Returns the answers that the exam has recorded for a mistake: one for each element that is part
+/// of the item's signatures.
 fn recorded_answers(item: &Item, mistake: Option<usize>) -> Vec<ObservedAnswer> {
     let signatures = &item.signatures;
     let mut answers = signatures.correct_answers.clone();

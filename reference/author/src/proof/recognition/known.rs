@@ -22,10 +22,11 @@ struct KnownHints {
     id: String,
     /// The hints with the full exam.
     hints: BTreeSet<String>,
-    /// The false hints it gets if the mistake's own hint is removed from the exam.
+    /// The false hints that the mistake gets if its own hint is removed from the exam.
     if_unknown: BTreeSet<String>,
-    /// Whether the exam contains its signature. It doesn't if only pictures reveal the mistake, if
-    /// the mistake gives no answers, or if too many other mistakes give the same answers.
+    /// Whether the exam contains the mistake's signature. It doesn't if only pictures reveal the
+    /// mistake, if the mistake gives no answers, or if too many other mistakes give the same
+    /// answers.
     has_signature: bool,
 }
 
@@ -69,7 +70,8 @@ fn has_signature(exam: &Exam, id: &str) -> bool {
     index.is_some_and(|index| answers.any(|answers| answers.mistakes.contains(&(index as u32))))
 }
 
-/// Returns the exam without the signatures of this mistake and of those that share its hint.
+/// Returns the exam without the signatures of this mistake and of other mistakes with the same
+/// hint.
 fn without_hint(solutions: &Solutions, exam: &Exam, id: &str) -> Exam {
     let mut exam = exam.clone();
     let mistakes = exam.mistakes.iter();
@@ -84,7 +86,7 @@ fn without_hint(solutions: &Solutions, exam: &Exam, id: &str) -> Exam {
     exam
 }
 
-/// Adds up the hints of known mistakes.
+/// Summarises the hints that known mistakes get.
 fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
     let is_recognised = |row: &&KnownHints| {
         let mut hints = row.hints.iter();
@@ -119,8 +121,8 @@ fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
         problems: Vec::new(),
         lines: others.chain(with_false_hint).chain(unmarked).collect(),
         summary_line: format!(
-            "hints: {} of {count} mistakes recognised ({:.0} %), {} more without a signature; when \
-             its hint is left out, {false_hint_count} of {} get a false one",
+            "hints: {} of {count} mistakes recognised ({:.0} %), {} more without a signature; \
+             without their own hints, {false_hint_count} of {} get a false hint",
             recognised.len(),
             100.0 * recognised.len() as f64 / count.max(1) as f64,
             without_signature.len(),
@@ -129,8 +131,8 @@ fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
     }
 }
 
-/// Runs pairs of mistakes in the same task and determines their hints. Runs all pairs, or the given
-/// number of them, spread evenly.
+/// Runs pairs of mistakes in the same task and determines their hints. If `count` is given, runs
+/// only that number of pairs, evenly spread among all of them.
 pub fn recognise_pairs(
     solutions: &Solutions,
     exam: &Exam,

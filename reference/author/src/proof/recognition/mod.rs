@@ -69,7 +69,7 @@ fn hints(answers: &[(&Item, Answers)], exam: &Exam) -> BTreeSet<String> {
     hints.map(|hint| hint.id.clone()).collect()
 }
 
-/// Formats the ids of hints as part of a sentence.
+/// Formats the ids of hints for use in a sentence.
 fn list(hints: &BTreeSet<String>) -> String {
     Vec::from_iter(hints.iter().cloned()).join(" or ")
 }

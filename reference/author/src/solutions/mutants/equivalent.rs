@@ -17,7 +17,7 @@ pub const FILE: &str = "mutants/equivalent.toml";
 pub struct EquivalentMutant {
     /// The mutant's name in the list of all mutants.
     pub name: String,
-    /// The reason that no answer differs, or that the contract allows the answers that do.
+    /// The reason why no answer differs, or why the contract allows the answers that do.
     pub why: String,
 }
 

@@ -1,5 +1,5 @@
-//! The families of changes. They include changes that don't compile, because only the compiler
-//! knows types.
+//! The families of changes. Some of the changes don't compile, because this code doesn't know the
+//! types of expressions.
 
 use std::ops::Range;
 
@@ -50,7 +50,7 @@ pub(super) fn changes(file: &str) -> syn::Result<Vec<Change>> {
     Ok(found)
 }
 
-/// Returns the byte ranges of the code that students write, which is between marked lines.
+/// Returns the byte ranges of the code that students write, which is between marker lines.
 fn own_code(file: &str) -> Vec<Range<usize>> {
     let mut own = Vec::new();
     let (mut start, mut begin) = (0, None);
@@ -106,7 +106,7 @@ impl<'a> Visitor<'a> {
         }
     }
 
-    /// Visits an item. The changes inside it are named after it.
+    /// Visits an item. The changes inside it are listed under its name.
     pub(super) fn visit_item_named(&mut self, name: &Ident, visit: impl FnOnce(&mut Self)) {
         let outer = std::mem::replace(&mut self.function, name.to_string());
         visit(self);
@@ -143,7 +143,7 @@ impl<'a> Visitor<'a> {
     }
 
     /// Adds comparisons with an absolute epsilon: `a < b` becomes `a < 1e-3 + b` and so on. `at` is
-    /// the byte after the operator or parenthesis.
+    /// the position of the byte after the operator or parenthesis.
     pub(super) fn add_epsilons(&mut self, after: &str, at: usize) {
         for epsilon in EPSILONS {
             for sign in ["", "-"] {

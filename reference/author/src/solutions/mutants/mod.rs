@@ -1,5 +1,5 @@
 //! Mutants: mechanical changes to the reference's task files. They complement the catalogue of
-//! mistakes that people make, and are made without any knowledge of the exam.
+//! mistakes that people make, and are generated without any knowledge of the exam.
 
 pub mod equivalent;
 mod families;

@@ -34,7 +34,7 @@ pub(super) fn changes(
     changes
 }
 
-/// Replaces an argument with the one from the first or the previous call.
+/// Replaces an argument with its value in an earlier call, e.g. the first or the previous one.
 fn kept_argument(name: &str, of_type: &str) -> Vec<(String, String)> {
     let value_type = of_type.trim_start_matches('&');
     if !COPIED.contains(&value_type) {

@@ -12,8 +12,8 @@ use super::error::RenderError;
 use super::progress::Progress;
 use crate::render::renderer::{RenderStats, Renderer};
 
-/// The number of runs of each kind. Other programs only make a run slower, so the fastest run
-/// counts.
+/// The number of runs of each kind. Other programs can only slow a run down, so the fastest run is
+/// used.
 const RUNS: usize = 7;
 
 /// The result of a measurement.
@@ -74,8 +74,8 @@ impl Measurement {
         self.rays as f64 * 1e-6 / self.time.as_secs_f64().max(1e-9)
     }
 
-    /// Compares this with the measurement in a file, if there is one, and stores it there. Returns
-    /// the lines to print.
+    /// Compares this measurement with the one stored in `file`, if any, and then stores this one
+    /// instead. Returns the lines to print.
     pub(super) fn compare(&self, file: &Path) -> Result<String, RenderError> {
         let speed = self.speed();
         let mut text = format!(

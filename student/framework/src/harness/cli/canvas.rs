@@ -1,4 +1,4 @@
-//! A picture that is rendered in passes, so that you can look at it in the meantime.
+//! A picture that is rendered in passes, so that you can look at it before it is finished.
 
 use std::path::Path;
 use std::sync::Mutex;

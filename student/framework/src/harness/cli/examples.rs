@@ -31,8 +31,8 @@ struct Arguments {
     nocapture: bool,
 }
 
-/// Runs the examples in the specified files, those whose paths contain a specified name, or all
-/// examples. The exit code is 2 if no example has such a name, otherwise that of cargo.
+/// Runs all examples, or only those that are in a specified file or whose paths contain a specified
+/// name. The exit code is 2 if a name matches no example. Otherwise, it is cargo's exit code.
 pub fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(code) => code,
@@ -99,7 +99,7 @@ fn file_of_task(name: &str) -> &str {
 }
 
 /// Returns the harness's filter for a name. A file's name selects the examples in that file, but
-/// not those in other files whose names contain it.
+/// not examples in other files whose names contain that name.
 fn filter(name: &str, known: &[String]) -> String {
     let of_file = format!("{name}::");
     let is_file = known.iter().any(|path| path.starts_with(&of_file));

@@ -40,8 +40,8 @@ pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> O
 }
 
 /// Returns whether the submission's traversal skips a primitive if the ray misses its leaf's box.
-/// In a tree made by `Bvh::build`, such a ray would also miss the primitive, but in this tree it
-/// would hit it.
+/// In a tree built by `Bvh::build`, the ray would then miss the primitive too, but in the tree that
+/// this function makes, the primitive is in the ray's path.
 fn skips_missed_boxes(submission: &dyn Submission, shape: &Shape) -> bool {
     let (target, toward) = match *shape {
         Shape::Triangle { vertices, .. } => aim(vertices.map(|vertex| vertex.position)),

@@ -1,8 +1,9 @@
 //! How surfaces scatter light: matte surfaces, mirrors and glass.
 //!
-//! All directions have length one, lead away from the surface and are in its frame: +z is the
-//! normal, which points out of glass. Otherwise, it is on the side that `out` leads to. `out` leads
-//! to where the path comes from, and `incoming` to where the light comes from.
+//! All directions have length one, lead away from the surface and are in the surface's frame, where
+//! +z is the normal. The normal of glass points out of the glass. Any other normal is on the side
+//! that `out` leads to. `out` leads to where the path comes from, and `incoming` to where the light
+//! comes from.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -65,7 +66,7 @@ pub(super) struct Mirror {
 }
 
 impl Mirror {
-    /// Returns the only direction that light comes from.
+    /// Returns the only direction that reflected light can come from.
     pub(super) fn scatter(&self, out: Vec3) -> Scattered {
         Scattered {
             direction: reflect(out),
@@ -83,8 +84,8 @@ pub(super) struct Glass {
 }
 
 impl Glass {
-    /// Picks reflection with the probability of its share of the light, using a random number in
-    /// `[0, 1)`. So the share and the probability cancel.
+    /// Picks reflection with a probability equal to the share of the light that is reflected, using
+    /// a random number in `[0, 1)`. So the share and the probability cancel.
     ///
     /// Where light enters a denser medium, its rays are squeezed into a smaller solid angle and its
     /// radiance grows. See Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th edition,
@@ -112,8 +113,8 @@ fn reflect(out: Vec3) -> Vec3 {
     Vec3::new(-out.x, -out.y, out.z)
 }
 
-/// Returns the direction on the other side of the interface by Snell's law, or `None` for total
-/// reflection.
+/// Returns the direction on the other side of the interface according to Snell's law, or `None` for
+/// total reflection.
 fn refract(out: Vec3, ior: f32) -> Option<Vec3> {
     let ratio = index_ratio(out, ior);
     let sine_squared = ratio * ratio * (1.0 - out.z * out.z).max(0.0);
@@ -124,8 +125,8 @@ fn refract(out: Vec3, ior: f32) -> Option<Vec3> {
     Some(Vec3::new(-ratio * out.x, -ratio * out.y, cosine).normalize())
 }
 
-/// Returns the fraction of unpolarised light that is reflected, by the Fresnel equations. See Pharr,
-/// Jakob and Humphreys, "Physically Based Rendering", 4th edition, section 9.3.5.
+/// Returns the fraction of unpolarised light that is reflected, according to the Fresnel equations.
+/// See Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th edition, section 9.3.5.
 fn fresnel(out: Vec3, ior: f32) -> f32 {
     let Some(refracted) = refract(out, ior) else {
         return 1.0;

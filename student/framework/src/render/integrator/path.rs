@@ -94,9 +94,9 @@ impl Integrator<'_> {
     ///
     /// The path itself can also reach this light by chance. So there are two samples of the light,
     /// and each is divided by the sum of both densities: the balance heuristic. The light sample
-    /// decides where a light is small or far away, and the scattering sample where it is large or
-    /// close. See Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo
-    /// Rendering", SIGGRAPH 1995, section 3.2.
+    /// dominates where a light is small or far away, and the scattering sample where the light is
+    /// large or close. See Veach and Guibas, "Optimally Combining Sampling Techniques for Monte
+    /// Carlo Rendering", SIGGRAPH 1995, section 3.2.
     fn direct_light(
         &self,
         surface: &Surface,

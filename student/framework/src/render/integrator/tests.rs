@@ -59,8 +59,8 @@ fn a_sphere_that_absorbs_nothing_is_invisible_in_a_white_furnace() {
 
 #[test]
 fn a_map_lights_a_sphere_like_the_same_light_from_all_directions() {
-    // A bright pixel straight behind the camera, and a constant radiance that is less than what it
-    // adds.
+    // One of the maps has a bright area straight behind the camera, which adds more light than the
+    // constant radiance of all directions.
     let grey = scene(0.0, GREY, &sphere(-3.0, 1.0, "grey")).on_film(uvec2(101, 101));
     let middle = |environment: Environment| {
         let scene = Scene {
@@ -74,7 +74,8 @@ fn a_map_lights_a_sphere_like_the_same_light_from_all_directions() {
     };
     let map = |bright: f32| {
         let mut pixels = vec![Vec3::splat(0.2); 512];
-        // Around +z, in the rows beside the horizon: 16 rows of 32 columns.
+        // The map has 16 rows and 32 columns. These four pixels surround +z, on both sides of the
+        // horizon.
         for index in [7 * 32 + 7, 7 * 32 + 8, 8 * 32 + 7, 8 * 32 + 8] {
             pixels[index] = Vec3::splat(bright);
         }
@@ -95,8 +96,8 @@ fn a_light_inside_glass_is_seen_at_a_fraction_of_its_radiance() {
     let world = World::new(&CORRECT, &scene);
     let integrator = Integrator::new(&scene, &world, settings(8));
     let middle = integrator.pixel_radiance(uvec2(50, 50), 4000, &mut RenderStats::default());
-    // Head-on, 4 % are reflected. Outside, the light spreads over a solid angle that is 1.5² times
-    // as large.
+    // Head-on, 4 % of the light is reflected. Outside, the light spreads over a solid angle that is
+    // 1.5² times as large.
     assert_near(middle.x, 0.96 / 2.25, 0.01);
 }
 
@@ -115,7 +116,7 @@ impl CameraRays for Zoomed {
 }
 
 /// Returns the mean radiance around the point where a white ball and a white sphere touch, in a
-/// white furnace. They touch at this distance in front of the camera.
+/// white furnace. They touch at `distance` in front of the camera.
 fn contact_in_a_furnace(ball: f32, ground: f32, distance: f32) -> f32 {
     let side = |radius: f32| {
         format!(
@@ -148,7 +149,8 @@ fn contact_in_a_furnace(ball: f32, ground: f32, distance: f32) -> f32 {
 #[test]
 fn a_ball_on_a_large_sphere_is_invisible_in_a_white_furnace() {
     // Rays that start too far from a surface start inside the other sphere and are lost there. With
-    // an offset of 1e-4 of the scene, a ball of radius 0.5 on a sphere of radius 1000 loses 41 %.
+    // an offset of 1e-4 of the scene's size, a ball of radius 0.5 on a sphere of radius 1000 loses
+    // 41 %.
     for (ball, ground, distance) in [(0.5, 1000.0, 3.0), (0.1, 1000.0, 1.0), (0.5, 0.5, 30.0)] {
         assert_near(contact_in_a_furnace(ball, ground, distance), 1.0, 0.01);
     }
@@ -196,7 +198,7 @@ fn a_large_light_on_a_sphere_matches_the_closed_form() {
     let world = World::new(&CORRECT, &scene);
     let integrator = Integrator::new(&scene, &world, settings(1));
     let middle = integrator.pixel_radiance(uvec2(50, 50), 2000, &mut RenderStats::default());
-    // Albedo · sin² of the half angle that the light subtends at z = −2.
+    // Albedo · sin² of the half-angle that the light subtends at z = −2.
     let expected = 0.5 * (5.0_f32 / 9.0).powi(2);
     assert_near(middle.x, expected, 0.01);
 }

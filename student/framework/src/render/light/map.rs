@@ -1,4 +1,4 @@
-//! Sampling of an environment map: bright pixels are sampled often.
+//! Sampling of an environment map: brighter pixels are sampled more often.
 
 use std::f32::consts::PI;
 
@@ -37,7 +37,7 @@ impl MapSampler {
     }
 
     /// Samples a direction. Of the random numbers in `[0, 1)`, `choice` picks the pixel, and
-    /// `position` a point in it. Also returns the radiance from there.
+    /// `position` a point in it. Also returns the radiance from that direction.
     pub(super) fn sample(&self, choice: f32, position: Vec2) -> (Vec3, Vec3) {
         let target = f64::from(choice) * self.total();
         let picked = self.cumulative.partition_point(|&sum| sum <= target);

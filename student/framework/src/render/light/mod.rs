@@ -15,7 +15,7 @@ use crate::scene::{Environment, Scene};
 
 /// The lights of a scene, and its environment map, if any. The lights are picked for sampling with
 /// probabilities proportional to their power. If there are both lights and a map, half of the
-/// samples are in the map.
+/// samples go to the map.
 pub struct Lights {
     /// In the order of the scene's shapes.
     lights: Vec<AreaLight>,
@@ -205,7 +205,7 @@ mod tests {
     fn lights_are_picked_by_power_and_their_density_is_that_of_the_sample() {
         let lights = lights(&format!("{OVERHEAD}, {ASIDE}, {DARK}"));
         let (solid_angle, overhead) = solid_angle(&lights);
-        // The cones that the two spheres subtend, with sines of 1/2 and 1/5.
+        // The cones that the two spheres subtend, whose half-angles have sines of 1/2 and 1/5.
         let cone = |sine: f32| TAU * (1.0 - (1.0 - sine * sine).sqrt());
         let expected = cone(0.5) + cone(0.2);
         assert!(

@@ -106,8 +106,8 @@ impl LightShape {
     }
 }
 
-/// Returns the cone that a sphere subtends: the direction to its centre, and 1 − the cosine of its
-/// half angle. Returns `None` inside the sphere, since spheres emit outward.
+/// Returns the cone that a sphere subtends: the direction to the sphere's centre, and one minus the
+/// cosine of the cone's half-angle. Returns `None` inside the sphere, since spheres emit outward.
 fn cone(center: Vec3, radius: f32, from: Vec3) -> Option<(Vec3, f32)> {
     let to_center = center - from;
     let squared = to_center.length_squared();
@@ -120,8 +120,9 @@ fn cone(center: Vec3, radius: f32, from: Vec3) -> Option<(Vec3, f32)> {
     Some((to_center / squared.sqrt(), span))
 }
 
-/// Samples a direction in a cone. Also returns the sine of its angle to the axis. See Shirley, Wang and Zimmerman, "Monte Carlo Techniques for
-/// Direct Lighting Calculations", ACM TOG 15(1), 1996.
+/// Samples a direction in a cone. Also returns the sine of the angle between that direction and the
+/// axis. See Shirley, Wang and Zimmerman, "Monte Carlo Techniques for Direct Lighting
+/// Calculations", ACM TOG 15(1), 1996.
 fn sample_cone(axis: Vec3, span: f32, random: Vec2) -> (Vec3, f32) {
     let rise = random.x * span;
     let sine = (rise * (2.0 - rise)).max(0.0).sqrt();

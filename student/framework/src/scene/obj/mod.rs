@@ -28,8 +28,8 @@ pub(super) fn load(path: &Path) -> Result<Vec<Face>, SceneError> {
     parse(&text).map_err(|error| error.in_file(path))
 }
 
-/// Parses the faces of an OBJ text and splits them into triangles. The scene defines the materials,
-/// so everything else is ignored.
+/// Parses the faces in the text of an OBJ file and splits them into triangles. The scene defines
+/// the materials, so everything else is ignored.
 fn parse(text: &str) -> Result<Vec<Face>, SceneError> {
     let text = &text.replace("\r\n", "\n").replace('\r', "\n");
     let checked = check(&statements(text));
@@ -99,8 +99,9 @@ fn check(statements: &[(usize, Vec<&str>)]) -> Result<(String, Vec<CheckedFace>)
     Ok((text, faces))
 }
 
-/// Returns those numbers in a statement that the mesh uses, if all of them are finite. `v` may be
-/// followed by a weight or a colour, and the second number of `vt` may be missing.
+/// Returns the numbers that the mesh uses from a statement, if all numbers in the statement are
+/// finite. `v` may be followed by a weight or a colour, and the second number of `vt` may be
+/// missing.
 fn check_numbers<'a>(
     (kind, name): (&str, &str),
     words: &[&'a str],
@@ -189,7 +190,7 @@ fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bo
     Ok(form)
 }
 
-/// Parses a checked text and splits its faces into triangles.
+/// Parses text that has been checked, and splits its faces into triangles.
 fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
     let no_materials = |_: &Path| Ok(Default::default());
     let options = tobj::LoadOptions::default();
@@ -217,7 +218,7 @@ fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
             let whole_texture = [Vec2::ZERO, Vec2::X, Vec2::Y];
             mesh.push(Face {
                 corners: indices(&parsed.indices).map(|i| positions[i]),
-                // `tobj` makes up indices for corners without uv or normal.
+                // `tobj` makes up indices for corners without a uv or a normal.
                 uv: face.has_uv.then(uv).unwrap_or(whole_texture),
                 normals: face.has_normal.then(normals),
             });

@@ -12,7 +12,7 @@ fn corners(mesh: &[Face]) -> Vec<[Vec3; 3]> {
     mesh.iter().map(|face| face.corners).collect()
 }
 
-/// Checks the error for a text that begins with four positions.
+/// Checks the error for an OBJ file that begins with four positions.
 fn check(rest: &str, expected: &str) {
     let error = parse(&format!("{POSITIONS}{rest}")).expect_err("the text is invalid");
     let message = error.to_string();

@@ -72,7 +72,7 @@ pub(super) fn unreadable_files(submission: &Submission) -> BTreeMap<&'static str
 }
 
 /// Returns the files that seem to lack a declaration that other files use. The resulting errors in
-/// those files would hide the cause.
+/// the other files would hide the cause.
 pub(super) fn incomplete_files(submission: &Submission) -> BTreeMap<&'static str, NotCompiled> {
     let why = |(file, text): &(TaskFile, Result<String, TaskFileError>)| {
         let text = text.as_ref().ok()?;
@@ -84,7 +84,8 @@ pub(super) fn incomplete_files(submission: &Submission) -> BTreeMap<&'static str
 }
 
 /// Replaces the reason for each of these files with the compiler's errors in that file, if there
-/// are any. An error, e.g. about a misspelt `struct`, is a more helpful reason.
+/// are any. A compiler error, e.g. about a misspelt `struct`, is more helpful than the original
+/// reason.
 pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, errors: &[Diagnostic]) {
     for (name, why) in incomplete {
         let in_file = errors.iter().filter(|error| error.originates_in(name));

@@ -1,6 +1,6 @@
 //! Temporary directories for building a submission, or for unpacking a class from an archive. Each
 //! directory is newly created, so it contains nothing from an earlier build. It is removed after
-//! use. If a grader is killed, the next grader removes its directory.
+//! use. If a grader is killed, the next grader removes the directory left behind.
 
 use std::fs::{self, File, TryLockError};
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::machine::files::{self, AtPath, PathError};
 /// A file that is locked while the directory is in use. The system releases the lock when the
 /// grader ends, even if it is killed.
 const LOCK_FILE: &str = "lock";
-/// Temporary name of the file until it is locked, so that another grader cannot lock it first.
+/// Temporary name of the lock file until it is locked, so that no other grader can lock it first.
 const UNLOCKED_FILE: &str = "lock.new";
 
 /// A temporary directory, which is removed when this value is dropped.

@@ -13,8 +13,8 @@ use crate::handed_out::HandedOut;
 /// File name of the crate's root, which contains the given root and a `main` function.
 const ROOT: &str = "probe.rs";
 
-/// Compiles the task files, passed as pairs of name and text, together with the given files in
-/// `folder`.
+/// Compiles the task files and the given files in `folder`. Each task file is passed as a pair of
+/// its name and its text.
 pub fn compile(
     files: &[(&str, &str)],
     handed_out: &HandedOut,
@@ -32,8 +32,8 @@ pub fn compile(
     })
 }
 
-/// Compiles the starter, which shows whether the machine is the reason a submission doesn't
-/// compile or start. Returns the program, or the reason there is none.
+/// Compiles the starter to find out whether the machine is the reason a submission doesn't compile
+/// or start. Returns the program, or the reason there is none.
 pub(super) fn compile_starter(
     handed_out: &HandedOut,
     folder: &Path,

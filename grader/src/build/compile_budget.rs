@@ -53,7 +53,7 @@ impl CompileBudget {
     }
 }
 
-/// Returns the message about a submission that has used up its time.
+/// Returns the message for a submission that has used up its time.
 pub(super) fn used_up_message() -> String {
     let CompileTime { cpu, wall } = CompileTime::MOST;
     format!(

@@ -14,8 +14,8 @@ const ORDER: &str = "cpp.md#floats-have-no-total-order";
 const MOVES: &str = "cpp.md#slices-and-partitions";
 const BORROWS: &str = "cpp.md#recursion-that-fills-a-vector";
 
-/// An error code, words that the compiler's text contains, and the section that explains such an
-/// error. Syntax errors come without a code. The first match counts.
+/// Triples of an error code, words in the compiler's text, and the section that explains errors
+/// with both. Syntax errors have no code. The first match is used.
 const SECTIONS: [(&str, &str, &str); 41] = [
     ("", "expected `;`", BLOCKS),
     ("", "expected one of `.`, `;`", BLOCKS),

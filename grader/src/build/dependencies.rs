@@ -79,8 +79,9 @@ impl Dependencies {
         })
     }
 
-    /// Returns the dependencies together with a crate from this workspace, whose package is in
-    /// `folder`. Everything is built in one cargo call, so that all crates share one `framework`.
+    /// Returns the dependencies together with a crate from this workspace. The crate's package is
+    /// in `folder`. Everything is built in one cargo call, so that all crates share the same build
+    /// of `framework`.
     pub fn with_package(
         name: &str,
         folder: &Path,
@@ -119,7 +120,7 @@ fn prepare_once(
     }
 
     let _lock = lock(cache)?;
-    // Another process may have built them while this one waited.
+    // Another process may have built the dependencies while this one waited.
     if let Some(ready) = read(&record) {
         return Ok(ready);
     }
@@ -205,7 +206,7 @@ fn build(
             });
         // Use the same flags on every machine, regardless of the environment and cargo's
         // configuration. They match the profile in Cargo.toml. With other flags, cargo would
-        // recompile the crates it has compiled for the grader.
+        // recompile the crates that it has already compiled for the grader.
         cargo
             .env("CARGO_ENCODED_RUSTFLAGS", "")
             .env_remove("RUSTC_WRAPPER")
@@ -242,8 +243,9 @@ fn output(cargo: &mut Command) -> io::Result<Output> {
     output
 }
 
-/// Finds each crate's library in cargo's messages, which are one JSON value per line. A procedural
-/// macro is a dynamic library, which rustc needs even though nothing is linked with it.
+/// Finds each crate's library in cargo's messages, which are one JSON value per line. For a
+/// procedural macro, the library is dynamic, and rustc needs it even though nothing is linked with
+/// it.
 fn libraries(messages: &str) -> Vec<(String, PathBuf)> {
     messages
         .lines()

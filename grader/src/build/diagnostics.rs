@@ -22,7 +22,7 @@ pub struct Diagnostic {
     rendered: Option<String>,
 }
 
-/// The code of an error, such as `E0308`. Syntax errors come without a code.
+/// The code of an error, such as `E0308`. Syntax errors have no code.
 #[derive(Clone, Debug, Deserialize)]
 struct ErrorCode {
     code: String,
@@ -130,8 +130,8 @@ impl Diagnostic {
         compiler_help::section(code, self.text())
     }
 
-    /// Returns one line with the message's location in this file and the message itself. Returns
-    /// `None` if the message is about another file.
+    /// Returns the message and its location in this file, on one line. Returns `None` if the
+    /// message is about another file.
     pub fn line_of_text(&self, file: &str) -> Option<String> {
         let is_in_file = self.primary().any(|span| span.file_name == file);
         let line = self.line_in(file).filter(|_| is_in_file)?;

@@ -1,5 +1,6 @@
 //! Selects the linker. It is found on the PATH once and passed to the compiler as an absolute path.
-//! The compiler's environment contains no PATH, because source code can read it.
+//! The compiler's environment contains no PATH, because the source code being compiled could read
+//! it.
 
 use std::env;
 use std::ffi::{OsStr, OsString};
@@ -10,8 +11,8 @@ use std::process::Command;
 
 use crate::machine::system;
 
-/// Path of the linker bundled with the toolchain, relative to the sysroot, on the platform where it
-/// is the default.
+/// Path of the linker bundled with the toolchain on x86-64 Linux, where it is the default. The path
+/// is relative to the sysroot.
 const BUNDLED_LINKER: &str = "lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld";
 /// The C compiler that `rustc` links with, and the linker that the C compiler looks for.
 const DRIVER: &str = "cc";
@@ -22,10 +23,9 @@ const WRAPPERS: [&str; 4] = ["ccache", "sccache", "distcc", "icecc"];
 /// The system's linker.
 #[derive(Clone, Debug, Default)]
 pub struct SystemLinker {
-    /// The C compilers on the PATH, in the order of the PATH's folders. If there are none, `rustc`
-    /// reports that.
+    /// The C compilers on the PATH, in PATH order. If there are none, `rustc` reports an error.
     drivers: Vec<PathBuf>,
-    /// The linkers on the PATH, which a C compiler calls.
+    /// The linkers on the PATH, in PATH order. A C compiler calls one of them.
     linkers: Vec<PathBuf>,
 }
 
@@ -51,9 +51,9 @@ impl SystemLinker {
     ///
     /// The toolchain's own linker is used if it exists. The wrapper that `rustc` calls is bypassed,
     /// because it finds the linker via `/proc`, which the sandbox hides. One thread is enough for
-    /// such small programs: a second thread costs more than it saves. `-O0` skips merging strings,
+    /// programs this small: a second thread costs more than it saves. `-O0` skips merging strings,
     /// which isn't worth the time for a program that is deleted soon after. The system's linker may
-    /// lack these options, and compiling takes a third longer with it.
+    /// lack these options, and compiling with it takes a third longer.
     ///
     /// `is_readable` returns whether the compiler can read a program.
     pub(super) fn arguments(
@@ -73,7 +73,7 @@ impl SystemLinker {
         let own = sysroot.join(BUNDLED_LINKER);
         if cfg!(all(target_os = "linux", target_arch = "x86_64")) && own.is_file() {
             let link = folder.join("ld.lld");
-            // An earlier attempt that was killed may have left it behind.
+            // An earlier attempt that was killed may have left the link behind.
             fs::remove_file(&link).ok();
             system::symlink(&own, &link)?;
             command.args([

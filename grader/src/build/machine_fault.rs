@@ -1,4 +1,4 @@
-//! Failures of the machine during compilation. No submission may lose points for them.
+//! Failures of the machine during compilation. No submission may lose points because of them.
 
 use std::fs;
 use std::io;
@@ -19,7 +19,7 @@ pub(super) const KILLED: &str = "the system killed the compiler (signal 9), even
                                  give this machine more memory, or grade fewer submissions at a time";
 
 /// Returns an error if the disk is full. `folder` is the build directory of a failed compile. It is
-/// removed first, so that source code that fills the disk itself isn't excused.
+/// removed first, so that a submission isn't excused if it filled the disk itself.
 pub(super) fn check_disk(folder: &Path) -> io::Result<()> {
     fs::remove_dir_all(folder).ok();
     let path = folder.parent().unwrap_or(folder);

@@ -110,8 +110,8 @@ impl Builder {
         Ok(builder)
     }
 
-    /// Finds the compiler and builds the dependencies together with a crate from this workspace,
-    /// which programs can import. The crate's package is in `folder`. Not for grading.
+    /// Finds the compiler and builds the dependencies, along with a crate from this workspace that
+    /// programs can then import. The crate's package is in `folder`. Not for grading.
     pub fn prepare_with_package(
         name: &str,
         folder: &Path,
@@ -137,7 +137,7 @@ impl Builder {
         &self.rustc.toolchain.rustc
     }
 
-    /// Returns the folder of the crates that every submission is linked with.
+    /// Returns the folder that contains the crates that every submission is linked with.
     pub fn dependencies(&self) -> &Path {
         &self.rustc.dependencies.folder
     }
@@ -165,8 +165,9 @@ impl Builder {
         self.build_with_progress(submission, |_| {})
     }
 
-    /// Builds a submission like [`Builder::build`]. Calls `report_errors` whenever it finds more
-    /// files that don't compile, before compiling the others, so that students see errors early.
+    /// Builds a submission like [`Builder::build`], but calls `report_errors` whenever it finds
+    /// more files that don't compile, before it compiles the others. This way, students see errors
+    /// early.
     pub fn build_with_progress(
         &self,
         submission: &Submission,

@@ -37,7 +37,7 @@ pub struct Build {
     /// Stops the programs early.
     pub interrupt: Interrupt,
     pub(super) substitutions: Vec<Substitution>,
-    /// The programs that cannot be started although the starter's program can.
+    /// The programs that cannot be started even though the starter's program can.
     pub(super) unstartable: Mutex<BTreeSet<PathBuf>>,
     /// The compiler, used for control programs that show whether the machine is the reason for a
     /// failure.
@@ -87,7 +87,7 @@ impl Build {
     }
 
     /// Returns an error unless the starter, compiled in the same way as this program, can be
-    /// started. If it can, the machine isn't the reason the program cannot be started. `cpu` is
+    /// started. If it can, the machine isn't the reason this program cannot be started. `cpu` is
     /// the starter's CPU time limit.
     pub fn check_start(&self, program: &Path, cpu: Duration) -> io::Result<()> {
         let mut substitutions = self.substitutions.iter();

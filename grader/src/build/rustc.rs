@@ -1,5 +1,6 @@
-//! Calls `rustc` directly instead of Cargo, so that no manifest, build script or configuration in a
-//! submission is read, and the modification times of its files don't matter.
+//! Calls `rustc` directly instead of through Cargo, so that no manifest, build script or
+//! configuration in a submission is read, and the modification times of the submission's files
+//! don't matter.
 
 use std::ffi::OsString;
 use std::fs;
@@ -37,7 +38,7 @@ const NEEDED_MEMORY: u64 = 512 << 20;
 /// Maximum size of the compiler messages that are stored, in bytes.
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
-/// The message for a crate whose compiler is killed even when nothing else runs.
+/// The message to show if the compiler is killed even when nothing else is running.
 const KILLED_ALONE: &str = "the system killed the compiler (signal 9) twice, the second time while nothing \
     else was running, but the compiler works for a different program: this code makes it use too much memory";
 
@@ -48,7 +49,8 @@ enum CompileAttempt {
     Certain(CompileOutcome),
     /// The compiler failed without an error that says why.
     Unexplained(CompileOutcome),
-    /// The system killed the compiler or the linker, and no error names a file of the submission.
+    /// The system killed the compiler or the linker, and no error names one of the submission's
+    /// files.
     Killed,
 }
 
@@ -81,7 +83,8 @@ impl Rustc {
         }
     }
 
-    /// Returns bytes that identify everything the compiler's output depends on besides the sources.
+    /// Returns bytes that identify everything other than the sources that the compiler's output
+    /// depends on.
     pub fn identity(&self) -> &[u8] {
         // The folder's name is a hash of the compiler and the dependencies' sources.
         self.dependencies.folder.as_os_str().as_encoded_bytes()
@@ -139,8 +142,8 @@ impl Rustc {
     ///
     /// If the compiler fails on a submission without an error that explains why, the crate is
     /// compiled again while this process runs nothing else. If the system kills the compiler again
-    /// but the control program compiles, the crate is the reason. For all other unexplained
-    /// failures, the starter is compiled for comparison once nothing else is left to try.
+    /// but the control program compiles, the crate is to blame. For all other unexplained failures,
+    /// the starter is compiled for comparison once nothing else is left to try.
     pub fn compile(&self, source: &Crate) -> io::Result<CompileOutcome> {
         let attempt = match self.budget {
             Some(_) => decide(
@@ -167,9 +170,9 @@ impl Rustc {
         }
     }
 
-    /// Compiles the control program in a new folder next to `folder`. It shows whether the machine
-    /// is the reason for a failure. Returns the program and a guard that removes its folder when
-    /// dropped.
+    /// Compiles the control program in a new folder next to `folder`. The result shows whether the
+    /// machine is the reason for a failure. Returns the program and a guard that removes its folder
+    /// when dropped.
     pub(super) fn compile_honest(&self, folder: &Path) -> io::Result<(TempDir, PathBuf)> {
         const NAME: &str = "control";
         const SOURCE: &str = include_str!("../../trial/control.rs");
@@ -364,7 +367,7 @@ const FLAGS: [&str; 11] = [
     "--edition=2024",
     "-Copt-level=2",
     // Two threads each optimise half of the code. Inlining across the halves (`lto`) would take
-    // more processor time than optimising them together.
+    // more processor time than optimising all of the code at once.
     "-Ccodegen-units=2",
     "-Clto=off",
     "-Cdebuginfo=0",

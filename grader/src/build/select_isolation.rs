@@ -22,7 +22,7 @@ pub enum IsolationRequest {
 
 const ADVICE: &str = "see `cargo grade --doctor`; to grade your own work, leave out --untrusted";
 
-/// Returns the builder with the requested isolation, after testing it. For
+/// Tests the requested isolation and returns the builder with it. For
 /// [`IsolationRequest::OwnWork`], the builder is returned unchanged.
 pub fn with_requested_level(builder: Builder, request: IsolationRequest) -> Result<Builder, Error> {
     match request {
@@ -53,7 +53,7 @@ pub fn with_best_level(builder: &Builder) -> Result<Builder, Error> {
     )))
 }
 
-/// Returns the builder with this level, after testing it.
+/// Tests this level and returns the builder with it.
 pub fn with_level(builder: &Builder, level: Isolation) -> Result<Builder, SelfTestError> {
     let builder = builder.clone().with_sandbox(Sandbox::at(level));
     if level > Isolation::None {

@@ -1,6 +1,6 @@
-//! Tests whether a sandbox works on this machine by attacking it from inside, with the same
-//! profiles as for submissions, instead of querying the system's features. A sandbox that cannot be
-//! tested is considered unavailable.
+//! Tests whether a sandbox works on this machine. Instead of querying the system's features, it
+//! attacks the sandbox from inside, with the same profiles that are used for submissions. A sandbox
+//! that cannot be tested is considered unavailable.
 
 use tempfile::TempDir;
 
@@ -42,7 +42,7 @@ impl Builder {
     /// Tests the sandbox that submissions are compiled and run in.
     pub fn test_sandbox(&self) -> Result<(), SelfTestError> {
         let work = BuildDir::new_in(&self.folder).map_err(SelfTestError::setup)?;
-        // Without a sandbox, every user of the machine could read a file in this folder.
+        // Without a sandbox, any user of the machine could read the files in this folder.
         let public_folder = TempDir::new().map_err(SelfTestError::setup)?;
         let key = public_folder.path().join("key");
         system::make_folder_accessible(public_folder.path()).map_err(SelfTestError::setup)?;

@@ -18,8 +18,8 @@ pub struct Crate<'a> {
     /// Names and libraries of the crates that this crate may import, in addition to those that
     /// every submission may import.
     pub links: &'a [(&'a str, &'a Path)],
-    /// Folder that contains the dependencies of `links` that submissions don't have, if there are
-    /// any.
+    /// Folder that contains the additional dependencies of `links`, i.e. those that submissions
+    /// don't have. `None` if there are no such dependencies.
     pub dependency_folder: Option<&'a Path>,
 }
 
@@ -42,7 +42,7 @@ impl<'a> Crate<'a> {
 pub enum CrateKind {
     /// An executable.
     Program,
-    /// An `rlib` and its metadata, which is enough to compile other crates against it.
+    /// An `rlib` and its metadata. The metadata alone is enough to compile other crates against it.
     Library,
 }
 

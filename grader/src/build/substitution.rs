@@ -1,11 +1,12 @@
-//! Compiles a file of a submission with the reference's parts in place of the other files, so that
-//! no points for traversing a tree are lost because of a mistake in the box test.
+//! Compiles one of a submission's files with the reference's parts in place of the other files.
+//! This way, for example, a mistake in the box test doesn't cost points for traversing a tree.
 //!
 //! The parts are some of the reference's files, compiled once. The submission's file is compiled
-//! only against their metadata, and linked with them in a step that reads none of its source. The
-//! reference's own version of the file isn't used. The harness around the file may replace some of
-//! the file's functions: around `bvh.rs`, it replaces the submission's `build` with a plain one, so
-//! that no points for traversal are lost because of a mistake in building.
+//! only against the metadata of the parts. It is linked with them in a separate step, which reads
+//! none of the file's source. The reference's own version of the file isn't used. The harness
+//! around the file may replace some of the file's functions: around `bvh.rs`, it replaces the
+//! submission's `build` with a simple one, so that a mistake in building doesn't cost points for
+//! traversal.
 
 use std::fs;
 use std::io;
@@ -22,7 +23,7 @@ use crate::handed_out::{HandedOut, SubstitutedFile, TaskFile};
 use crate::machine::files::{self, AtPath};
 use crate::sandbox::Sandbox;
 
-/// The root of the crate around a submission's file.
+/// The root of the crate that contains a submission's file.
 const HARNESS: &str = "harness.rs";
 /// The root of the crate that answers questions.
 const PROBE: &str = "probe.rs";
@@ -30,8 +31,8 @@ const PROBE: &str = "probe.rs";
 /// The compiled parts, and the sources that connect a submission to them.
 ///
 /// The sources of the two crates around a submission's file are kept with the reference instead of
-/// being embedded in this program. Students can read the grader's sources, and the code that
-/// replaces functions of the file must stay hidden from them.
+/// being embedded in this program. Students can read the grader's sources, but the code that
+/// replaces functions in the file must stay hidden from them.
 #[derive(Clone, Debug)]
 pub struct ReferenceParts {
     spec: &'static SubstitutedFile,
@@ -40,7 +41,8 @@ pub struct ReferenceParts {
     root: String,
     /// The root of the crate that answers questions, compiled separately from the submission.
     probe: String,
-    /// The module in that crate that wraps the submission's file and has the same name as the file.
+    /// The module that wraps the submission's file in the crate that answers questions. It has the
+    /// same name as the file.
     wrapper: String,
 }
 
@@ -180,8 +182,8 @@ pub struct Substitution {
 }
 
 impl Substitution {
-    /// Returns the program, or `None` if it doesn't compile, e.g. because the file uses helpers in
-    /// the submission's other files.
+    /// Returns the program, or `None` if it doesn't compile, e.g. because the file uses helpers
+    /// from the submission's other files.
     pub fn program(&self) -> io::Result<Option<&Path>> {
         let compiling = self.compiling.lock();
         let _guard = compiling.unwrap_or_else(PoisonError::into_inner);
@@ -220,8 +222,8 @@ impl Substitution {
             handed_out: self.handed_out,
             parts: self.parts.clone(),
             rustc: self.rustc.for_own_code(),
-            // This folder isn't next to the submission's folder, because the compiled files of both
-            // would have the same path.
+            // If this folder were next to the submission's folder, the compiled files of both would
+            // have the same path.
             folder: self.folder.join("starter").join(self.file.name),
             program: OnceLock::new(),
             compiling: Mutex::default(),

@@ -45,8 +45,8 @@ impl Toolchain {
         bin.and_then(Path::parent).unwrap_or(Path::new("/"))
     }
 
-    /// Returns text that changes when the compiler changes. Running the compiler to get its version
-    /// would take 10 ms.
+    /// Returns text that changes when the compiler changes. It isn't the compiler's version,
+    /// because running the compiler to get that would take 10 ms.
     pub fn fingerprint(&self) -> String {
         let driver = self.sysroot().join("lib");
         let [rustc, driver] = [&self.rustc, &driver].map(|path| file_fingerprint(path));

@@ -26,8 +26,9 @@ const MAX_OUTPUT_BYTES: usize = 1 << 16;
 /// The output of the control program that [`Rustc::compile_honest`] compiles.
 const HONEST_OUTPUT: &str = "end\n";
 
-/// Returns an error unless the control program, compiled next to `folder`, runs to its end. It uses
-/// as much memory as a program may use without being considered out of memory.
+/// Returns an error unless the control program, compiled next to `folder`, runs to completion. The
+/// control program uses as much memory as any program may use without being considered out of
+/// memory.
 pub(super) fn check_run(rustc: &Rustc, folder: &Path) -> io::Result<()> {
     let (_folder, program) = rustc.compile_honest(folder)?;
     if run(&rustc.sandbox, &program, "")? == HONEST_OUTPUT {

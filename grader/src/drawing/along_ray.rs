@@ -10,8 +10,8 @@ use super::hit_comparison::{HitAnswer, HitComparison, hit_text};
 use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
 
-/// Draws the ray's range and the parts of it that lie before the expected hit and before the
-/// submitted hit.
+/// Draws the ray's range, the part of it before the expected hit, and the part before the submitted
+/// hit.
 pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     let range = comparison.ray.range;
     let before = |distance: f32| Interval::new(range.min, distance);

@@ -76,8 +76,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Creates an axis that covers all of these distances, except those of 1e9 or more, which are
-    /// treated as infinite. On the page, it extends from `left` to the right edge.
+    /// Creates an axis that covers all of these distances, except values of 1e9 or more, which are
+    /// treated as infinite. On the page, the axis extends from `left` to the right edge.
     pub(super) fn over(left: f64, distances: impl IntoIterator<Item = f64>) -> Axis {
         let finite = distances.into_iter().filter(|t| t.abs() < 1e9);
         let (first, last) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), t| {

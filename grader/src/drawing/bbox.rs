@@ -1,6 +1,6 @@
-//! Draws a ray and a box in two ways: in the plane of the two axes that decide whether the ray
-//! hits, and as one interval per axis in which the ray is between the box's two planes. The exam
-//! stores these intervals.
+//! Draws a ray and a box in two ways: in the plane spanned by the two axes that decide whether the
+//! ray hits, and as bars. For each axis, a bar shows the interval during which the ray is between
+//! the box's two planes. The exam stores these intervals.
 
 use glam::{DVec2, Vec3};
 use judging::describe;
@@ -55,8 +55,8 @@ pub(super) fn draw(query: &BoxQuery) -> Option<Drawing> {
 /// and a miss like a miss.
 fn deciding_plane(query: &BoxQuery) -> Plane {
     let Some(slabs) = query.slabs else {
-        // If the exam contains no slabs, look along the axis in which the ray's direction has its
-        // smallest component.
+        // If the exam contains no slabs, look along the axis with the smallest component of the
+        // ray's direction.
         let along = query.ray.dir.abs();
         let least = (0..3).min_by(|&a, &b| along[a].total_cmp(&along[b]));
         let least = least.unwrap_or(2);

@@ -1,8 +1,8 @@
 //! An SVG image, built element by element in page units: x to the right, y down.
 //!
-//! Coordinates may come from submissions, so elements with points that aren't finite or that are
-//! far off the page are skipped. No more elements are added to an image that has reached
-//! [`MAX_BYTES`].
+//! Coordinates may come from submissions, so an element is skipped if any of its points isn't
+//! finite or is far off the page. Once an image has reached [`MAX_BYTES`], no more elements are
+//! added.
 
 use glam::{DVec2, dvec2};
 use maud::{Markup, PreEscaped, Render, html};
@@ -24,7 +24,7 @@ const MAX_COORDINATE: f64 = 1e4;
 /// The background colour of the page.
 const PAPER: &str = "var(--paper, Canvas)";
 
-/// The position of text relative to its point.
+/// The position of text relative to its anchor point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     /// To the right of the point.
@@ -129,7 +129,8 @@ impl Canvas {
         }
     }
 
-    /// Draws the part of an arrow that is in a window, with its head at the second point.
+    /// Draws the part of an arrow that is inside a window. The head is at the second point, or
+    /// where the arrow leaves the window.
     pub(super) fn arrow(&mut self, window: &Window, [from, to]: [DVec2; 2], line: LineStyle) {
         let Some((from, to)) = window.clip_segment(from, to) else {
             return;

@@ -13,7 +13,7 @@ pub(super) enum Ink {
     Faint,
     /// The colour of the expected answer.
     Right,
-    /// The colour of the submitted answer if it is wrong.
+    /// The colour of the submitted answer, if that answer is wrong.
     Wrong,
 }
 
@@ -49,9 +49,9 @@ pub(super) enum LineStyle {
     Behind,
     /// The range of a ray.
     Range,
-    /// A line of the expected answer.
+    /// A line that shows the expected answer.
     Right,
-    /// A line of the submitted answer if it is wrong.
+    /// A line that shows the submitted answer, if that answer is wrong.
     Wrong,
 }
 

@@ -78,7 +78,7 @@ impl SideView<'_> {
         seen
     }
 
-    /// Draws the ray's line and its origin and, if the ray's range is limited, the range as well.
+    /// Draws the ray's line, its origin and, if its range is limited, the range.
     pub(super) fn draw_ray(&self, canvas: &mut Canvas, window: &Window) {
         let range = self.comparison.limited_range();
         canvas.ray(window, range, 1e7, |t| dvec2(t, 0.0));
@@ -142,7 +142,7 @@ impl SideView<'_> {
         };
         match (comparison.wanted, comparison.focus) {
             (None, _) => sheet.add_wanted(Symbol::None, "no hit"),
-            // The expected origin is that of the ray, which has its own legend entry.
+            // The expected origin is the ray's origin, which has its own legend entry.
             (Some(hit), Focus::Origin) => {
                 sheet.add_wanted(Symbol::Mark(Mark::Right), &hit_text(&hit))
             }

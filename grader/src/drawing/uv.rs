@@ -7,8 +7,8 @@ use super::hit_comparison::HitComparison;
 use super::ink::{Fill, Ink, LineStyle};
 use super::window::{Panel, Window};
 
-/// Draws the square with the expected and the submitted texture coordinates and, if `corners` isn't
-/// empty, those of a triangle's corners.
+/// Draws the square with the expected and the submitted texture coordinates. If `corners` isn't
+/// empty, also draws the texture coordinates of a triangle's corners.
 pub(super) fn draw_square(
     canvas: &mut Canvas,
     panel: Panel,

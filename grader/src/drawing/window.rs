@@ -1,4 +1,4 @@
-//! Windows, which map a plane of the world to a panel of the page. The mapping is to scale, and
+//! Windows, which map a plane in the world to a panel on the page. The mapping is to scale, and
 //! segments are clipped to the panel.
 
 use glam::{DVec2, dvec2};

@@ -1,6 +1,6 @@
 //! Decides which requests to answer. The page shows and controls the user's program, so only the
-//! user's browser may talk to it, although any user of this machine and any web page opened on this
-//! machine can connect to it.
+//! user's browser may talk to it, even though any user of this machine and any web page opened on
+//! it can connect.
 
 use std::env;
 
@@ -9,16 +9,15 @@ use crate::http::Request;
 /// Names that always mean this machine.
 const LOOPBACK: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
 /// The name of the header that contains the token, in lower case. A page from another site or port
-/// cannot send it, because a browser first asks this server for permission, which the server never
-/// gives.
+/// cannot send this header, because the browser would first ask this server for permission, which
+/// the server never gives.
 pub const HEADER: &str = "view-token";
 
-/// The secret and the names that a request must contain.
+/// The secret that requests must contain, and the host names that they may be sent to.
 #[derive(Clone, Debug)]
 pub struct Access {
     /// The secret in the printed address. The page keeps it in its origin's storage. A cookie
-    /// wouldn't be safe, because browsers send the cookies of one port to all ports of the same
-    /// host.
+    /// wouldn't be safe, because browsers send a host's cookies to every port on that host.
     token: String,
     /// The host names that lead here.
     hosts: Vec<String>,
@@ -27,8 +26,8 @@ pub struct Access {
 }
 
 impl Access {
-    /// Creates a new secret for a server that listens on this port and can also be reached by these
-    /// names.
+    /// Creates a new secret for a server that listens on this port and can also be reached under
+    /// these names.
     pub fn new(port: u16, allowed_hosts: &[String]) -> Result<Self, getrandom::Error> {
         let hosts = LOOPBACK.map(str::to_owned).into_iter();
         let forwarded = forwarded_host(port);
@@ -52,8 +51,8 @@ impl Access {
         format!("/?token={}", self.token)
     }
 
-    /// Returns the reason that a request isn't answered, or `None` if it is. The page's files are
-    /// public, because they are the same for everyone and contain no secrets.
+    /// Returns the reason to refuse a request, or `None` if it should be answered. The page's files
+    /// are public, because they are the same for everyone and contain no secrets.
     pub fn refusal(&self, request: &Request, is_public: bool) -> Option<&'static str> {
         // A page from another site can send requests here by resolving its own name to this
         // address, but it cannot change the name in `Host`.

@@ -10,9 +10,9 @@ use tempfile::NamedTempFile;
 /// Opens `url` in a browser. Returns a file in `folder` that must not be deleted before the browser
 /// has read it. If there is no desktop, prints what to do instead.
 ///
-/// The browser gets the path of a file that leads to the address, because a program's arguments can
-/// be read by all users of a machine, and the address contains a secret. Only the user can read the
-/// file. The file isn't in the system's temporary folder, because browsers installed as snaps
+/// The browser gets the path of a file that redirects it to the address. All users of a machine can
+/// read a program's arguments, and the address contains a secret, whereas only the user can read
+/// the file. The file isn't in the system's temporary folder, because browsers installed as snaps
 /// cannot read that folder.
 pub fn open(folder: &Path, url: &str, port: u16) -> std::io::Result<NamedTempFile> {
     let mut file = tempfile::Builder::new()

@@ -27,10 +27,10 @@ const INTERVALS: [(Duration, Duration); 3] = [
 const PANIC_COLOUR: [u8; 3] = [255, 0, 255];
 /// The number of tests at the end of the colour scale.
 const MOST_TESTS: f32 = 1000.0;
-/// The number of marks that get the brightest colour.
+/// Pixels with at least this many marks get the brightest colour.
 const MOST_MARKS: f32 = 16.0;
 /// The colour of each rule, in the order of [`Rule`](view_probe::rules::Rule). The colours can be
-/// told apart with any colour vision. The page's legend uses the same ones.
+/// told apart by people with any type of colour vision. The page's legend uses the same colours.
 const RULE_COLOURS: [Vec3; RULES] = [
     Vec3::new(0.95, 0.42, 0.05),
     Vec3::new(0.95, 0.87, 0.25),
@@ -52,7 +52,7 @@ pub fn run(shared: &SharedSession) {
             .iter()
             .find(|(until, _)| age < *until)
             .map_or(Duration::ZERO, |(_, interval)| *interval);
-        // Show the first picture after a change and the last one immediately.
+        // After a change, show the first and the last picture immediately.
         let is_new = shown != Some(shared.read(|session, _| session.key()));
         let wait = interval.saturating_sub(last.elapsed());
         if !is_new && !is_complete && !wait.is_zero() {
@@ -149,8 +149,9 @@ fn share_of_scale(tests: MarkedTests) -> f32 {
     (total.log2() / MOST_TESTS.log2()).min(1.0)
 }
 
-/// Returns the colour of a ray's mistakes: that of the rule broken most often, brighter the more
-/// often it is broken. Rays without mistakes are grey, lighter the more tests they need.
+/// Returns the colour for a ray's mistakes: the colour of the rule that the ray breaks most often,
+/// brighter the more often it does. A ray without mistakes is grey, and lighter the more tests it
+/// needs.
 fn mistakes(tests: MarkedTests) -> Vec3 {
     let marks = tests.marks.iter().zip(RULE_COLOURS);
     match marks.rev().max_by_key(|(count, _)| **count) {

@@ -1,9 +1,9 @@
 //! Shows in a browser what a submission's code does: the picture while it is drawn, the tree, and
-//! the tests made by the submission's traversal for one ray.
+//! the tests that the submission's traversal makes for one ray.
 //!
 //! The submission's files are compiled as for grading, but with the crate `view_probe` instead of
-//! the grader's probe. This crate starts the programs, keeps the page's state and serves the page
-//! on the loopback address.
+//! the grader's probe. The crate `view` starts the programs, keeps the page's state and serves the
+//! page on the loopback address.
 //!
 //! Layers, from top to bottom. A module imports only from layers below its own:
 //!
@@ -12,15 +12,15 @@
 //! | the command | [`run`] |
 //! | its parts | [`cli`], [`browser`] |
 //! | the page | [`routes`], with the files in `page` |
-//! | who is answered | [`access`] |
+//! | access control | [`access`] |
 //! | threads | [`workers`], [`watcher`], [`composer`] |
-//! | the state, shared by them | [`shared_session`] |
+//! | the state, shared by the threads | [`shared_session`] |
 //! | the state | [`session`] |
 //! | questions as scenes | [`exam_question`] |
 //! | scenes | [`subject`] |
 //! | running programs | [`probe`] |
 //! | builds | [`program`], [`source_links`] |
-//! | changes of a submission's source | [`recording`] |
+//! | changes to a submission's source | [`recording`] |
 //! | pure parts | [`model`]: camera, order of drawing, tree, explanations; [`sweep_costs`] |
 //! | the network, errors | [`http`], [`error`] |
 

@@ -22,7 +22,7 @@ const WAITING_LIMIT: Duration = Duration::from_secs(2);
 pub struct Probe {
     running: RunningProgram,
     nonce: u64,
-    // Its file must exist while it runs.
+    // The program's file must exist while the program runs.
     _program: Program,
 }
 
@@ -60,8 +60,8 @@ impl Probe {
         })
     }
 
-    /// Sends a request and waits for the response, for at most `limit` of CPU time or until the
-    /// request `is_abandoned`. After an error, the program must not be used again.
+    /// Sends a request and waits for the response, until the program has used `limit` of CPU time
+    /// or `is_abandoned` returns true. After an error, the program must not be used again.
     pub fn ask(
         &mut self,
         request: &Request,
@@ -80,7 +80,8 @@ impl Probe {
         });
         let printed_before = self.running.printed();
         let frame = loop {
-            // The first part of the time is only spent waiting for the pipe, which costs nothing.
+            // Wait for the pipe for a short time before checking the limits, since waiting costs
+            // nothing.
             if let Some(frame) = self.running.next_frame()? {
                 break frame;
             }

@@ -32,7 +32,7 @@ pub struct Programs {
     drawing: &'static HandedOut,
     recording: &'static HandedOut,
     folder: PathBuf,
-    /// Whether the folder is a package, whose files are in `src`.
+    /// Whether the folder is a package, i.e. has its files in `src`.
     is_package: bool,
 }
 
@@ -54,7 +54,7 @@ pub enum BuildState {
 #[derive(Clone, Debug)]
 pub struct Program(Arc<Build>);
 
-/// An error in a file of the submission.
+/// An error in one of the submission's files.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct FileError {
     /// The name of the file.
@@ -169,8 +169,8 @@ fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>)
     files.map(error).collect()
 }
 
-/// Returns the assignment with the viewer's `main` function and with changes to the given files. It
-/// lives as long as the process.
+/// Returns the assignment with the viewer's `main` function and with the given files replaced by
+/// what `given` returns for them. The result lives as long as the process.
 fn with_probe(
     handed_out: &HandedOut,
     given: impl Fn(&GivenFile) -> GivenFile,

@@ -1,8 +1,8 @@
 //! Makes a submission's `BBox::hit` and `Primitive::hit` report their calls without changing the
 //! traversal that calls them.
 //!
-//! The method is renamed, and a method with its old name calls it and reports the result. Types and
-//! line numbers stay unchanged.
+//! Each of these methods is renamed, and a new method with the old name calls it and reports the
+//! result. Types and line numbers stay unchanged.
 
 use grader::handed_out::find_method;
 

@@ -26,7 +26,7 @@ const POLL_TIMEOUT: Duration = Duration::from_secs(25);
 const MAX_BOXES: usize = 400;
 /// The number of nodes in the list of worst nodes.
 const WORST: usize = 12;
-/// The narrowest bar of the strip, as a share of its width.
+/// The width of the narrowest bar, as a share of the strip's width.
 const NARROWEST: f32 = 1.0 / 600.0;
 
 /// The files of the page: path, type and text.
@@ -230,8 +230,8 @@ impl Formatter for Sanitizing {
         to: &mut W,
         fragment: &str,
     ) -> io::Result<()> {
-        // Fragments don't contain quotes or backslashes from the JSON syntax. Any that come from an
-        // escape are part of the text.
+        // A fragment contains no quotes or backslashes, because those are written as escapes. After
+        // sanitizing, every backslash is part of the text, so it must be escaped.
         let text = sanitize(fragment, usize::MAX).replace('\\', "\\\\");
         to.write_all(text.as_bytes())
     }

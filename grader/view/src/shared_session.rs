@@ -7,10 +7,10 @@ use std::{io, thread};
 
 use crate::session::{Key, Session};
 
-/// The number of pages that may wait for news at the same time. A browser opens six connections to
-/// one server and needs the rest for pictures.
+/// The number of pages that may wait for news at the same time. A browser opens at most six
+/// connections to one server, and it needs the other ones for pictures.
 const MAX_WAITING: usize = 4;
-/// How long a page waits if more pages than that are waiting.
+/// How long a page waits if more than [`MAX_WAITING`] pages are waiting.
 const SHORT_WAIT: Duration = Duration::from_millis(500);
 
 /// The session, shared by threads.

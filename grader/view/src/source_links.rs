@@ -13,9 +13,11 @@ use serde::Serialize;
 pub struct SourceLinks {
     /// The names of the files.
     files: Vec<&'static str>,
-    /// The folder as shown on the page, relative to the workspace. Empty if it is elsewhere.
+    /// The folder as shown on the page, relative to the workspace. Empty if the folder is outside
+    /// the workspace.
     shown: String,
-    /// The address that opens this machine's files in the editor, without a path.
+    /// The beginning of an address that opens one of this machine's files in the editor. The path
+    /// is appended to it.
     editor: String,
     /// The absolute path of the folder, with `/` between its parts.
     folder: String,
@@ -46,8 +48,8 @@ fn with_slashes(path: &Path) -> String {
     path.display().to_string().replace('\\', "/")
 }
 
-/// Returns the address that opens files. In WSL, the editor usually runs on Windows, outside this
-/// machine.
+/// Returns the beginning of the addresses that open files in the editor. In WSL, the editor usually
+/// runs on Windows, outside this machine.
 fn editor() -> String {
     match env::var("WSL_DISTRO_NAME") {
         Ok(name) => format!("vscode://vscode-remote/wsl+{name}"),

@@ -48,7 +48,7 @@ pub struct Subject {
 /// A ray from the exam and the texts of its question.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExamRay {
-    /// The ray, if the question is about one. The page only sees whether it exists.
+    /// The ray, if the question is about one. The page only learns whether there is one.
     #[serde(rename = "has_ray", serialize_with = "is_some")]
     pub ray: Option<Ray>,
     /// The corners of the boxes to draw, for questions about boxes.
@@ -64,7 +64,7 @@ fn is_some<S: Serializer>(ray: &Option<Ray>, out: S) -> Result<S::Ok, S::Error> 
 }
 
 impl Subject {
-    /// Creates the subject of a scene.
+    /// Creates a subject from a scene.
     pub fn of_scene(name: &str, scene: &Scene, settings: PathSettings) -> Self {
         let bounds = bounds(scene.shapes.iter().map(Bounds::of_shape));
         let viewpoint = Viewpoint::of_scene(&scene.camera, &bounds);
@@ -100,8 +100,8 @@ impl Subject {
         }
     }
 
-    /// Returns the reason that a tree of this size isn't read, or `None` if it isn't much larger
-    /// than a correct tree can be.
+    /// Returns the reason that a tree of this size isn't read, or `None` if the tree isn't much
+    /// larger than a correct tree can be.
     pub fn oversize(&self, size: TreeSize) -> Option<String> {
         let shapes = self.data.shapes.len();
         let own = match &self.data.tree {
@@ -166,8 +166,8 @@ impl SceneList {
         SceneList { scenes }
     }
 
-    /// Returns the name of the scene that the command line specifies by its name or path. A file
-    /// from elsewhere is added to the list.
+    /// Returns the name of the scene that the command line specifies, either by name or by path. A
+    /// file from elsewhere is added to the list.
     pub fn name_of(&mut self, scene: &str) -> Result<String, ViewError> {
         let stem = Path::new(scene)
             .file_stem()

@@ -20,7 +20,7 @@ const POLL_INTERVAL: Duration = Duration::from_millis(20);
 const READ_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Detects saves by the files' times and sizes. Reading and comparing the texts takes half a
-/// millisecond, which is too long to do fifty times a second while nothing happens.
+/// millisecond, which is too slow to do fifty times a second while nothing happens.
 struct Stamps<'a> {
     programs: &'a Programs,
     /// The usual folders that contain files of the submission.
@@ -55,8 +55,8 @@ impl<'a> Stamps<'a> {
         self.at = Instant::now();
     }
 
-    /// Waits until a file seems to have changed, but not too long: a file can be replaced by one
-    /// with the same time and size, and archives and other folders aren't checked.
+    /// Waits until a file seems to have changed, but for at most [`READ_INTERVAL`]: a file can be
+    /// replaced by one with the same time and size, and archives and other folders aren't checked.
     fn wait(&mut self) {
         while self.at.elapsed() < READ_INTERVAL && self.read() == self.last {
             thread::sleep(POLL_INTERVAL);

@@ -1,5 +1,5 @@
-//! Draws a tree as rows of bars, one row per level. The width of a node's bar shows its share of
-//! the primitives.
+//! Draws a tree as rows of bars, one row per level. The width of a node's bar shows the node's
+//! share of the primitives.
 
 use glam::{DVec2, dvec2};
 use judging::drawing_data::{LevelNode, UpperLevels};

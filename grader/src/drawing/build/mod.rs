@@ -95,7 +95,7 @@ fn draw_legend(sheet: &mut Sheet, criteria: &TreeCriteria, flaw: &Flaw, symbol: 
 
 /// Returns the nodes of each level from left to right.
 fn from_left<'a>(nodes: &'a [ReachedNode]) -> impl Iterator<Item = &'a ReachedNode<'a>> {
-    // A right child and everything below it come before the left child.
+    // In `nodes`, a right child and everything below it come before the left child.
     nodes.iter().rev()
 }
 

@@ -13,7 +13,7 @@ use crate::drawing::numbers::short;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// Draws the sensor, the point where the ray should cross it and the point where it does.
+/// Draws the sensor, the point where the ray should cross it, and the point where it actually does.
 pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<Ray>) -> Drawing {
     /// The minimum size of a distinguishable pixel, in page units.
     const MIN_PIXEL: f64 = 9.0;

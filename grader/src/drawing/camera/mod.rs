@@ -1,5 +1,5 @@
-//! Draws a camera ray. The drawing shows where the ray goes through the sensor. If its direction is
-//! right, the drawing shows its origin, length and range from the side instead.
+//! Draws a camera ray. The drawing shows where the ray goes through the sensor. If the ray's
+//! direction is right, the drawing instead shows the ray's origin, length and range from the side.
 
 mod front;
 mod side;

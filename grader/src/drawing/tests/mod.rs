@@ -32,7 +32,7 @@ static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
         .collect()
 });
 
-/// Generates numbers that submissions may answer with, including extreme ones.
+/// Generates numbers that a submission's answer may contain, including extreme values.
 fn number() -> impl Strategy<Value = f32> {
     prop_oneof![
         4 => -5.0f32..5.0,

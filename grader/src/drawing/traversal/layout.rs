@@ -127,7 +127,8 @@ impl Layout {
         on_path.max_by_key(|row| row.depth)
     }
 
-    /// Returns the row of a node that a correct traversal skips, if the submitted hit is below it.
+    /// If the submitted hit is below a node that a correct traversal skips, returns that node's
+    /// row.
     pub(super) fn decoy(&self) -> Option<&NodeRow> {
         self.got_row().filter(|row| row.status.is_skipped())
     }

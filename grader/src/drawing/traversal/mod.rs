@@ -148,7 +148,7 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
     }
 }
 
-/// Returns the phrase that relates a row's box to a leaf. The row is the leaf itself or a node
+/// Returns the phrase that relates a row's box to a leaf. The row shows the leaf itself or a node
 /// above it.
 fn whose(row: &NodeRow, leaf: u32) -> String {
     if row.node == leaf {

@@ -65,7 +65,7 @@ pub(crate) fn draw(stage: &OpenScene, renderers: &Renderers, request: &Draw) -> 
     }
 }
 
-/// The pixels of a request and the panics in them.
+/// The pixels of a request, and the panics that occurred while drawing them.
 struct Pixels<'a> {
     request: &'a Draw,
     panics: Vec<(Panic, Vec<u32>)>,
@@ -95,8 +95,8 @@ impl Pixels<'_> {
         values
     }
 
-    /// Adds a panic to the list. The message of a panic at one location can differ from pixel to
-    /// pixel, so only the first message is kept. If there are too many locations, the rest are
+    /// Adds a panic to the list. The messages of panics at the same location can differ from pixel
+    /// to pixel, so only the first message is kept. If there are too many locations, the rest are
     /// counted under the last one.
     fn add_panic(&mut self, panic: Panic, index: u32) {
         let same = |(known, _): &(Panic, Vec<u32>)| known.location == panic.location;

@@ -8,8 +8,8 @@ use protocol::{Tree, TreeNode};
 
 /// The maximum number of nodes to list for one box.
 const MAX_EQUAL: usize = 100;
-/// The maximum number of leaves to read per primitive, on average. More would take too long if all
-/// leaves contain all primitives.
+/// The maximum number of leaves to read per primitive, on average. Without this limit, indexing
+/// would take too long if all leaves contained all primitives.
 const MAX_LEAVES: usize = 64;
 
 /// A tree whose nodes can be looked up by their boxes, their primitives or their children.

@@ -137,7 +137,7 @@ const MAX_BOXES: usize = 1 << 20;
 
 impl OpenScene<'_> {
     /// Calls a method with a ray: `hit` on all shapes of one kind, `hit` on all boxes in the tree,
-    /// or the traversal. The results don't matter, only that the calls return.
+    /// or the traversal. Their results don't matter, only whether the calls return.
     pub(crate) fn try_part(&self, trial: &Trial) {
         let Trial { part, ray } = trial;
         let hit = |is_sphere: bool| {
@@ -145,7 +145,7 @@ impl OpenScene<'_> {
             for shapes in self.scene.shapes.chunks(SHAPES_AT_ONCE) {
                 let shapes: Vec<Shape> = shapes.iter().filter(is_such).copied().collect();
                 let list = self.submission.primitive_list(&shapes);
-                // Pixels where this panic occurs report it.
+                // If this panics, the pixels where the panic occurs report it.
                 let _ = attempt(|| list.closest_hit(ray));
             }
         };

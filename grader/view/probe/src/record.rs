@@ -1,9 +1,9 @@
 //! Records the tests made by a submission's traversal.
 //!
 //! The recording program is compiled from the same files as the drawing program, except that the
-//! viewer has renamed `BBox::hit` and `Primitive::hit`, and that methods with the old names call
-//! them and then [`box_test`] or [`primitive_test`]. This way, the submission's traversal runs
-//! unchanged.
+//! viewer has renamed `BBox::hit` and `Primitive::hit`. New methods with the old names call the
+//! renamed methods and then [`box_test`] or [`primitive_test`]. This way, the submission's
+//! traversal runs unchanged.
 
 use std::cell::{Cell, RefCell};
 
@@ -16,8 +16,8 @@ use crate::messages::{RecordedRay, Test, TestCounts};
 thread_local! {
     /// The recorded rays, if tests are being listed.
     static LIST: RefCell<Option<List>> = const { RefCell::new(None) };
-    /// Whether tests are being listed. If they aren't, this flag avoids an access to `LIST` in each
-    /// test.
+    /// Whether tests are being listed. If they aren't, this flag saves each test an access to
+    /// `LIST`.
     static LISTING: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -29,7 +29,7 @@ struct List {
     max_rays: u32,
 }
 
-/// Records a call of `BBox::hit` and returns its result. `bbox` is the box with these corners. Only
+/// Records a call to `BBox::hit` and returns its result. `bbox` is the box with these corners. Only
 /// its address is used.
 pub fn box_test<B>(
     bbox: &B,
@@ -50,7 +50,7 @@ pub fn box_test<B>(
     inside
 }
 
-/// Records a call of `Primitive::hit` and returns its result. `shape` is the index of the shape.
+/// Records a call to `Primitive::hit` and returns its result. `shape` is the index of the shape.
 pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace> {
     record(
         |counts| &mut counts.primitives,
@@ -98,7 +98,7 @@ pub(crate) fn finish() -> Vec<RecordedRay> {
     LIST.take().map_or(Vec::new(), |list| list.rays)
 }
 
-/// A tree whose rays are listed.
+/// A tree that lists the rays that traverse it.
 pub(crate) struct RecordingTree(pub(crate) Box<dyn Hierarchy>);
 
 impl Aggregate for RecordingTree {

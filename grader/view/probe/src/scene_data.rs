@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::messages::SubmissionPart;
 
-/// A scene without its camera.
+/// A scene and the first camera to view it with.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SceneData {
     /// The light of the environment.
@@ -59,7 +59,7 @@ pub enum TreeSource {
     List,
 }
 
-/// A material that can be sent.
+/// A material that can be sent to a probe.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneMaterial(#[serde(with = "MaterialDef")] pub Material);
 
@@ -75,8 +75,8 @@ enum MaterialDef {
     Emitter { radiance: Vec3 },
 }
 
-/// How an environment is sent: the size of the map, which is 0 if there is none, and the radiance of
-/// each pixel or of all directions.
+/// How an environment is sent: the size of the map (0 if there is none), and the radiance of each
+/// pixel or, without a map, of all directions.
 mod environment {
     use framework::scene::{Environment, EnvironmentMap};
     use glam::{UVec2, Vec3};

@@ -76,9 +76,8 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
     }
 }
 
-/// Responds to requests that don't change the scene or the camera, and returns the first request
-/// that does. This way, the path tracer, which lists the scene's lights, is only created once per
-/// camera.
+/// Responds to requests until one would change the scene or the camera, and returns that request.
+/// This way, the path tracer, which lists the scene's lights, is only created once per camera.
 fn serve_aimed(stage: &OpenScene, first: Request, pipe: &mut Pipe) -> Result<Request, WireError> {
     let (scene, world) = (&stage.scene, &stage.world);
     let (bounces, seed) = (stage.aim.settings.bounces, stage.aim.settings.seed);

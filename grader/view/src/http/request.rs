@@ -73,8 +73,8 @@ impl Request {
         Ok(request)
     }
 
-    /// Parses the request line and the headers. Returns the request without its body, the length of
-    /// the head and the length of the body, or `None` if the head is incomplete.
+    /// Parses the request line and the headers. Returns the request (without its body) and the
+    /// lengths of the head and the body. Returns `None` if the head is incomplete.
     fn parse_head(bytes: &[u8]) -> Result<Option<(Self, usize, usize)>, RequestError> {
         let mut headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
         let mut parsed = httparse::Request::new(&mut headers);
@@ -99,7 +99,7 @@ impl Request {
             headers: headers.collect(),
             body: Vec::new(),
         };
-        // A chunked body has no length. This server's page never sends one.
+        // A chunked body has no length. This server's page never sends such a body.
         if request.header("transfer-encoding").is_some() {
             return Err(RequestError::Malformed(
                 "a body without a length".to_owned(),
@@ -124,8 +124,8 @@ impl Request {
         }
     }
 
-    /// Returns the value of a parameter in the query. It is not decoded, because the server's own
-    /// links only use letters and digits there.
+    /// Returns the value of a parameter in the query. The value isn't decoded, because the
+    /// parameters in the server's own links only contain letters and digits.
     pub fn parameter(&self, name: &str) -> Option<&str> {
         let parameters = self.query.split('&');
         parameters

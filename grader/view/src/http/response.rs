@@ -29,8 +29,8 @@ pub struct Response {
     body: Vec<u8>,
 }
 
-/// Headers of every response. Nothing is loaded from elsewhere, no other page may embed this one,
-/// and no link reveals the address to another site.
+/// Headers of every response. With these headers, nothing is loaded from elsewhere, no other page
+/// may embed this one, and no link reveals this page's address to another site.
 const HEADERS: [(&str, &str); 7] = [
     (
         "Content-Security-Policy",

@@ -15,7 +15,7 @@ pub struct Layer<T> {
 }
 
 impl<T: Copy + Default> Layer<T> {
-    /// Creates an empty picture. Each pixel should get this many samples.
+    /// Creates an empty picture. `samples` is the number of samples that each pixel should get.
     pub fn new(film: UVec2, samples: u32) -> Self {
         let tiles = Tiles::new(film, samples);
         Layer {
@@ -24,9 +24,9 @@ impl<T: Copy + Default> Layer<T> {
         }
     }
 
-    /// Adds the values of the first pixels in a request, and marks those where the code panicked,
-    /// which are identified by their indices in the request. `add` returns the new value of a pixel
-    /// from the old one and a sample.
+    /// Adds the values of the first pixels in a request, and marks the pixels where the code
+    /// panicked. `panicked` contains their indices in the request. `add` computes the new value of
+    /// a pixel from the old value and a sample.
     pub fn add(
         &mut self,
         index: usize,

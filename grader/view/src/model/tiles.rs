@@ -1,5 +1,6 @@
 //! The order in which a picture's pixels are drawn: first every fourth pixel of every fourth row,
-//! then every second, then all, then one more sample for each.
+//! then every second pixel of every second row, then all pixels. After that, each pixel gets one
+//! more sample at a time.
 //!
 //! The film is divided into tiles. Each tile is drawn by one probe at a time, one sample after the
 //! other, so that samples are added in order, as in `cargo render`. Tiles never wait for each
@@ -73,7 +74,7 @@ struct Tile {
     step: u32,
     /// The number of samples per pixel in the current request.
     passes: u32,
-    /// The number of samples in this request that have been drawn.
+    /// The number of samples in the current request that have been drawn.
     first: u32,
     is_busy: bool,
 }
@@ -100,8 +101,8 @@ impl Tiles {
         }
     }
 
-    /// Takes the tile with the fewest samples among those that need more and aren't being drawn, if
-    /// any. Returns its index and the request for it.
+    /// Takes the tile with the fewest samples among the tiles that need more and aren't being
+    /// drawn. Returns its index and the request for it, or `None` if there is no such tile.
     pub fn take(&mut self, layer: LayerKind, milliseconds: u32) -> Option<(usize, Draw)> {
         let steps = self.steps();
         let samples = self.samples;
@@ -112,8 +113,8 @@ impl Tiles {
         Some((index, tile.draw(layer, samples, milliseconds)))
     }
 
-    /// Counts the first `drawn` pixels in a request, and marks those where the code panicked, which
-    /// are identified by their indices in the request.
+    /// Counts the first `drawn` pixels in a request, and marks the pixels where the code panicked.
+    /// `panicked` contains their indices in the request.
     pub fn add(
         &mut self,
         index: usize,

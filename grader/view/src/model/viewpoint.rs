@@ -8,10 +8,10 @@ use glam::{Mat3, Quat, Vec3};
 use judging::judge::tree::bounds::Bounds;
 use serde::Deserialize;
 
-/// The largest angle between the view and the horizon, so that up stays up.
+/// The maximum angle between the view direction and the horizon, so that up stays up.
 const MAX_PITCH: f32 = FRAC_PI_2 - 0.01;
 
-/// A camera position and the point it turns around.
+/// A camera position and the point that the camera turns around.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
     /// The position and the axes.
@@ -35,7 +35,8 @@ pub enum Movement {
     /// Multiplies the distance to the point in the middle by a factor. A factor below 1 moves the
     /// camera closer.
     Dolly(f32),
-    /// Moves the camera and the point in the middle forward, as a fraction of the distance.
+    /// Moves the camera and the point in the middle forward by a fraction of the distance between
+    /// them.
     Fly(f32),
     /// Turns the camera in place by two angles in radians: to the right and up.
     Turn(f32, f32),
@@ -58,7 +59,7 @@ pub enum Side {
 }
 
 impl Viewpoint {
-    /// Returns the viewpoint of a scene's camera. It turns around the point in front of the camera
+    /// Returns the viewpoint of a scene's camera. The camera turns around the point in front of it
     /// that is closest to the middle of the scene.
     pub fn of_scene(camera: &Camera, bounds: &Bounds) -> Self {
         let placement = camera.placement;

@@ -7,11 +7,11 @@ const list = document.getElementById("defects");
 /** Returns the sentence about the cost of a checked tree. */
 export function costOf({ cost, ratio }) {
   if (cost === null) return "no SAH cost, because the tree does not contain each primitive exactly once.";
-  const best = ratio === null ? "" : `, ${ratio.toFixed(2)} × that of the best split at every node`;
+  const best = ratio === null ? "" : `, ${ratio.toFixed(2)} × the cost with the best split at every node`;
   return `SAH cost ${number(cost)} (the expected number of tests per ray)${best}.`;
 }
 
-/** Lists the defects of a checked tree, or of none, and draws them all. `goTo` shows a node. */
+/** Lists and draws all defects of a checked tree, if there is one. `goTo` shows a node. */
 export function showDefects(checkup, goTo) {
   const kinds = checkup?.kinds ?? [];
   const all = kinds.flatMap((kind) => kind.defects);

@@ -1,10 +1,10 @@
-// The legend and the sums of the views of tests and mistakes.
+// The legend and the sums for the views that show tests and mistakes.
 import { element, number, prose } from "./main.js";
 
 const legend = document.getElementById("legend");
 const sums = document.getElementById("sums");
 
-/** What rays that break a rule do, in the order of the rules, with the class of their colour. */
+/** For each rule, in order: the class of its colour, and what rays that break it do. */
 const RULES = [
   ["missed", "enter a node even though they miss its box"],
   ["beyond", "enter a node even though its box begins beyond the closest hit"],
@@ -47,7 +47,7 @@ function lines(tests, isMistakes) {
   return [...none, ...broken, mean];
 }
 
-/** Formats a share so that neither a few nor all but a few rays look like none or all. */
+/** Formats a share. A few rays never look like none, and all but a few never look like all. */
 function percent(share) {
   const rounded = 100 * share;
   if (rounded > 0 && rounded < 0.1) return "less than 0.1 %";

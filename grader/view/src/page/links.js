@@ -1,4 +1,4 @@
-// Turns the names of files in texts into links that open the editor at the line.
+// Turns file names in texts into links that open the editor at the right line.
 
 let sources = null;
 
@@ -7,7 +7,7 @@ export function setSources(found) {
   sources = found;
 }
 
-/** Returns a text as nodes: file names with a line number are links, and code is between backticks. */
+/** Converts a text to nodes. Code in backticks and file names with line numbers are marked up. */
 export function linked(text) {
   const parts = text.split("`");
   return parts.flatMap((part, i) => {
@@ -18,11 +18,11 @@ export function linked(text) {
   });
 }
 
-/** Returns a text as nodes, with links, but without code. */
+/** Converts a text to nodes with links, but without code. */
 export function withLinks(text) {
   if (!sources) return [text];
   const names = sources.files.map((name) => name.replaceAll(".", "\\.")).join("|");
-  // A name that is part of a path is another file.
+  // A name that is part of a longer path refers to a different file.
   const mention = new RegExp(`(?<![\\w./\\\\-])(${names}):(\\d+)(?::(\\d+))?`, "g");
   const nodes = [];
   let end = 0;

@@ -17,7 +17,7 @@ export function element(name, attributes, ...children) {
   return made;
 }
 
-/** Returns a text with `code` between backticks as nodes. File names with a line number are links. */
+/** Converts a text to nodes. Code in backticks and file names with line numbers are marked up. */
 export const prose = linked;
 
 /** Formats a number with at most this many digits. */
@@ -47,7 +47,7 @@ function show(state) {
   last = state;
 }
 
-/** Returns what the picture waits for, or an empty text. */
+/** Returns what the picture is waiting for, or an empty string. */
 function waitingFor(state) {
   if (state.loading) return `Loading ${state.loading} …`;
   if (state.build === "compiling") return "Compiling …";
@@ -86,7 +86,7 @@ function showTexts(state) {
   } else if (!isAboutTests) {
     setText("legend", legends[state.view] ?? "");
   }
-  // Announced by screen readers, so it changes seldom.
+  // Screen readers announce this text, so it rarely changes.
   setText("news", state.build === "compiling" ? "Compiling" : state.build === "failed" ? "The files do not compile"
     : state.is_picture_complete ? "The picture is complete" : "");
   const question = get("question");
@@ -159,7 +159,7 @@ function showNotes(state) {
   list.dataset.key = key;
   const at = (location) => location ? withLinks(` (${location})`) : [];
   const text = (note) => [...prose(note.text), ...at(note.location)];
-  // Why the program has stopped is the first note.
+  // The first note says why the program has stopped.
   const fault = state.has_stopped ? notes[0] : state.slow_build;
   showMessage("stopped", Boolean(fault));
   setText("stopped-title", state.has_stopped ? "Your code has stopped" : "Your code is taking a long time");

@@ -1,4 +1,4 @@
-// One pixel explained: the tests of its rays as a table, and step by step in the picture.
+// Explains one pixel: shows the tests of its rays as a table, and step by step in the picture.
 import { load } from "./server.js";
 import { boxLines, COLOURS, setLines } from "./overlay.js";
 import { element, number, prose } from "./main.js";
@@ -7,7 +7,7 @@ const content = document.getElementById("explanation");
 const FIRST_ROWS = 400;
 const MAX_MARKED = 20;
 
-// The outcomes in the table, whose steps take one line each.
+// The outcomes as shown in the table, where each step takes one line.
 const SHORT_OUTCOMES = {
   entered: "entered",
   not_entered: "not entered",
@@ -18,7 +18,8 @@ const SHORT_OUTCOMES = {
   farther: "farther",
   no_hit: "no hit",
 };
-// The outcomes as sentences. `AT` is replaced by the part of the ray in the box, or by the distance.
+// The outcomes as sentences. `AT` is replaced with the part of the ray inside the box, or with the
+// distance.
 const OUTCOMES = {
   entered: "hit from AT: entered",
   not_entered: "hit from AT: not entered",
@@ -32,7 +33,7 @@ const OUTCOMES = {
 const RULES = {
   missed_box: (node) => `node ${node} is entered, even though the ray misses its box`,
   beyond_closest_hit: (node) => `node ${node} is entered, even though its box begins beyond the closest hit`,
-  farther_child_first: (node) => `node ${node} is visited before the other child, even though the ray enters its box later`,
+  farther_child_first: (node) => `node ${node} is visited before the other child, even though the ray enters the other child's box first`,
 };
 const SHORT_RULES = { missed_box: "misses the box", beyond_closest_hit: "behind the hit", farther_child_first: "farther first" };
 const COLOUR_OF = { entered: COLOURS.entered, not_entered: COLOURS.skipped, skipped_beyond: COLOURS.skipped,
@@ -41,7 +42,7 @@ const COLOUR_OF = { entered: COLOURS.entered, not_entered: COLOURS.skipped, skip
 
 let shown = null;
 
-/** Shows the explanation of a state, unless it is shown already. */
+/** Shows the explanation of a state, unless it is already shown. */
 export async function showExplanation(state) {
   document.getElementById("unpick").hidden = !state.pinned;
   document.getElementById("pixel-hint").hidden = Boolean(state.pinned);
@@ -49,7 +50,7 @@ export async function showExplanation(state) {
   problem.textContent = !state.pinned || state.explanation !== null ? ""
     : state.explanation_fault ?? "Recording the tests …";
   if (state.explanation === null) {
-    // While the files are compiled, the last explanation stays.
+    // While the files are being compiled, the previous explanation stays.
     if (!state.pinned || state.explanation_fault) clear();
     return;
   }
@@ -76,7 +77,7 @@ function show(explanation, state) {
   content.append(element("h3", {}, title + path));
   if (radiance) content.append(element("p", {}, `Radiance of the path: ${radiance.map((x) => number(x)).join(", ")}`));
   if (panic) content.append(element("p", { class: "rule" }, ...prose(`Panicked: ${panic[0]} (${panic[1]})`)));
-  // All rays of a path are in the picture, whichever of them is stepped through.
+  // All rays of a path are drawn, no matter which of them is being stepped through.
   setLines("path", rays.length > 1 ? rays.map((ray) => rayLine(ray, 1.5)) : []);
   if (rays.length === 0) content.append(element("p", {}, ...prose("No ray was passed to `Bvh::hit`.")));
   rays.forEach((ray, i) => {
@@ -169,7 +170,8 @@ function fill(parent, ray, index, traversal) {
 }
 
 function outcomeOf(row) {
-  // The closest hit after this test, so a nearer one may have been found before the node's turn.
+  // `row.closest` is the closest hit right after this test. A closer one may have been found later,
+  // before it was the node's turn.
   const isLater = row.outcome === "skipped_beyond" && !(row.closest !== null && row.closest < row.at[0]);
   const text = isLater ? "hit from AT: left for later, then not entered, because a closer hit was found" : OUTCOMES[row.outcome];
   return text.replace("AT", row.at.map((x) => number(x)).join(" to "));
@@ -183,7 +185,7 @@ function subject(row) {
   return nodes.length > 1 ? `one of the nodes ${list.join(", ")}` : `node ${nodes[0]}`;
 }
 
-/** Returns the leaf of a primitive. */
+/** Returns the text that names the leaf of a primitive. */
 function inLeaf(row) {
   return !row.is_box && row.nodes.length > 0 ? ` in leaf ${row.nodes[0]}` : "";
 }
@@ -209,7 +211,7 @@ function lines(ray, step) {
   ray.rows.slice(start, step + 1).forEach((row, i) => {
     const isNow = start + i === step;
     const style = { colour: row.marks.length > 0 ? COLOURS.bad : COLOUR_OF[row.outcome], width: isNow ? 3.5 : 1.5 };
-    // Of earlier boxes, only the entered ones stay, and of earlier primitives, the last one that is hit.
+    // Of the earlier tests, only the boxes that were entered and the last closest hit stay.
     if (row.outcome === "closest") closest = row;
     if (!isNow && row.outcome !== "entered" && row.marks.length === 0) return;
     if (row.triangle) all.push({ points: [...row.triangle, row.triangle[0]], fill: isNow, ...style });
@@ -223,7 +225,7 @@ function lines(ray, step) {
   return all;
 }
 
-/** Returns the line from the start of a ray to its hit. It is dashed if there is none. */
+/** Returns the line from the start of a ray to its hit. The line is dashed if there is no hit. */
 function rayLine(ray, width) {
   const end = ray.hit?.distance ?? ray.range[1] ?? farthest(ray);
   const along = (t) => ray.origin.map((x, i) => x + t * ray.dir[i]);

@@ -3,7 +3,7 @@
 const refused = document.getElementById("refused");
 const token = takeToken();
 
-/** Moves the secret from the address to the storage of this origin, which no other port can read. */
+/** Moves the secret from the address to this origin's storage, which other ports cannot read. */
 function takeToken() {
   const given = new URLSearchParams(location.search).get("token");
   try {
@@ -38,7 +38,7 @@ export async function load(path) {
 export async function follow(show, connected) {
   let version = 0;
   for (;;) {
-    // A hidden tab waits, so that ten tabs need no ten connections.
+    // A hidden tab waits, so that ten tabs don't need ten connections.
     if (document.hidden) {
       await new Promise((seen) => document.addEventListener("visibilitychange", seen, { once: true }));
       continue;
@@ -68,7 +68,7 @@ function pause(milliseconds) {
 const movements = [];
 let isMoving = false;
 
-/** Moves the camera. Movements are sent one after the other; those of the same kind that wait are added up. */
+/** Moves the camera, one request at a time. Waiting movements of the same kind are combined. */
 export async function move(kind, amounts) {
   const last = movements.at(-1);
   if (last?.kind === kind) {

@@ -1,4 +1,4 @@
-// The picture: shows it, and turns mouse, touch and keys into movements of the camera.
+// Shows the picture, and turns mouse, touch and key events into movements of the camera.
 import { load, move, request, send } from "./server.js";
 
 const stage = document.getElementById("stage");
@@ -7,9 +7,9 @@ let shown = -1;
 let isLoading = false;
 let wanted = null;
 
-/** Shows the picture of a state, unless it is shown already. */
+/** Shows the picture of a state, unless it is already shown. */
 export async function showPicture(state) {
-  // The shape of the picture is known before its first pixel, so that nothing moves later.
+  // The shape of the picture is set before the first pixel arrives, so that nothing moves later.
   document.getElementById("picture").style.setProperty("--ratio", state.film[0] / state.film[1]);
   if (state.picture === 0 || state.picture === shown) return;
   wanted = state;
@@ -53,7 +53,7 @@ function pickAt(clientX, clientY, sample) {
   return send({ pick: { pixel: pixelAt(clientX, clientY), sample } });
 }
 
-/** Shows the value of the pixel under the mouse as a text. */
+/** Shows the value of the pixel under the mouse in the element `text`. */
 export function listenToHovering(text) {
   let next = null;
   let isAsking = false;

@@ -15,10 +15,10 @@ let rows = 1;
 let boxes = [];
 let selected = null;
 
-/** Shows the tree of a state, unless it is shown already. */
+/** Shows the tree of a state, unless it is already shown. */
 export async function showTree(state) {
   const has = state.has_tree && state.tree_number !== shown;
-  // While the tree is built again, the last one stays, so that nothing moves.
+  // While the tree is being rebuilt, the previous one stays, so that nothing moves.
   const isPending = summary !== null && (state.build !== "ready" || !state.is_complete);
   document.getElementById("tree-content").hidden = !state.has_tree && !isPending;
   document.getElementById("tree-hint").hidden = state.has_tree || isPending;
@@ -137,7 +137,7 @@ function drawStrip() {
 function barAt(event) {
   if (!summary) return null;
   const x = event.offsetX / strip.clientWidth;
-  // On the border, the offset is negative.
+  // On the strip's border, the offset is negative.
   const wanted = Math.floor(Math.max(0, event.offsetY) / strip.clientHeight * rows);
   return summary.bars.find((bar) => bar.level === wanted && bar.start <= x && x < bar.start + bar.width) ?? null;
 }
@@ -169,7 +169,7 @@ export function listen() {
   new ResizeObserver(drawStrip).observe(strip);
 }
 
-/** Names the smallest drawn box that contains a position in the picture. */
+/** Selects the node with the smallest drawn box that contains a position in the picture. */
 export function nodeAt(x, y) {
   let [best, size] = [null, Infinity];
   for (const node of boxes) {

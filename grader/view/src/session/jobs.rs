@@ -14,16 +14,19 @@ use crate::subject::Subject;
 
 /// The time after which a program returns the pixels it has drawn.
 const SLICE_MS: u32 = 30;
-/// The CPU time limits for a few rays: a fixed limit, and an addition for each shape that the rays
-/// may be tested with. If a method hangs, it is found and reported within three seconds.
+/// The CPU time limit for a few rays: a fixed amount, and an additional amount for each shape that
+/// the rays may be tested against. If a method hangs, this is noticed and reported within three
+/// seconds.
 const CALL_LIMIT: [Duration; 2] = [Duration::from_secs(1), Duration::from_micros(5)];
-/// The CPU time limits for building the tree: a fixed limit, and an addition for each shape in it.
+/// The CPU time limit for building the tree: a fixed amount, and an additional amount for each
+/// shape in the tree.
 const OPEN_LIMIT: [Duration; 2] = [Duration::from_secs(3), Duration::from_micros(60)];
 /// The memory that all programs together may need, in bytes. The number of programs is chosen
 /// accordingly.
 const MAX_MEMORY: u64 = 3 << 30;
 /// The minimum and maximum memory limits for a program, in bytes. The maximum is enough for several
-/// million triangles. Between these limits, all programs share the available memory.
+/// million triangles. Within these bounds, each program gets an equal share of the available
+/// memory.
 const PROGRAM: [u64; 2] = [1 << 30, 4 << 30];
 /// An estimate of the memory that a program needs per shape while building the tree.
 const BYTES_PER_SHAPE: u64 = 700;
@@ -31,13 +34,13 @@ const BYTES_PER_SHAPE: u64 = 700;
 /// A thread that runs one of the programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worker {
-    /// Runs the program that draws, alongside the workers with lower numbers.
+    /// Runs the program that draws. The number is the worker's index among the drawing workers.
     Drawing(usize),
     /// Runs the program that records.
     Recording,
 }
 
-/// A program, and the scene and camera that a job needs.
+/// A job, with the program, the scene and the camera that it needs.
 #[derive(Clone, Debug)]
 pub struct ScheduledJob {
     /// The key.
@@ -198,7 +201,7 @@ impl Session {
         }
     }
 
-    /// Returns the time limit for the scene, computed from a fixed limit and an addition for each
+    /// Returns the time limit for the scene: a fixed amount, and an additional amount for each
     /// shape.
     fn limit(&self, [fixed, per_shape]: [Duration; 2]) -> Duration {
         let shapes = u32::try_from(self.subject.data.shapes.len()).unwrap_or(u32::MAX);
@@ -206,7 +209,7 @@ impl Session {
     }
 
     /// Returns the number of programs that draw at the same time: one per core, or fewer if the
-    /// tree is large, since each of them builds a separate tree, and the recording program does too.
+    /// tree is large, since each of them builds its own tree, as does the recording program.
     pub fn programs(&self) -> usize {
         let shapes = self.subject.data.shapes.len() as u64;
         let fit = self.resources.memory.min(MAX_MEMORY) / (shapes * BYTES_PER_SHAPE).max(1);

@@ -180,7 +180,8 @@ impl Session {
         self.shown.version += 1;
     }
 
-    /// Starts with a new subject. The exam's ray is explained immediately.
+    /// Starts showing a new subject. If it is a question about a ray, the ray is explained
+    /// immediately.
     fn show_subject(&mut self, now: Instant) {
         if let Some(question) = &self.subject.question {
             self.is_tree_wanted = true;

@@ -1,4 +1,4 @@
-//! Remarks about the submission: tasks that haven't been written yet, panics and faults.
+//! Remarks about the submission: methods that haven't been written yet, panics and faults.
 
 use std::fmt;
 
@@ -52,7 +52,7 @@ pub struct PanicNote {
     pub message: String,
     /// The file and line.
     pub location: String,
-    /// The first pixel, from the bottom left.
+    /// The first pixel, counted from the bottom left.
     pub pixel: UVec2,
     /// The number of pixels.
     pub count: u64,
@@ -224,13 +224,13 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
     )
 }
 
-/// Returns the task with this id. An assignment may lack the task, because students may receive
-/// that part's code.
+/// Returns the task with this id. An assignment may lack the task, because that part's code may be
+/// given to the students.
 fn task(submission: &Submission, id: &str) -> Option<&'static TaskInfo> {
     submission.handed_out.assignment.find(id)
 }
 
-/// Returns the id of a part's task and the name of its method.
+/// Returns a part's task id and method name.
 fn task_and_method(part: SubmissionPart) -> (&'static str, &'static str) {
     match part {
         SubmissionPart::Camera => ("camera", "Camera::sample_ray"),
@@ -242,7 +242,8 @@ fn task_and_method(part: SubmissionPart) -> (&'static str, &'static str) {
     }
 }
 
-/// Returns the title of the task that builds the tree, or the method's name.
+/// Returns the title of the task about building the tree or, if there is no such task, the method's
+/// name.
 fn title_of_build(task: Option<&TaskInfo>) -> &str {
     task.map_or("Bvh::build", |task| task.title)
 }

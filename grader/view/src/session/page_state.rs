@@ -50,7 +50,7 @@ pub struct PageState<'a> {
     explanation_fault: Option<String>,
 }
 
-/// The camera, which the page needs to draw over the picture.
+/// The camera. The page needs it to draw lines over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct CameraState {
     position: Vec3,

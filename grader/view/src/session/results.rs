@@ -14,7 +14,7 @@ use crate::model::tiles::LayerKind;
 use crate::model::tree::TreeModel;
 use crate::probe::Stop;
 
-/// The number of pixels that may end the program before drawing stops.
+/// Drawing stops once this many pixels have ended the program.
 const MAX_FAULTS: u32 = 3;
 
 impl Session {
@@ -140,8 +140,8 @@ impl Session {
         }
     }
 
-    /// Reports the tree, or the reason it couldn't be read. If it couldn't, an empty tree is
-    /// shown and drawing continues.
+    /// Reports the tree, or the reason it couldn't be read. If reading the tree failed, an empty
+    /// tree is shown and drawing continues.
     pub fn received_tree(&mut self, key: Key, tree: Result<TreeModel, String>) {
         if key.has_tree_of(&self.numbers) {
             let tree = tree.unwrap_or_else(|why| {

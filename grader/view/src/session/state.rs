@@ -14,7 +14,7 @@ use crate::source_links::SourceLinks;
 pub struct Resources {
     /// The number of programs that draw at the same time.
     pub cores: usize,
-    /// The memory of all programs together, in bytes.
+    /// The memory that all programs together may use, in bytes.
     pub memory: u64,
 }
 

@@ -25,9 +25,9 @@ const MAX_TESTS: u32 = 4_000;
 /// The CPU time limit for requests that call none of the submission's methods except constructors.
 const LIMIT: Duration = Duration::from_secs(10);
 /// The time after which the page says that `Bvh::build` is still running. Building the tree of a
-/// large scene takes several seconds, so the time limit comes much later.
+/// large scene takes several seconds, so the time limit is much longer.
 const SLOW_BUILD: Duration = Duration::from_millis(1500);
-/// The maximum number of rays in a path to search for the one that ends the program.
+/// The maximum number of rays to search in a path for the one that ends the program.
 const MAX_SEARCHED_RAYS: u32 = 64;
 
 /// A program that is started when needed, with its current scene and camera.
@@ -54,7 +54,7 @@ fn unexpected(response: &Response) -> Stop {
     Stop::Invalid(why.to_owned())
 }
 
-/// Adds the method that was called to a fault.
+/// If the program failed, adds the method that was being called.
 fn in_part(part: SubmissionPart, stop: Stop) -> Stop {
     if let Stop::Fault(fault) = stop {
         Stop::FaultIn(part, fault)
@@ -93,7 +93,7 @@ impl<'a> SceneProbe<'a> {
         }
     }
 
-    /// Ensures that the program has opened the scene and the camera that the work needs.
+    /// Ensures that the program has opened the scene and set the camera that the work needs.
     pub(super) fn prepare(&mut self, work: &ScheduledJob) -> Result<(), Stop> {
         if self.key.program != work.key.program {
             self.probe = None;
@@ -228,14 +228,14 @@ impl<'a> SceneProbe<'a> {
         response
     }
 
-    /// Finds the method that ended the program while it drew or followed the target. In a new
-    /// program, the target's rays are traced one by one. Before each ray is traced, every method is
-    /// called with it, starting with the methods that the others call.
+    /// Finds the method that ended the program while the target was being drawn or followed. In a
+    /// new program, the target's rays are traced one by one. Before each ray is traced, every
+    /// method is called with that ray, starting with the methods that the others call.
     fn find_culprit(&mut self, work: &ScheduledJob, target: Target, fault: Fault) -> Stop {
         self.probe = None;
         let found = self.open(work, true);
         let found = found.and_then(|()| self.search_rays(work, target));
-        // This program lists its rays, which takes time.
+        // Don't keep this program, because it lists its rays, which takes time.
         self.probe = None;
         match found {
             Err(Stop::FaultIn(part, _)) => Stop::FaultIn(part, fault),

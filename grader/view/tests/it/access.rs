@@ -59,8 +59,8 @@ fn only_the_users_browser_is_answered() {
     }
 }
 
-/// A browser sends cookies to all ports of a host and lets a page on any port send commands, but
-/// without custom headers and without access to the answer.
+/// A browser sends cookies to every port on a host and lets a page from any port send commands.
+/// However, such a page cannot add custom headers or read the answer.
 #[test]
 fn a_page_of_another_port_can_send_no_command() {
     let viewer = Viewer::start(&Submission::starter(), "");
@@ -268,7 +268,7 @@ fn a_codespace_reaches_the_page_by_the_name_of_its_port() {
             .request("POST", "/command", headers, "\"own_camera\"")
             .status
     };
-    // The tunnel passes on the name of the port, or replaces it.
+    // The tunnel either passes on the port's public name or replaces it.
     let host = format!("Host: {name}");
     assert_eq!(status(&page), 204);
     assert_eq!(status(&page.replace("Host: localhost", &host)), 204);

@@ -1,5 +1,5 @@
-//! The page can be used with the keyboard only, in light and dark mode and on a phone, and it
-//! follows the WCAG rules checked by axe.
+//! Tests that the page can be used with only a keyboard, in light and dark mode and on a phone, and
+//! that it follows the WCAG rules that axe checks.
 
 use glam::Vec3;
 use serde_json::{Value, json};

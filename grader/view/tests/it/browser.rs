@@ -128,7 +128,7 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
         &correct.replace("pub fn hit(&self", "pub fn hit(&self,"),
     );
     submission.write("bvh.rs", &format!("{correct}\nlet oops\n"));
-    // The error from the first save may be shown before that from the second.
+    // The error from the first save may be shown before the error from the second one.
     let is_second = "/let oops/.test(document.querySelector('#errors pre')?.innerText)";
     wait(&mut tab, is_second);
     let heading = text(&mut tab, "#errors h3");
@@ -198,8 +198,8 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
         return;
     };
     wait(&mut tab, "!document.getElementById('tree-content').hidden");
-    // Point at the canvas repeatedly until the page reacts, since it is drawn some time after it is
-    // shown.
+    // Point at the canvas repeatedly until the page reacts, since the canvas is drawn some time
+    // after it is shown.
     let point = |canvas: &str, x: f64, y: f64| {
         format!(
             "(() => {{ const at = document.getElementById('{canvas}').getBoundingClientRect(); \

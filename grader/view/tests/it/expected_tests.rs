@@ -15,7 +15,7 @@ use crate::harness::workspace;
 
 /// A scene with the reference's tree, or a question from the practice exam with its tree.
 pub struct Expected {
-    /// The shapes. Those of a scene are numbered, so that the tree shows their order.
+    /// The shapes. A scene's shapes are numbered, so that the tree shows their order.
     shapes: Vec<Shape>,
     pub tree: Tree,
     scene: Option<Scene>,

@@ -1,5 +1,5 @@
-//! The tests that one ray needs, compared with an independently computed list, and the steps that
-//! the viewer marks in a wrong traversal.
+//! Compares the tests listed for one ray with an independently computed list, and checks the steps
+//! that the viewer marks in a wrong traversal.
 
 use std::collections::BTreeSet;
 

@@ -20,7 +20,7 @@ fn notes(state: &Value) -> String {
     notes.map(line).collect()
 }
 
-/// Returns the number of pixels that mark a panic.
+/// Returns the number of pixels whose colour marks a panic.
 fn panicked(viewer: &Viewer) -> usize {
     let picture = viewer.picture();
     picture

@@ -7,8 +7,9 @@ use serde_json::{Value, json};
 use crate::browser::{start, text, wait};
 use crate::harness::{Submission, Viewer};
 
-/// The maximum time until the page names the method that hangs. It is three seconds if nothing else
-/// is running, but the limits apply to CPU time, and tests share the machine.
+/// The maximum time until the page names the method that hangs. Three seconds are enough if nothing
+/// else is running, but the limits apply to CPU time, and other tests may be running at the same
+/// time.
 const NAMED_WITHIN: Duration = Duration::from_secs(12);
 
 /// A statement inserted after the line that contains `declaration`.
@@ -20,8 +21,8 @@ struct Hang {
 }
 
 const LOOP: &str = "loop { std::hint::black_box(()); }";
-/// A loop that few rays reach: only some rays of the scene `spheres` go down that steeply, and only
-/// after a bounce.
+/// A loop that few rays reach: only some rays in the scene `spheres` point down that steeply, and
+/// only after a bounce.
 const RARELY: &str = "while ray.dir.y < -0.99 { std::hint::black_box(()); }";
 
 impl Hang {

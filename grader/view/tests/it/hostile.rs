@@ -100,7 +100,7 @@ mod pipe {
     use super::*;
     use test_support::processes::peak_memory;
 
-    /// Writes to the pipe of responses while the tree is being built.
+    /// Writes to the response pipe while the tree is being built.
     fn write_to_pipe(submission: &Submission, code: &str) {
         submission.insert_into_build(&format!(
             "for number in 3..20 {{ \
@@ -126,7 +126,7 @@ mod pipe {
         let header = "send(&LENGTH_u32.to_le_bytes()); send(&1u64.to_le_bytes());";
         let frame = |length: &str| header.replace("LENGTH_u32", length);
         for (code, why) in [
-            // Both are longer than any response and are refused before they are read.
+            // Both frames are longer than any response and are refused before they are read.
             (frame("u32::MAX"), "at most"),
             (frame("500_000_000u32"), "at most"),
             // A list whose stated length exceeds the number of bytes: 1 << 34 elements.

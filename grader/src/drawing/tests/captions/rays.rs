@@ -39,7 +39,7 @@ pub(super) fn missing_or_misplaced_hits() -> String {
     lines.join("\n")
 }
 
-/// Returns the captions for hits with another wrong field.
+/// Returns the captions for hits in which another field is wrong.
 pub(super) fn hits_with_another_wrong_field() -> String {
     let ray = ahead(0.0, f32::INFINITY);
     type Change = fn(&mut Trace);

@@ -16,7 +16,8 @@ pub const MAX_PANICS: usize = 64;
 /// The maximum number of rays in a recording. It is more than twice the maximum number of bounces.
 pub(super) const MAX_RAYS: usize = 1 << 15;
 
-/// The maximum sizes on the wire, in bytes. A 32-bit number takes up to 5, and a float takes 4.
+/// The maximum sizes on the wire, in bytes. A 32-bit integer takes up to 5 bytes, and a float takes
+/// 4.
 const PANIC_BYTES: usize = 2 * (Panic::MAX_TEXT_BYTES + 2);
 const TRACE_BYTES: usize = 12 * 4 + 5;
 const NODE_BYTES: usize = 6 * 4 + 4 * 5;
@@ -61,7 +62,8 @@ impl Response {
                         )
                         | (Quantity::Tests, Values::Tests(_))
                 );
-                // A response without pixels would be requested again forever.
+                // If a response contained no pixels, the same pixels would be requested again
+                // forever.
                 let is_some = (1..=draw.pixels().count()).contains(&drawn.values.len());
                 of_quantity && is_some && has_possible_numbers(drawn)
             }

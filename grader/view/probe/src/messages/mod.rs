@@ -23,8 +23,8 @@ pub enum Request {
     Scene(Box<SceneData>),
     /// Calls a method to find out whether it has been written and whether it returns.
     Try(Trial),
-    /// Builds the tree, using the parts that have turned out to be written. All of the following
-    /// requests need the tree.
+    /// Builds the tree, using the parts that were found to be written. All requests listed below
+    /// need the tree.
     Build,
     /// Replaces the camera and keeps the tree.
     Aim(Aim),
@@ -38,18 +38,18 @@ pub enum Request {
     Boxes(BoxQueries),
 }
 
-/// A call of a single method. As with the grader's questions, each call is a separate request, so
+/// A call to a single method. As with the grader's questions, each call is a separate request, so
 /// the viewer knows which method doesn't return.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// The method.
     pub part: SubmissionPart,
-    /// The ray to test, unused for the camera. Before the tree is built, the ray is tested with one
-    /// shape, and afterwards with all of them.
+    /// The ray to test. Unused for the camera. Before the tree is built, the ray is tested against
+    /// one shape, and afterwards against all shapes.
     pub ray: Ray,
 }
 
-/// A rectangle of the film where some pixels should be drawn.
+/// A rectangle on the film in which some pixels should be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Draw {
     /// The lower left pixel.
@@ -68,8 +68,8 @@ pub struct Draw {
     pub first: u32,
     /// The quantity to compute for each pixel.
     pub quantity: Quantity,
-    /// The time in milliseconds after which the probe returns the pixels it has drawn. It always
-    /// draws at least one.
+    /// The time in milliseconds after which the probe returns the pixels it has drawn. The probe
+    /// always draws at least one pixel.
     pub milliseconds: u32,
 }
 
@@ -130,7 +130,8 @@ pub struct Follow {
     pub target: Target,
     /// The maximum number of tests to list. All tests are counted.
     pub max_tests: u32,
-    /// The maximum number of rays to trace. One more ray is listed, but it hits nothing.
+    /// The maximum number of rays to trace. One more ray is listed without being traced, as if it
+    /// hit nothing.
     pub max_rays: u32,
 }
 
@@ -233,7 +234,7 @@ impl SubmissionPart {
     ];
 }
 
-/// A tree that can be sent.
+/// A tree that can be sent to the viewer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TreeData(#[serde(with = "TreeDef")] pub Tree);
 
@@ -301,14 +302,14 @@ impl Values {
 /// Test counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TestCounts {
-    /// The number of calls of `BBox::hit`.
+    /// The number of calls to `BBox::hit`.
     pub boxes: u32,
-    /// The number of calls of `Primitive::hit`.
+    /// The number of calls to `Primitive::hit`.
     pub primitives: u32,
 }
 
 impl TestCounts {
-    /// Returns the number of all tests.
+    /// Returns the total number of tests.
     pub fn total(self) -> u32 {
         self.boxes.saturating_add(self.primitives)
     }

@@ -45,10 +45,10 @@ impl RecordedRay {
     }
 }
 
-/// A call of `BBox::hit` or `Primitive::hit`, with its result.
+/// A call to `BBox::hit` or `Primitive::hit`, with its result.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Test {
-    /// A call of `BBox::hit`.
+    /// A call to `BBox::hit`.
     Box {
         /// The lower corner of the box.
         min: Vec3,
@@ -62,7 +62,7 @@ pub enum Test {
         /// traversal copies them.
         address: u64,
     },
-    /// A call of `Primitive::hit`.
+    /// A call to `Primitive::hit`.
     Primitive {
         /// The index of the shape in the scene.
         shape: u32,

@@ -1,6 +1,6 @@
-//! Rules that every correct traversal follows, checked without knowing the correct answer. They use
-//! the submission's own `BBox::hit` and the exam's margins: anything within 1 % of a box's diagonal
-//! isn't judged.
+//! Rules that every correct traversal follows, checked without knowing the correct answer. The
+//! checks use the submission's own `BBox::hit` and the exam's margins: anything within 1 % of a
+//! box's diagonal isn't judged.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,12 +14,13 @@ use crate::indexed_tree::IndexedTree;
 /// The margin within which nothing is judged, as a share of a box's diagonal.
 const MARGIN: f32 = 0.01;
 
-/// The parts of the ray inside a node's box.
+/// The part of a ray inside a node's box, without and with the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeSpan {
-    /// The part of the ray's range inside the box, or `None` if it misses the box.
+    /// The part of the ray's range inside the box, or `None` if the ray misses the box.
     pub inside: Option<Interval>,
-    /// The part of the ray's range inside the box enlarged by the margin on each side.
+    /// The part of the ray's range that lies inside the box after the box has been enlarged by the
+    /// margin on each side.
     pub inside_larger: Option<Interval>,
 }
 
@@ -169,7 +170,7 @@ pub fn judged_nodes(rows: &[Row], tree: &IndexedTree) -> BTreeSet<u32> {
     judged.chain(tested).flatten().collect()
 }
 
-/// Returns the corners of a node's box and those of the box enlarged by the margin.
+/// Returns the corners of a node's box and the corners of the same box enlarged by the margin.
 pub fn corners_with_margin(node: u32, tree: &IndexedTree) -> Option<[(Vec3, Vec3); 2]> {
     let node = tree.node(node)?;
     let margin = MARGIN * diagonal(node);

@@ -1,10 +1,10 @@
-//! Remarks about all tests of a ray together.
+//! Remarks about all of a ray's tests, taken together.
 
 use view_probe::messages::{RecordedRay, TestCounts};
 
 use super::{Context, ExplainedTest};
 
-/// Returns remarks about all tests of a ray together.
+/// Returns remarks about all of a ray's tests, taken together.
 pub(super) fn remarks(
     ray: &RecordedRay,
     tests: &[ExplainedTest],

@@ -7,7 +7,7 @@ use view_probe::rules::Rule;
 /// An explained pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Explanation {
-    /// The pixel, from the bottom left, or `None` for a ray from the exam.
+    /// The pixel, counted from the bottom left, or `None` for a ray from the exam.
     pub pixel: Option<UVec2>,
     /// The number of the path, or `None` for the ray through the centre.
     pub sample: Option<u32>,
@@ -40,7 +40,7 @@ pub struct ExplainedRay {
     pub boxes: u32,
     /// The number of primitive tests, including those that aren't listed.
     pub primitives: u32,
-    /// Remarks about all tests together.
+    /// Remarks about all tests, taken together.
     pub notes: Vec<String>,
 }
 
@@ -60,7 +60,7 @@ pub struct ExplainedHit {
 pub struct ExplainedTest {
     /// Whether a box was tested, rather than a primitive.
     pub is_box: bool,
-    /// The nodes with this box, or the leaf of the primitive.
+    /// The nodes with this box, or the leaf that contains the primitive.
     pub nodes: Vec<u32>,
     /// The level of the first of these nodes.
     pub level: Option<u32>,

@@ -1,4 +1,4 @@
-//! The defects of the tree, found by the judge's checks, and its cost.
+//! The tree's cost, and the defects found by the judge's checks.
 
 use glam::Vec3;
 use judging::exam::TreeCheck;
@@ -16,8 +16,8 @@ pub const CHECKS: [TreeCheck; 5] = [
     TreeCheck::LeafSize,
     TreeCheck::Stops,
 ];
-/// The maximum number of defects of one kind to list. More would be indistinguishable in the
-/// picture.
+/// The maximum number of defects of one kind to list. More defects would be indistinguishable in
+/// the picture.
 const MAX_LISTED: usize = 20;
 /// The maximum number of leaves to list for a primitive.
 const MAX_LEAVES: usize = 10;
@@ -27,7 +27,8 @@ const MAX_LEAVES: usize = 10;
 pub struct TreeCheckup {
     /// The SAH cost, unless primitives are missing or repeated.
     pub cost: Option<f64>,
-    /// The cost relative to that of the tree with the best split at every node, if that is known.
+    /// The cost divided by the cost of the tree with the best split at every node, if that cost is
+    /// known.
     pub ratio: Option<f64>,
     /// The kinds of defects, most important first.
     pub kinds: Vec<DefectKind>,
@@ -51,7 +52,7 @@ pub struct ListedDefect {
     pub node: Option<u32>,
     /// A description of the defect.
     pub text: String,
-    /// The corners of the node's or the primitive's box, unless it is empty or infinite.
+    /// The corners of the node's or the primitive's box, unless the box is empty or infinite.
     pub corners: Option<[Vec3; 2]>,
     /// The corners of the correct box, if the box is wrong.
     pub tight: Option<[Vec3; 2]>,
@@ -119,7 +120,7 @@ impl TreeCheckup {
     }
 }
 
-/// Returns the title for all defects of this kind. It is followed by a number.
+/// Returns the title for all defects of this kind. On the page, it is followed by their number.
 fn title(defect: &TreeDefect) -> &'static str {
     match defect {
         TreeDefect::Partition { leaves: 0, .. } => {

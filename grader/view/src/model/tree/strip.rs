@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::TreeModel;
 
-/// The number of levels in the strip. More levels can't be told apart on a screen.
+/// The maximum number of levels in the strip. More levels can't be told apart on a screen.
 const STRIP_LEVELS: u32 = 256;
 
 /// A bar in the strip that shows the tree level by level.
@@ -23,15 +23,15 @@ pub struct Bar {
 }
 
 impl TreeModel {
-    /// Returns the bars of the strip. Where bars are narrower than `narrowest`, only one is
-    /// returned for each such width, so that there are no more bars than can be seen. For a very
-    /// deep tree, only the first levels are returned.
+    /// Returns the bars of the strip. Where bars are narrower than `narrowest`, only one bar is
+    /// returned for each stretch of that width, so that there are no more bars than can be seen.
+    /// For a very deep tree, only the first levels are returned.
     pub fn strip(&self, narrowest: f32) -> Vec<Bar> {
         let total = self.index.count(self.index.tree.root).max(1) as f32;
         let mut bars = Vec::new();
         let mut starts = vec![0; self.index.tree.nodes.len()];
-        // The right ends of each level's bars so far. The traversal is depth-first, so it goes from
-        // left to right in each level.
+        // For each level, the right end of the bars so far. The traversal is depth-first, so it
+        // visits the nodes of each level from left to right.
         let mut ends = vec![0.0; self.index.levels() as usize];
         for index in self.index.order.iter().copied() {
             let node = &self.index.tree.nodes[index as usize];

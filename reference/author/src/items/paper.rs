@@ -1,7 +1,7 @@
 //! Questions with small whole numbers, which people can work out on paper. They come first in their
 //! tasks, so that the report shows them first.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use judging::exam::ExamQuestion;
 use protocol::{Interval, Ray, Shape, Vertex};
 
@@ -26,6 +26,11 @@ fn axes(rng: &mut Rng) -> [DVec3; 3] {
     [first, first + step, first + 2 * step].map(|axis| rng.sign() * DVec3::AXES[axis % 3])
 }
 
+/// Returns a ray without negative zeros, which would look odd on paper.
+fn paper_ray(origin: DVec3, dir: DVec3) -> Ray {
+    Ray::new(origin.as_vec3() + Vec3::ZERO, dir.as_vec3() + Vec3::ZERO)
+}
+
 /// Creates a question with rays that hit a triangle from the front and rays that pass beside it.
 /// All rays are perpendicular to the triangle. The triangle's legs are parallel to two axes and
 /// have length 4, so the weights are multiples of a quarter.
@@ -48,7 +53,7 @@ pub(super) fn triangle(rng: &mut Rng) -> ExamQuestion {
     let rays = inside.into_iter().chain(outside).map(|(x, y)| {
         let distance = f64::from(rng.integer(1, 9));
         let origin = corner + x * right + y * up + distance * front;
-        Ray::new(origin.as_vec3(), -front.as_vec3())
+        paper_ray(origin, -front)
     });
     let rays: Vec<Ray> = rays.collect();
     shape_question(&["distance"], shape, rays)
@@ -68,7 +73,7 @@ pub(super) fn sphere(rng: &mut Rng) -> ExamQuestion {
         let [along, across, _] = axes(rng);
         let ahead = f64::from(rng.integer(6, 15));
         let origin = center + beside * across - ahead * along;
-        Ray::new(origin.as_vec3(), along.as_vec3())
+        paper_ray(origin, along)
     });
     shape_question(&["distance"], shape, rays)
 }
@@ -118,7 +123,7 @@ pub(super) fn tree(rng: &mut Rng) -> (Tree, Vec<Ray>) {
             } else {
                 (10.0 + ahead, -along)
             };
-            let ray = Ray::new(at(start, x, y).as_vec3(), dir.as_vec3());
+            let ray = paper_ray(at(start, x, y), dir);
             let ray64 = Ray64::from(&ray);
             let hits = tree.shapes.iter();
             let hits = hits.filter(|shape| scan::intersect(&ray64, shape).is_some());
@@ -134,7 +139,7 @@ fn box_ray(rng: &mut Rng, bounds: &Bounds, is_hit: bool) -> Option<Ray> {
     let [one, other, third] = axes(rng);
     let dir = one + 2.0 * other + 2.0 * third;
     let origin = 3.0 * whole_point(rng);
-    let ray = Ray::new(origin.as_vec3(), dir.as_vec3());
+    let ray = paper_ray(origin, dir);
     let slabs = [0, 1, 2].map(|axis| {
         let times = [bounds.min, bounds.max].map(|plane| 3.0 * (plane - origin)[axis] / dir[axis]);
         (times[0].min(times[1]), times[0].max(times[1]))

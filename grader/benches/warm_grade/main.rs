@@ -147,7 +147,7 @@ fn print(rounds: &[[Cost; ROWS.len()]]) {
     }
 }
 
-/// Measures the time until the first error in a file that doesn't compile is printed. The other
+/// Measures the time until the first error is printed for a file that doesn't compile. The other
 /// files are graded after that.
 fn first_error(folder: &Path) -> Cost {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
@@ -180,7 +180,8 @@ fn break_file(file: &Path) {
         .expect("the file can be written");
 }
 
-/// Grades a submission in its default folder and then measures grading it again without a change.
+/// Grades a submission in its default folder and then measures the cost of grading it again without
+/// any change.
 fn regrade_unchanged(folder: &Path) -> Cost {
     let grader = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));

@@ -160,7 +160,7 @@ impl Table {
     }
 }
 
-/// Returns the error for a missing column, including a remedy.
+/// Returns the error to report when a column is missing. The error includes a remedy.
 pub fn missing_column(path: &Path, column: &str, remedy: &str) -> Error {
     let path = path.display();
     Error::user(format!("{path} has no column {column}: {remedy}"))

@@ -62,7 +62,7 @@ impl HandedOut {
     }
 }
 
-/// A method's current declaration and the original one.
+/// A method's current and original declarations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChangedDeclaration {
     /// The declaration in the submission, on one line.

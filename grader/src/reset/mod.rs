@@ -75,7 +75,7 @@ struct FileChange {
     before: Option<Vec<u8>>,
     /// The file's new text, or `None` if it wouldn't change.
     after: Option<String>,
-    /// The part that is reset, for a message.
+    /// The part that is reset, to be named in a message.
     part: String,
 }
 
@@ -119,7 +119,8 @@ impl FileChange {
         })
     }
 
-    /// Keeps the old file and writes the new one. Returns lines for a message.
+    /// Keeps the old file and writes the new one. Returns the lines of the message that are about
+    /// this file.
     fn apply(&self, source: &SourceFolder) -> Result<String, Error> {
         let path = source.path.join(self.file);
         let part = &self.part;
@@ -183,8 +184,8 @@ struct SourceFolder {
 }
 
 impl SourceFolder {
-    /// Finds the folder with a submission's task files in one of the places where the assignment
-    /// expects it.
+    /// Finds the folder that contains a submission's task files, looking only in the places where
+    /// the assignment expects them.
     fn find(folder: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         refuse_link(folder)?;
         if !folder.is_dir() {

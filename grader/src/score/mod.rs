@@ -392,8 +392,8 @@ impl ItemScore {
         self.clue_section.as_ref().or(self.section.as_ref())
     }
 
-    /// Returns the rows that describe the item in text reports, each with a label and a text. Rows
-    /// without a text are left out. The report chooses the wording of the message and the hints.
+    /// Returns the rows that describe the item in text reports, each with a label and some text.
+    /// Rows without text are left out. The report chooses the wording of the message and the hints.
     pub fn rows(&self, what: String, hint: Option<String>) -> Vec<(&'static str, String)> {
         let evidence = |text: fn(&Evidence) -> &String| self.evidence.as_ref().map(text).cloned();
         let rows = [

@@ -14,7 +14,7 @@ use crate::handed_out::HandedOut;
 /// The contents of a submission.
 #[derive(Debug)]
 pub(super) struct Search {
-    /// The path of the submission, for messages.
+    /// The path of the submission, for use in messages.
     pub(super) submission: PathBuf,
     /// The assignment.
     pub(super) handed_out: &'static HandedOut,

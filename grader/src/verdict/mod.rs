@@ -258,7 +258,8 @@ fn evidence(item: &Item, (question, element): (usize, usize), answers: [String; 
     }
 }
 
-/// Returns a message with the number of wrong answers and `what` is wrong in the one that is shown.
+/// Returns a message that gives the number of wrong answers and says `what` is wrong with the
+/// answer shown.
 fn wrong_answer_message(
     what: &str,
     item: &Item,

@@ -1,5 +1,5 @@
-//! Submissions whose files are missing, don't compile or use each other. Each gets a report, and
-//! the points of other tasks don't change.
+//! Submissions with files that are missing, don't compile or depend on each other. Each gets a
+//! report, and the points of other tasks don't change.
 
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;

@@ -61,7 +61,7 @@ fn a_task_starts_afresh_and_everything_else_stays() {
     let points = graded.points();
     assert_eq!(points["build"], FULL_POINTS["build"]);
     assert!(points["traverse"] < FULL_POINTS["traverse"], "{points:?}");
-    // The old file is in the folder and is mentioned, but doesn't matter.
+    // The report mentions the old file in the folder, but the file doesn't affect the grade.
     let report = graded.report();
     let note = "note: bvh.rs.bak-1 differs from bvh.rs and is ignored";
     assert_eq!(report.matches("note:").count(), 1, "{report}");

@@ -90,7 +90,7 @@ impl BareRustc {
         command
     }
 
-    /// Returns the command that compiles the task files to a program, with `root` as the crate
+    /// Returns the command that compiles the task files into a program, with `root` as the crate
     /// root.
     pub fn program(&self, folder: &Path, root: &str) -> Command {
         self.rustc(folder, &["--crate-type=bin", root])
@@ -177,7 +177,7 @@ pub fn change(root: &Path, folder: &Path, round: usize) {
 }
 
 /// Returns the median, which isn't affected by a few slow runs. For an even number of values,
-/// returns the larger of the two in the middle.
+/// returns the larger of the two middle values.
 pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);

@@ -13,10 +13,9 @@ use crate::roster::POINTS_POSSIBLE;
 use crate::table::{Table, missing_column};
 
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and pass that file";
-/// The last column that identifies people.
+/// The title of the last of the columns that identify people.
 const SECTION: &str = "Section";
-/// Texts that mark ignored columns. Canvas silently ignores any column whose title contains one of
-/// them.
+/// Canvas silently ignores any column whose title contains one of these texts.
 const IGNORED_TITLES: [&str; 9] = [
     "Current Score",
     "Current Points",

@@ -9,8 +9,8 @@ use super::platforms::{SAKAI_ARCHIVE, TEAMS_DRAFTS, TEAMS_SUBMITTED};
 use crate::file_tree::Node;
 use crate::names::{fold, is_number};
 
-/// Returns the folder with the entries, and a note if it isn't `root` or could also be a different
-/// folder. `archive` is the name of the archive that the folder was unpacked from.
+/// Returns the folder with the entries, and a note if this folder isn't `root` or if a different
+/// folder could be meant. `archive` is the name of the archive that the folder was unpacked from.
 pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node, Option<String>) {
     if let Some(found) = find_teams_folder(root) {
         return found;

@@ -103,7 +103,7 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
     write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);
     write("class/outside/../../escaped.rs", b"text");
     write(&format!("class/{}/camera.rs", "n".repeat(300)), b"text");
-    // Unneeded files are created empty, even if they are large in the archive.
+    // Files that aren't needed are created as empty files, even if they are large in the archive.
     write("class/junk/notes.bin", &[0; 2 << 20]);
     writer.add_directory("class/empty/", plain).unwrap();
     writer

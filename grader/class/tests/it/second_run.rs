@@ -1,5 +1,5 @@
 //! A second run into the same folder uses the first run's lists and reports every final grade that
-//! it changes. The commands in its reports refer to the submission.
+//! it changes. The commands in a report name the files that were graded.
 
 use std::fs;
 
@@ -73,7 +73,7 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     let [text, _] = graded.run(&dropped);
     let changed = "1 final grade changed (changed: the roster, the table of manual points)";
     assert!(text.contains(changed), "{text}");
-    // A repeated run prints the same text and needs no flag.
+    // A repeated run reports the same change and doesn't need `--drop-list`.
     let [again, error] = graded.run(&[]);
     assert!(again.contains(changed), "{again}");
     assert!(!error.contains("manual points"), "{error}");

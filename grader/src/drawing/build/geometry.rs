@@ -66,7 +66,7 @@ fn draw_boxes(sheet: &mut Sheet, shapes: &[Shape], below: &[usize], node: &Reach
     let (needs, has) = (node.tight_bounds, Bounds::of_node(node.node));
     let out = |axis: usize| {
         let out = [needs.min - has.min, needs.max - has.max].map(|out| out[axis].abs());
-        // A box with a NaN is treated as infinitely wrong.
+        // A box with a NaN coordinate is treated as infinitely wrong.
         let [below, above] = out.map(|out| if out.is_nan() { f64::INFINITY } else { out });
         below.max(above)
     };

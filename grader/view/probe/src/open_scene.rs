@@ -130,7 +130,7 @@ impl Opening {
     }
 }
 
-/// The number of shapes that are tested together. They are copied into a list.
+/// The number of shapes to test at a time. These shapes are copied into a list.
 const SHAPES_AT_ONCE: usize = 1024;
 /// The maximum number of boxes to test, because a tree can have far too many nodes.
 const MAX_BOXES: usize = 1 << 20;

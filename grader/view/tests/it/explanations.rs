@@ -52,7 +52,7 @@ fn every_ray_of_a_path_is_listed() {
     assert_eq!(explanation["radiance"].as_array().unwrap().len(), 3);
 }
 
-/// Returns the rules broken in some pixels of a scene.
+/// Returns the rules that a submission's traversal breaks in a sample of a scene's pixels.
 fn broken_rules(submission: &Submission) -> Vec<String> {
     let arguments = "gyroid --size 24x24 --samples 1";
     let viewer = Viewer::start(submission, arguments);

@@ -1,5 +1,5 @@
 //! Trees with defects: each defect is listed with its node and shown in the picture. The stored
-//! costs of the best trees are compared with the exact sweep.
+//! costs of the best trees are compared with the costs that the exact sweep computes.
 
 use std::fs;
 

@@ -19,7 +19,7 @@ const OPTIONS: [&str; 2] = [
 ];
 /// The flags of `cargo examples`. The code that parses them isn't linked here.
 const EXAMPLES_FLAGS: [&str; 1] = ["--nocapture"];
-/// Commands of other programs that the handout uses.
+/// Commands in the handout that run other programs.
 pub(super) const OTHER_COMMANDS: [&str; 10] = [
     "rustc",
     "rustup",
@@ -121,7 +121,7 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
 }
 
 /// Returns the problem with the first argument of `cargo examples` that is neither the name of a
-/// file nor a flag of the test harness. Returns `None` if every argument is one of the two.
+/// file nor a flag of the test harness. Returns `None` if there is no such argument.
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");

@@ -1,5 +1,5 @@
-//! Writes the handout's lists of tasks, checks its links, names and commands against the code
-//! and builds it as a book.
+//! Writes the handout's lists of tasks, checks the handout's links, names and commands against the
+//! code, and builds the handout as a book.
 
 #[cfg(feature = "book")]
 pub mod book;

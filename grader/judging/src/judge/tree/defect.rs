@@ -30,7 +30,7 @@ pub enum TreeDefect {
         /// The index of the node.
         index: u32,
     },
-    /// The leaves list too many primitives in total, so the rest were not read.
+    /// The leaves list too many primitives in total, so not all leaves were read.
     TooManyListed {
         /// The maximum number of listed primitives.
         most: usize,

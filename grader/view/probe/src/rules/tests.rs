@@ -44,7 +44,7 @@ fn test(text: &str) -> Test {
     }
 }
 
-/// Returns the rules that these tests of a ray along x break, each with the node that shouldn't
+/// Returns the rules broken by these tests for a ray along x, each with the node that shouldn't
 /// have been entered.
 fn broken(tests: &str) -> Vec<(Rule, u32)> {
     let ray = RecordedRay {

@@ -171,7 +171,8 @@ const FORM: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// Boxes whose length is exactly the same along two axes, but not along the third.
+/// Boxes whose sides have exactly the same length along two axes but a different length along the
+/// third.
 const SQUARE: Aspect<BoxCall> = Aspect {
     name: "square",
     classes: &["across x", "across y", "across z"],
@@ -207,7 +208,7 @@ const PAPER: f64 = 0.0009;
 /// A box is as thin as foil if its shortest side is below this fraction of its longest side.
 const FOIL: f64 = 1.8e-4;
 
-/// The number of axes along which a side of the box is at 0.
+/// The number of axes along which a face of the box is at the coordinate 0.
 const ZERO_SIDES: Aspect<BoxCall> = Aspect {
     name: "sides at 0",
     classes: &["along one axis", "along all axes"],
@@ -334,7 +335,7 @@ const OUTCOME: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The distance between a ray that hits the box and the box's centre.
+/// The distance from the box's centre to a ray that hits the box.
 const WAY: Aspect<BoxCall> = Aspect {
     name: "way past the centre",
     classes: &[
@@ -353,7 +354,7 @@ const WAY: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The least distance between the centre and a ray that passes next to a corner, as a multiple of
+/// The minimum distance from the centre to a ray that passes next to a corner, as a multiple of
 /// half the diagonal.
 const CORNER: f64 = 0.953;
 

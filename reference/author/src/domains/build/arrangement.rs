@@ -118,7 +118,7 @@ fn is_without_area(shape: &Shape) -> bool {
     a == b || b == c || c == a
 }
 
-/// Returns whether two shapes are equal except for their numbers.
+/// Returns whether any two of the shapes are equal apart from their numbers.
 fn has_equal(shapes: &[Shape]) -> bool {
     let text = |shape: &Shape| match shape {
         Shape::Triangle { vertices, .. } => format!("{vertices:?}"),
@@ -128,7 +128,7 @@ fn has_equal(shapes: &[Shape]) -> bool {
     !without_repetition(shapes.iter().map(text))
 }
 
-/// Returns whether two shapes have the same box.
+/// Returns whether any two of the shapes have the same box.
 fn has_equal_boxes(shapes: &[Shape]) -> bool {
     let text = |shape: &Shape| format!("{:?}", scan::bounds(shape));
     !without_repetition(shapes.iter().map(text))

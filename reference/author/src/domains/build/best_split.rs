@@ -56,7 +56,7 @@ pub const SMALLER_SIDE: Aspect<BuildCall> = Aspect {
     name: "smaller side of the best split",
     classes: &["less than a sixteenth", "more"],
     class: |call| {
-        /// The sides are distinguished only if there are at least this many primitives.
+        /// The aspect applies only if there are at least this many primitives.
         const LEAST: usize = 17;
         let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
         if boxes.len() < LEAST || boxes.len() <= call.max_leaf_size as usize {

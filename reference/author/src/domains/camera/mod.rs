@@ -69,7 +69,7 @@ pub struct CameraCall {
     sample: Sample,
 }
 
-/// Intervals of the vertical fields of view that the contract allows, in degrees.
+/// The vertical fields of view that the contract allows, as intervals in degrees.
 pub const FIELDS_OF_VIEW: [(f64, f64); 8] = [
     (1.0, 1.0),
     (1.0, 10.0),
@@ -89,7 +89,7 @@ const FIELD_OF_VIEW: Aspect<CameraCall> = Aspect {
     class: |call| part(&FIELDS_OF_VIEW, call.camera.vertical_fov.into()),
 };
 
-/// Intervals of the aspect ratios that the contract allows.
+/// The aspect ratios that the contract allows, as intervals.
 pub const ASPECT_RATIOS: [(f64, f64); 7] = [
     (0.1, 0.1),
     (0.1, 0.3),
@@ -293,7 +293,7 @@ const USUAL_RATIO: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// Other usual aspect ratios of sensors.
+/// Other common aspect ratios of sensors.
 const USUAL_RATIOS: [f64; 8] = [1.0, 1.25, 1.5, 1.6, 1.85, 2.0, 7.0 / 3.0, 2.39];
 
 /// The aspect ratio of most films.

@@ -366,7 +366,7 @@ const ON_SPHERE: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The number of primitives whose boxes the ray enters before it hits or ends.
+/// The number of primitives whose boxes the ray enters before it hits something or ends.
 const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
     name: "boxes of primitives on the way",
     classes: &["up to 2,048", "2,049 to 5,000"],

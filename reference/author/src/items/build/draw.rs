@@ -191,7 +191,8 @@ fn arranged(
     rng.shuffled(shapes)
 }
 
-/// Returns a primitive around a point: a triangle, a flat triangle, a sphere, or any of these.
+/// Returns a primitive around a point: a triangle, a flat triangle, a sphere, or a random choice
+/// among these three kinds.
 pub(super) fn primitive(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shape {
     match kind {
         0 => meshes::random_triangle(rng, center, size),

@@ -1,4 +1,4 @@
-//! Items about whether a ray hits a triangle, and at which distance.
+//! Items about whether a ray hits a triangle, and at what distance.
 
 use glam::{Vec2, Vec3, vec3};
 use judging::exam::ExamQuestion;

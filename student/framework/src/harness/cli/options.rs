@@ -1,4 +1,4 @@
-//! The options of the command line.
+//! The command-line options.
 
 use std::path::PathBuf;
 

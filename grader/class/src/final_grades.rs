@@ -216,7 +216,10 @@ impl FinalGrade {
         }
         if was.counts.is_some() && self.counts.is_some() {
             if was.manual != self.manual {
-                why.push(format!("by hand {:+} → {:+}", was.manual, self.manual));
+                why.push(format!(
+                    "manual points {:+} → {:+}",
+                    was.manual, self.manual
+                ));
             }
             if was.late_days != self.late_days {
                 why.push(format!("days late {} → {}", was.late_days, self.late_days));

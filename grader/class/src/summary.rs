@@ -329,7 +329,7 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
     });
     let outlier = |row: &ClassRow| {
         let copies = row.result.ignored_copies().iter().map(|note| Reason {
-            cause: "some files are copies or have other names".to_owned(),
+            cause: "some files are copies or have unexpected names".to_owned(),
             detail: note.clone(),
             remedy: "; check which of them should be graded",
         });

@@ -31,7 +31,9 @@ impl Table {
         let bytes = files::read(path).map_err(Error::user)?;
         Table::parse(&bytes).map_err(|why| {
             let path = path.display();
-            Error::user(format!("{path}: {why}; export it again, as CSV in UTF-8"))
+            Error::user(format!(
+                "{path}: {why}; export it again as a CSV file in UTF-8"
+            ))
         })
     }
 

@@ -54,7 +54,7 @@ pub fn unpack(
         UnpackError::Archive(why) => {
             let path = path.display();
             Error::user(format!(
-                "{path}: {why}; alternatively, unpack it yourself and pass the path of the folder"
+                "{path}: {why}; alternatively, unpack the archive yourself and pass the path of the folder"
             ))
         }
         UnpackError::File(error) => Error::user(error),

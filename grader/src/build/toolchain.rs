@@ -67,7 +67,7 @@ pub fn file_fingerprint(path: &Path) -> String {
 
 fn not_found(why: &str) -> Error {
     Error::Machine(format!(
-        "cannot find rustc: install Rust, or put it on the PATH ({why})"
+        "cannot find rustc: install Rust, or add rustc to the PATH ({why})"
     ))
 }
 

@@ -53,7 +53,7 @@ impl PackageContents {
             |name: &String| name.starts_with(CRATE_CACHE) && name.contains(LINUX_ONLY_CRATE);
         match [CRATE_CACHE, CRATE_INDEX].into_iter().find(|part| !self.has_files_in(part)) {
             Some(empty) => problems.push(format!(
-                "{empty} is empty, so the grader cannot be built without a network: create the package on a machine where `cargo build` has run"
+                "{empty} is empty, so the grader cannot be built without network access: create the package on a machine where `cargo build` has run"
             )),
             None if !self.permissions.keys().any(is_for_linux) => problems.push(format!(
                 "{CRATE_CACHE} lacks the crates that only Linux needs, and Gradescope runs on Linux: create the package on Linux"

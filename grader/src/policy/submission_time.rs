@@ -119,8 +119,8 @@ mod tests {
 
     #[test]
     fn reports_an_invalid_time() {
-        let expected = "\"tomorrow\": it is not a date and time in a recognised form, such as 2026-11-20 \
-                        23:59:59 +0100";
+        let expected = "\"tomorrow\": it is not a date and time in a recognised format, such as \
+                        2026-11-20 23:59:59 +0100";
         assert_eq!(parse_with_due(r#""tomorrow""#), Err(expected.to_owned()));
         let error = SubmissionTime::parse("{}").unwrap_err();
         assert!(error.contains("created_at"), "{error}");

@@ -114,7 +114,9 @@ impl Probe {
         }
         let questions: Vec<&Question> = questions.into_iter().collect();
         let mut nonces = nonces(questions.len() + 1);
-        let end = nonces.pop().expect("one more nonce than questions");
+        let end = nonces
+            .pop()
+            .expect("there is one more nonce than there are questions");
         let mut batch = Batch::default();
         for (nonce, question) in nonces.iter().zip(questions) {
             let append = |frames| wire::append_question(frames, *nonce, question);
@@ -214,7 +216,7 @@ fn answer_to(nonce: u64, frame: &Frame) -> Result<Answer, Fault> {
 }
 
 fn no_question() -> Fault {
-    Fault::Protocol("an answer that doesn't belong to any question".to_owned())
+    Fault::Protocol("an answer that does not match any question".to_owned())
 }
 
 fn protocol_fault(error: WireError) -> Fault {

@@ -106,7 +106,8 @@ impl FileChange {
                 let fresh = text.and_then(|text| fresh_methods(handed_out, text, &tasks));
                 fresh.map_err(|why| {
                     Error::User(format!(
-                        "{why}`cargo grade --reset {name}` replaces the whole file and keeps a copy"
+                        "{why}`cargo grade --reset {name}` replaces the whole file and keeps a copy \
+                         of the old one"
                     ))
                 })?
             }
@@ -126,7 +127,7 @@ impl FileChange {
         let part = &self.part;
         let Some(after) = &self.after else {
             return Ok(format!(
-                "{}: nothing to reset, since {part} was not modified\n",
+                "{}: nothing to reset, since there are no changes in {part}\n",
                 display_path(&path)
             ));
         };

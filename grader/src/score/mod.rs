@@ -438,7 +438,7 @@ impl Score {
     /// Returns the text of the score file.
     pub fn to_json(&self) -> String {
         let text = serde_json::to_string_pretty(self);
-        text.expect("all map keys in a score must be strings") + "\n"
+        text.expect("all map keys in a score are strings") + "\n"
     }
 
     /// Replaces the score of the item with the same id.

@@ -210,7 +210,7 @@ mod tests {
             assert_eq!(refused, format!("ann contains too many {refusal}{end}"));
             assert!(search.check_bytes().is_ok());
         }
-        let bytes = "too many bytes in its archives (more than 1024 MiB)";
+        let bytes = "too much data in its archives (more than 1024 MiB)";
         assert_eq!(Limit::Bytes.to_string(), bytes);
         let levels = "too many levels of nested folders";
         assert_eq!(Limit::Levels.to_string(), levels);

@@ -104,7 +104,11 @@ fn a_task_as_handed_out_is_left_alone() {
 fn a_method_that_is_not_found_is_left_alone_and_the_remedy_is_named() {
     let cases = [
         ("pub fn hit(", "pub fn hit_it(", "it was renamed or removed"),
-        ("impl Sphere {", "impl Sphere {{", "its braces do not match"),
+        (
+            "impl Sphere {",
+            "impl Sphere {{",
+            "the file's braces do not match",
+        ),
         (
             "#[cfg(test)]",
             "impl Sphere { fn hit() {} }\n#[cfg(test)]",

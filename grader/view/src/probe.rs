@@ -97,7 +97,7 @@ impl Probe {
             .decode()
             .map_err(|error| Fault::Protocol(error.to_string()))?;
         if frame.nonce != self.nonce || !response.answers(request) {
-            let why = "a response that does not belong to the request";
+            let why = "a response that does not match the request";
             return Err(Fault::Protocol(why.to_owned()).into());
         }
         Ok(response)

@@ -160,7 +160,7 @@ pub struct HintsArgs {
     #[arg(long, value_name = "N", conflicts_with = "seeds")]
     #[allow(
         clippy::option_option,
-        reason = "absent, without a value, with a value"
+        reason = "the option can be absent, have no value, or have a value"
     )]
     pub pairs: Option<Option<usize>>,
     /// Measure known mistakes made in variants, with the practice exam; fail if one of them doesn't

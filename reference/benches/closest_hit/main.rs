@@ -181,7 +181,7 @@ fn check_agreement(
     let differing = expected.len() - expected.iter().zip(other).filter(same).count();
     assert!(
         differing * 1000 <= expected.len(),
-        "{name}, {kind}: {differing} of {} rays have a different hit than in the reference",
+        "{name}, {kind}: the hits of {differing} of {} rays differ from the reference's",
         expected.len()
     );
     report.record_mismatches(name, differing as f64 / expected.len() as f64);

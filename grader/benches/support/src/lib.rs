@@ -119,14 +119,14 @@ impl BareRustc {
 
 fn newest(cache: &Path) -> Value {
     let entries = fs::read_dir(cache)
-        .expect("a grade has filled the cache")
+        .expect("a grading run has filled the cache")
         .flatten();
     let records = entries.map(|entry| entry.path().join("dependencies.json"));
     let newest: Option<PathBuf> = records
         .filter(|record| record.is_file())
         .max_by_key(|record| fs::metadata(record).and_then(|file| file.modified()).ok());
-    let text =
-        fs::read(newest.expect("a grade has filled the cache")).expect("the record can be read");
+    let text = fs::read(newest.expect("a grading run has filled the cache"))
+        .expect("the record can be read");
     serde_json::from_slice(&text).expect("the grader wrote valid JSON")
 }
 

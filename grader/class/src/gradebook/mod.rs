@@ -198,7 +198,7 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
         if ids.len() > 1 {
             let ids = joined(ids, ", ");
             warnings.push(format!(
-                "{who} has several submissions ({ids}), so this row is left unchanged: keep only one"
+                "{who} has several submissions ({ids}), so this row is left unchanged: keep only one submission"
             ));
             continue;
         }

@@ -81,7 +81,7 @@ fn an_archived_export_gives_the_same_preview() {
         (name.to_str().unwrap().to_owned(), fs::read(&path).unwrap())
     });
     fs::write(&file, zip(files)).unwrap();
-    let entered = "\n  the submissions are those in the folder assignment_55_export\n";
+    let entered = "\n  the submissions are in the folder assignment_55_export\n";
     let preview = class.preview_of(&file, &[]);
     assert!(preview.contains(entered), "{preview}");
     assert_eq!(preview.replace(entered, ""), class.preview());

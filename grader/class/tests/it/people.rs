@@ -25,7 +25,7 @@ fn the_policy_says_which_of_several_attempts_counts() {
     let text = grade("ask");
     let several = [
         "2 without final points, because the same person handed in several submissions",
-        "Lee, Ann has several submissions (ann, u1), so this row is left unchanged: keep only one",
+        "Lee, Ann has several submissions (ann, u1), so this row is left unchanged: keep only one submission",
     ];
     assert_contains(&text, &several);
     let ann = |submission, column| cell(&class, submission, "Ann Lee", column);

@@ -125,7 +125,7 @@ fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     ];
     insta::assert_snapshot!(all.join("\n").trim_end(), @r"
     1 final grade changed (changed: the table of manual points)
-    ann (Ann Lee): 60 → 30: by hand -1 → -2
+    ann (Ann Lee): 60 → 30: manual points -1 → -2
     1 final grade changed (changed: the roster)
     ann (Ann Lee): 30 → 33: days late 1 → 0
     no final grade changed (changed: the roster)

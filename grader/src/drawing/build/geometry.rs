@@ -170,7 +170,10 @@ fn draw_row(
     );
     sheet.add_wanted(Symbol::Line(LineStyle::Right), "the best splitting plane");
     let counts: Vec<String> = sides.iter().map(|side| side.len().to_string()).collect();
-    let text = format!("{}, one child above, one below", counts.join(" and "));
+    let text = format!(
+        "{} primitives, one child above, the other below",
+        counts.join(" and ")
+    );
     sheet.add_got(Symbol::Area(Fill::Tint(Ink::Wrong, 1.0)), &text);
 }
 

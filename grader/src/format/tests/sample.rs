@@ -41,7 +41,7 @@ build.memory|0|1|out of memory|out of memory
 build.depth|0|1|crashed|the program crashed
 build.leaves|0|1|no answer|an invalid answer
 traverse.closest_hit|0|2|blocked|depends on bbox.flat: fix that first
-traverse.any_hit|2|2|passed|wrong only because bbox.flat failed: correct with the reference's other files";
+traverse.any_hit|2|2|passed|wrong only because bbox.flat failed; passes with the reference's other files";
 
 /// Returns the item in a line of [`ITEMS`].
 fn read_item(line: &str) -> ItemScore {

@@ -25,7 +25,7 @@ const OFFSETS: [&str; 2] = ["%z", "%:z"];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TimeError {
     /// The text isn't in a known format.
-    #[error("it is not a date and time in a recognised form, such as 2026-11-20 23:59:59 +0100")]
+    #[error("it is not a date and time in a recognised format, such as 2026-11-20 23:59:59 +0100")]
     UnknownForm,
     /// The day, the month and the year cannot be distinguished.
     #[error("it could be two different dates: write it as 2026-11-20 23:59:59 +0100")]

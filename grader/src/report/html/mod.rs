@@ -107,7 +107,7 @@ impl Page<'_> {
                     style { (PreEscaped(STYLE)) }
                 }
                 body data-reload[reload == Reload::WhileUnfocused] {
-                    a .skip href="#next" { "Skip to what to do next" }
+                    a .skip href="#next" { "Skip to the next step" }
                     (summary::header(score))
                     main {
                         (summary::next_step(self))

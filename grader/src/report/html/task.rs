@@ -177,7 +177,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
         Verdict::Pending => evidence_table(
             "nothing yet",
             "no answer",
-            "a run that ends within its limits",
+            "a run that stays within its limits",
         ),
         Verdict::Pass
         | Verdict::Partial

@@ -169,7 +169,7 @@ pub(super) fn choose(
         let Lookalike { path, file, .. } = copy;
         let end = if is_missing(&copy) {
             format!(
-                "is not graded because its name is not {file}, which costs {} points",
+                "is not graded because its name is not {file}; this costs {} points",
                 points(file, handed_out)
             )
         } else {

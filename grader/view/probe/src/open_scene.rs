@@ -247,6 +247,6 @@ impl Hierarchy for List {
     }
 
     fn shape(&self, index: usize) -> u32 {
-        unreachable!("the primitives of a list are not read, so not {index}")
+        unreachable!("primitive {index} of a list is never read")
     }
 }

@@ -135,7 +135,7 @@ mod pipe {
                 "invalid answer",
             ),
             // The response to another request.
-            (frame("1u32") + "send(&[1]);", "does not belong"),
+            (frame("1u32") + "send(&[1]);", "does not match"),
             // Endless frames.
             (
                 format!("loop {{ {} send(&[0; 1000]); }}", frame("1000u32")),

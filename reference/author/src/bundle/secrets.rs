@@ -173,7 +173,7 @@ impl fmt::Display for Secrets {
 impl fmt::Display for Leak {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Leak::Line { found, source } => write!(f, "{found} is the same line as {source}"),
+            Leak::Line { found, source } => write!(f, "{found} is identical to {source}"),
             Leak::Exam { found } => write!(f, "{found} is not the practice exam"),
         }
     }

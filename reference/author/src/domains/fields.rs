@@ -72,8 +72,8 @@ pub fn size(rng: &mut Rng, class: usize) -> f64 {
 
 /// The classes of lengths, by how close they are to a power of ten.
 pub const ROUND: &[&str] = &[
-    "almost a power of ten, above",
-    "almost a power of ten, below",
+    "just above a power of ten",
+    "just below a power of ten",
     "between",
 ];
 
@@ -331,11 +331,11 @@ pub fn history_class(before: Option<&Ray>, ray: &Ray) -> usize {
 /// The classes of ranges.
 pub const RANGES: &[&str] = &[
     "from 0 to ∞",
-    "from 0 to an end",
-    "from later to ∞",
-    "from later to an end",
-    "from 0 to a far end",
-    "from later to a far end",
+    "from 0 to a nearby end",
+    "from a later start to ∞",
+    "from a later start to a nearby end",
+    "from 0 to a distant end",
+    "from a later start to a distant end",
 ];
 
 /// The end of a range that reaches beyond everything in a scene.

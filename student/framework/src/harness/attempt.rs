@@ -65,7 +65,7 @@ fn panic_message(payload: &(dyn Any + Send)) -> &str {
         .downcast_ref::<String>()
         .map(String::as_str)
         .or_else(|| payload.downcast_ref::<&str>().copied())
-        .unwrap_or("a panic without a message")
+        .unwrap_or("no message")
 }
 
 /// Truncates text to [`Panic::MAX_TEXT_BYTES`], at a character boundary.

@@ -97,7 +97,7 @@ impl EnvironmentMap {
         let format = reader.format();
         if !matches!(format, Some(ImageFormat::Hdr | ImageFormat::OpenExr)) {
             let message =
-                "a map is an HDR or EXR file, because other pictures don't store radiance";
+                "a map must be an HDR or EXR file, because other pictures don't store radiance";
             return Err(in_file(message.to_owned()));
         }
         let decoded = reader.decode();

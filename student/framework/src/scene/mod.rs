@@ -64,7 +64,7 @@ impl Scene {
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
         let message = |what: &str| {
             format!(
-                "{what} are separate files, so only a scene that is read from a file can use one"
+                "{what} are separate files, so only a scene that is read from a file can use them"
             )
         };
         let load = read::LoadFiles {

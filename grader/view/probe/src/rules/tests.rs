@@ -77,7 +77,7 @@ fn broken(tests: &str) -> Vec<(Rule, u32)> {
 fn a_correct_traversal_breaks_no_rule() {
     assert_eq!(broken("b1 b4 p0 b2 b3 p1:3.5"), []);
     assert_eq!(broken("b1 b4 p0:1.5"), [], "pruned");
-    assert_eq!(broken("p0:-5.0 b2 p1"), [], "a hit outside of the range");
+    assert_eq!(broken("p0:-5.0 b2 p1"), [], "a hit outside the range");
 }
 
 #[test]

@@ -421,11 +421,11 @@ fn times_class(times: Interval) -> Option<usize> {
 /// The classes of times.
 const TIMES_CLASSES: &[&str] = &[
     "from 0 to ∞",
-    "from 0 to an end",
-    "from later to ∞",
-    "from later to an end",
-    "from 0 to a far end",
-    "from later to a far end",
+    "from 0 to a nearby end",
+    "from a later start to ∞",
+    "from a later start to a nearby end",
+    "from 0 to a distant end",
+    "from a later start to a distant end",
     "to the largest number",
     "one point",
 ];
@@ -433,11 +433,11 @@ const TIMES_CLASSES: &[&str] = &[
 /// The classes in [`TIMES_CLASSES`], and an additional class for empty ranges.
 const RANGE_CLASSES: &[&str] = &[
     "from 0 to ∞",
-    "from 0 to an end",
-    "from later to ∞",
-    "from later to an end",
-    "from 0 to a far end",
-    "from later to a far end",
+    "from 0 to a nearby end",
+    "from a later start to ∞",
+    "from a later start to a nearby end",
+    "from 0 to a distant end",
+    "from a later start to a distant end",
     "to the largest number",
     "one point",
     "empty",

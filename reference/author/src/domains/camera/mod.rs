@@ -55,7 +55,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         ],
         &[],
         OTHER_QUANTITIES,
-        "These change the direction only.",
+        "These aspects change only the direction.",
     )],
 };
 
@@ -328,12 +328,12 @@ const VIEW: Aspect<CameraCall> = Aspect {
     name: "view",
     classes: &[
         "a single wide pixel",
-        "a square film at 90° with another sensor",
-        "an edge of a 1° to 5° view on a wide sensor",
-        "an edge of a 10° to 15° view on a wide sensor",
-        "the middle of the widest view",
-        "an edge of a 5° to 10° view on a wide sensor",
-        "the middle of a 60° to 100° view on a wide sensor and a large film",
+        "a field of view of 90° with a square film, but a sensor that is not square",
+        "an edge of the image, for a 1° to 5° field of view and a wide sensor",
+        "an edge of the image, for a 10° to 15° field of view and a wide sensor",
+        "the centre of the image, for the widest field of view",
+        "an edge of the image, for a 5° to 10° field of view and a wide sensor",
+        "the centre of the image, for a 60° to 100° field of view, a wide sensor and a large film",
     ],
     class: |call| {
         let PinholeCamera {

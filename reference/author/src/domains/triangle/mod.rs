@@ -92,7 +92,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         ),
         not_asked(
             &["call before"],
-            &["the axes in another order"],
+            &["the same ray with its axes in another order"],
             &["normal", "origin", "position", "shape", "uv"],
             "A ray like this hits only shapes near the origin, so an exam may test only the \
              distance of the hit.",

@@ -58,7 +58,7 @@ pub(super) fn questions(
         let BuildCall {
             shapes,
             max_leaf_size,
-        } = chosen.expect("some call belongs to the idea");
+        } = chosen.expect("at least one of the drawn calls is accepted");
         let numbers = fields::numbers(rng, shapes.len());
         let shapes = meshes::with_numbers(shapes, numbers);
         ExamQuestion::tree(shapes, max_leaf_size, checks, None)

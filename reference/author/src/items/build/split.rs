@@ -93,7 +93,7 @@ const LARGE_END: Layout<'static> = Layout {
 
 pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
-    title: "the best split of a few primitives in a row is found",
+    title: "for a few primitives arranged in a row, the best split is found",
     look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
            areas and the counts of its sides: does your code try it, does it compute that cost, \
            and does your root have these two sides?",

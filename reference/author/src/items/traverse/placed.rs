@@ -224,7 +224,7 @@ fn is_exact(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
     let mut shapes = shapes.iter();
     let shape = *shapes
         .find(|shape| shape.number() == hit.shape)
-        .expect("the shape that is hit is one of the tree's");
+        .expect("the shape that is hit belongs to the tree");
     if let Some(line) = Line::of(&ShapeCall::new(shape, *ray)) {
         let judged = ["distance", "position", "normal", "uv"];
         return judged.iter().all(|quantity| line.is_exact(quantity));

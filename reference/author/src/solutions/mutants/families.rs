@@ -185,7 +185,7 @@ impl<'a> Visitor<'a> {
     /// Ends a loop after its first iteration.
     pub(super) fn end_loop(&mut self, body: &Block) {
         let at = body.brace_token.span.close().byte_range().start;
-        let what = "condition: a loop ends after its first round";
+        let what = "condition: a loop ends after its first iteration";
         self.add(what.to_owned(), at..at, " break; ");
     }
 }

@@ -49,7 +49,7 @@ fn kept_argument(name: &str, of_type: &str) -> Vec<(String, String)> {
         ("of the first call", "before"),
         ("of the call before", "now"),
         (
-            "of the last call but every 16th",
+            "of an earlier call, updated on every 16th call",
             "if count % 16 == 0 { now } else { before }",
         ),
     ];

@@ -36,4 +36,4 @@ pub(super) fn holds_numbers(path: &Path) -> bool {
     matches!(ImageFormat::from_path(path), Ok(ImageFormat::OpenExr))
 }
 
-const FITS: &str = "a film has as many pixels as its size says";
+const FITS: &str = "a film has as many pixels as its size specifies";

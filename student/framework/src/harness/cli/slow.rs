@@ -25,7 +25,7 @@ pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> O
         let why = "traverse: `Bvh::hit` doesn't use the boxes of the tree yet";
         (why, format!("all {count}"))
     } else if largest > LARGE_LEAF_FACTOR * scene.max_leaf_size {
-        ("build: a leaf is large", largest.to_string())
+        ("build: a leaf is too large", largest.to_string())
     } else {
         return None;
     };
@@ -94,7 +94,7 @@ mod tests {
         starts(
             &panicking,
             &leaf(99),
-            "note: task 3, build: a leaf is large",
+            "note: task 3, build: a leaf is too large",
         );
         assert_eq!(note(&panicking, scene, &leaf(4)), None);
     }

@@ -209,7 +209,7 @@ fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
         let points = corners.map(|&i| positions[i as usize].as_dvec3());
         let triangles = triangulate(&points.collect::<Vec<DVec3>>()).ok_or_else(|| {
             let message = "the outline of this face crosses itself: list the corners in order \
-                           around it, or export the mesh as triangles";
+                           around the face, or export the mesh as triangles";
             (Some(face.line), message.to_owned())
         })?;
         for triangle in triangles {

@@ -1,6 +1,6 @@
-//! Measures the cost of the sandbox for starting a probe (up to its first answer) and for compiling
-//! a submission, each with and without the sandbox. Runs with and without it alternate, so that a
-//! busy machine affects both.
+//! Measures what the sandbox costs: starts a probe (up to its first answer) and compiles a
+//! submission, each with and without the sandbox. The two kinds of runs alternate, so that a busy
+//! machine affects both.
 //!
 //! `cargo bench -p grader --bench sandbox` prints CPU time and wall time at the best available
 //! isolation level.
@@ -72,8 +72,8 @@ fn first_answer(build: &Build) {
     probe.ask(nothing, LIMITS).expect("the probe answers");
 }
 
-/// Measures `one` without (index 0) and with (index 1) the sandbox, `rounds` times each, or once in
-/// the short form. Prints the median CPU and wall times in milliseconds and their ratio.
+/// Measures `one` without the sandbox (index 0) and with it (index 1), `rounds` times each, or once
+/// in the short form. Prints the median CPU and wall times in milliseconds and their ratio.
 fn report(what: &str, rounds: usize, one: impl Fn(usize) -> Cost) {
     let rounds: Vec<[Cost; 2]> = (0..repetitions(rounds)).map(|_| [one(0), one(1)]).collect();
     let print = |name: &str, time: fn(&Cost) -> Duration| {

@@ -298,7 +298,7 @@ impl Arguments {
     }
 }
 
-/// Returns the argument, adding a second dash if it is a long option with only one, such as
+/// Returns the argument, adding a second dash if it is a long option with a single dash, such as
 /// `-task`. The only one-letter options are `-h` and `-V`.
 fn with_two_dashes(argument: OsString) -> OsString {
     let is_long =
@@ -311,7 +311,7 @@ fn with_two_dashes(argument: OsString) -> OsString {
 
 fn format_help() -> String {
     let known = FORMATS.map(|format| format.id).join(", ");
-    // The list comes last, so that it can grow without the rest having to be rewrapped.
+    // The list comes last, so that when it grows, the text before it doesn't have to be rewrapped.
     format!(
         "Also write the report in these formats, which only show what the policy lets students see. Append \
          =PATH to choose the file; by default, it is written where the platform expects it, or else to the \

@@ -47,7 +47,7 @@ impl From<PathError> for Error {
     }
 }
 
-/// Converts an error that occurred while a probe was built or started.
+/// Converts an error that occurred while a probe was being built or started.
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Self {
         Error::Machine(format!("cannot run the submission's program: {error}"))

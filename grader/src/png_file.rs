@@ -14,8 +14,8 @@ pub fn data_uri(film: UVec2, pixels: &[Colour]) -> String {
 }
 
 /// Encodes the bytes of an RGB picture, row by row from the top. Speed matters more than size:
-/// every run of the grader encodes pictures, but few of its pages are ever opened, and the viewer's
-/// pictures rarely leave the machine.
+/// every run of the grader encodes pictures, but few of the reports are ever opened, and the
+/// viewer's pictures rarely leave the machine.
 ///
 /// # Panics
 ///

@@ -20,7 +20,7 @@ use crate::probe::{Budget, Crash, Culprit, Fault, Launcher, smallest_overflow};
 use crate::verdict::clue;
 use crate::verdict::file_message;
 
-/// The maximum number of characters to show of the code's output.
+/// The maximum number of characters of the code's output to show.
 const MAX_PRINTED_CHARS: usize = 20_000;
 
 /// Runs the question and returns the text for the terminal.
@@ -80,7 +80,7 @@ fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'s
         .collect()
 }
 
-/// Returns the indices of a question and of an element in it.
+/// Returns the indices of the question and the element that this number refers to.
 fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
     item.element(number).ok_or_else(|| {
         Error::User(format!(
@@ -239,7 +239,7 @@ impl ReplayedQuestion {
         }
     }
 
-    /// Returns the text that says whether the answer is right and, if not, how it is wrong.
+    /// Returns the text that says whether the answer is right and, if not, what is wrong with it.
     fn verdict(&self, item: &Item, exam_run: &ExamRun) -> String {
         let (question, element) = self.position;
         let single = item.questions[question].single(element);

@@ -36,7 +36,7 @@ pub fn closed_path(points: &[DVec2]) -> String {
     path(points) + "Z"
 }
 
-/// Replaces the control characters in a text. XML doesn't allow them, even if they are escaped.
+/// Replaces the control characters in text. XML doesn't allow them, even if they are escaped.
 pub fn text(text: &str) -> String {
     text.replace(char::is_control, "\u{fffd}")
 }

@@ -15,7 +15,7 @@ fn main() {
     let path = path.trim_end();
     let beside = format!("{path}.written");
 
-    // Things that correct submissions do must work, or the attempts below prove nothing.
+    // Everything that a correct submission does must work, or the attempts below prove nothing.
     let counted = thread::spawn(|| HashMap::from([("threads", 1)])).join();
     assert_eq!(counted.expect("threads run")["threads"], 1);
 

@@ -1,4 +1,4 @@
-//! Renders with the reference's code, as a user does.
+//! Renders with the reference's code, as a user would.
 
 use std::process::Command;
 
@@ -30,8 +30,8 @@ fn the_reference_renders_every_scene_without_a_note() {
 }
 
 /// If only points on the light were sampled, some points next to the floor would contribute
-/// thousands of times the light's radiance. The balance heuristic limits the contribution of each
-/// of its two samples to the light that the floor can reflect.
+/// thousands of times the light's radiance. The balance heuristic combines two samples and limits
+/// the contribution of each sample to the amount of light that the floor can reflect.
 #[test]
 fn the_floor_beside_a_light_has_no_bright_specks() {
     let scene = r#"{

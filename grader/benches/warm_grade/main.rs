@@ -24,8 +24,8 @@ const ROUNDS: usize = 15;
 /// The measured quantities, in the order in which each round measures them, and the baseline that
 /// each of them is compared with.
 const ROWS: [Row; 7] = [
-    Row::new("bare rustc of the task files (F)", "F", TimeKind::Cpu),
-    Row::new("the same up to type checking (T)", "F", TimeKind::Cpu),
+    Row::new("bare rustc on the task files (F)", "F", TimeKind::Cpu),
+    Row::new("the same, up to type checking (T)", "F", TimeKind::Cpu),
     Row::new("changed submission to probe", "F", TimeKind::Cpu),
     Row::new("changed submission to score.json", "F", TimeKind::Cpu),
     // The CPU time is unknown while a process is still running.
@@ -111,7 +111,7 @@ fn main() {
     drop(watcher);
     let unchanged = Submission::collect(same.path(), &RAYS).expect("the submission can be read");
     fs::remove_dir_all(default_folder(&workspace, &unchanged))
-        .expect("the score was written there");
+        .expect("the folder with the score can be removed");
 
     let world = submission(&root);
     let given = root.join("grader/starter/world.rs");
@@ -147,7 +147,7 @@ fn print(rounds: &[[Cost; ROWS.len()]]) {
     }
 }
 
-/// Measures the time until the first error in a file that doesn't compile is printed. The other
+/// Measures the time until the first error is printed for a file that doesn't compile. The other
 /// files are graded after that.
 fn first_error(folder: &Path) -> Cost {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
@@ -180,7 +180,8 @@ fn break_file(file: &Path) {
         .expect("the file can be written");
 }
 
-/// Grades a submission in its default folder and then measures grading it again without a change.
+/// Grades a submission in its default folder and then measures the cost of grading it again without
+/// any change.
 fn regrade_unchanged(folder: &Path) -> Cost {
     let grader = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));

@@ -13,13 +13,13 @@ use protocol::{Geometry, Question, Ray, Shape, Vertex, wire};
 
 const ROUNDS: usize = 7;
 const RAYS: usize = 100_000;
-/// The number of additional repetitions in one process. Their time doesn't include reading the
-/// questions.
+/// How many more times the questions are answered in one process. The time for these repetitions
+/// doesn't include reading the questions.
 const REPETITIONS: u32 = 20;
 const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(60));
 
-/// The end of a program that reads all questions, answers them once, and then repeats the answers
-/// as many times as its argument says.
+/// The end of a program that reads all questions, answers them once, and then answers them again as
+/// many times as its argument specifies.
 const IN_PROCESS: &str = r#"
 fn main() {
     use std::io::Read;
@@ -86,7 +86,7 @@ fn round(folder: &Path, launcher: &Launcher, questions: &[Question]) -> [f64; 2]
     [more.saturating_sub(once) / REPETITIONS, over_pipe.cpu].map(|cpu| 1e3 * cpu.as_secs_f64())
 }
 
-/// Returns questions with this number of rays each. All rays are aimed near one triangle, and about
+/// Returns questions that each have this many rays. All rays are aimed near one triangle, and about
 /// half of them hit it.
 fn questions(rays_per_question: usize) -> Vec<Question> {
     let corner = |x, y| Vertex::new(vec3(x, y, -2.0), Vec3::Z, Vec2::ZERO);

@@ -233,7 +233,7 @@ impl Lists {
         self.clone().path(kind).take()
     }
 
-    /// Returns a list's path, which can be read or replaced.
+    /// Returns a mutable reference to the path of a list.
     pub fn path(&mut self, kind: ListKind) -> &mut Option<PathBuf> {
         match kind {
             ListKind::Policy => &mut self.policy,

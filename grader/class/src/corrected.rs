@@ -1,5 +1,5 @@
 //! Corrected hand-ins, whose files replace those of submissions that could not be graded. Such a
-//! submission keeps its people and its time.
+//! submission keeps its students and its submission time.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,7 +19,8 @@ use crate::store::Store;
 const MAX_CHARS: usize = 200;
 
 /// Replaces the files of each submission that has a corrected hand-in in `folder`. A corrected
-/// hand-in is named after the submission or one of its people. `input` is the path of the class.
+/// hand-in is named after the submission or after one of its students. `input` is the path of the
+/// class.
 pub fn replace_files(
     class: &mut RecognisedClass,
     folder: &Path,

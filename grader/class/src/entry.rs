@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::names::{are_alike, are_equal, joined};
 
-/// The placeholder for the names of the people in [`EntryInfo::hand_back_as`].
+/// The placeholder in [`EntryInfo::hand_back_as`] that stands for people's names.
 pub const WHO: &str = "{who}";
-/// The placeholder for a person's number in [`EntryInfo::hand_back_as`]. If the name contains it,
-/// each person gets a separate page.
+/// The placeholder in [`EntryInfo::hand_back_as`] that stands for a person's number. If the file
+/// name contains this placeholder, each person gets a separate page.
 pub const NUMBER: &str = "{number}";
 
 /// One submission of a class, before its files are read.
@@ -18,7 +18,7 @@ pub const NUMBER: &str = "{number}";
 pub struct Entry {
     /// The id, which is unique in the class. The folder with the entry's results has the same name.
     pub id: String,
-    /// Information about the submission, such as its people.
+    /// Information about the submission, such as who handed it in.
     pub info: EntryInfo,
     /// The location of the submission's files.
     pub source: Source,
@@ -61,8 +61,9 @@ pub struct EntryInfo {
     pub listed: Option<ListedTime>,
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
-    /// The file name that the platform requires for the people's page, where `{who}` is replaced by
-    /// their names and `{number}` by each person's number. `None` if the platform accepts any name.
+    /// The file name that the platform requires for the page to hand back. In it, `{who}` stands
+    /// for people's names, and `{number}` stands for a person's number. `None` if the platform
+    /// accepts any name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
     /// The pseudonym that graders see, or an empty string if there is none.
@@ -121,7 +122,7 @@ pub struct Person {
     /// preferred.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
-    /// Whether only the roster's groups say that the person belongs to the submission.
+    /// Whether the person is only known to belong to the submission because of the roster's groups.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_from_group: bool,
     /// Whether the person is on a list, in which case `number` isn't a group's number.
@@ -161,7 +162,7 @@ impl Entry {
 pub enum Source {
     /// A folder or an archive.
     Path(PathBuf),
-    /// Individual files: for each one, the name that it was handed in under, and its path.
+    /// Individual files: for each file, the name under which it was handed in, and its path.
     Files(Vec<(String, PathBuf)>),
     /// Nothing can be graded, for this reason.
     Missing(String),
@@ -187,12 +188,12 @@ impl Person {
         }
     }
 
-    /// Returns the identifiers that are unique to one person. Unknown ones are empty.
+    /// Returns the identifiers that are unique to one person. Unknown identifiers are empty.
     pub fn own_identifiers(&self) -> [&str; 3] {
         [&self.email, &self.sid, &self.login]
     }
 
-    /// Returns whether none of the identifiers that are unique to one person is known.
+    /// Returns whether all identifiers that would be unique to the person are unknown.
     pub fn is_bare(&self) -> bool {
         self.own_identifiers() == [""; 3]
     }

@@ -1,4 +1,4 @@
-//! Lists the contents of folders, only as deep as the layouts need.
+//! Lists the contents of folders, but only to the depth that the layouts need.
 
 use std::fs;
 use std::io;

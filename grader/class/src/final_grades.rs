@@ -141,8 +141,8 @@ impl FinalGrades {
         grades.filter(move |grade| grade.submission == submission)
     }
 
-    /// Returns a sentence about the difference between a later grade and the one in this run. A new
-    /// submission isn't a change.
+    /// Returns a sentence about the difference between a later grade and this run's grade for the
+    /// same person and submission. A new submission doesn't count as a change.
     fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<String> {
         self.of(&now.submission).next()?;
         match self.find(now) {
@@ -216,7 +216,10 @@ impl FinalGrade {
         }
         if was.counts.is_some() && self.counts.is_some() {
             if was.manual != self.manual {
-                why.push(format!("by hand {:+} → {:+}", was.manual, self.manual));
+                why.push(format!(
+                    "manual points {:+} → {:+}",
+                    was.manual, self.manual
+                ));
             }
             if was.late_days != self.late_days {
                 why.push(format!("days late {} → {}", was.late_days, self.late_days));

@@ -44,8 +44,8 @@ pub fn shared_team(rows: &[Member], info: &EntryInfo) -> Option<String> {
     })
 }
 
-/// Returns the members of each group that an entry may be named after. There are none if the entry
-/// is named after a person on a list.
+/// Returns the members of each group that an entry may be named after. Returns no groups if the
+/// entry is named after a person on a list.
 fn groups_named_by<'a>(rows: &'a [Member], info: &EntryInfo) -> BTreeMap<String, Vec<&'a Member>> {
     let mut groups: BTreeMap<String, Vec<&Member>> = BTreeMap::new();
     let [person] = info.people.as_slice() else {
@@ -146,7 +146,7 @@ mod tests {
         // this.
         assert_eq!(names, ["ann + Bob", "carl + Bob", "dora"]);
         assert!(!add_group_members(&rows, &mut entries));
-        // It is enough if one of the people who submitted together is in the list.
+        // It is enough for one of the people who submitted together to be on the roster.
         let mut pair = submitted_by("ann");
         pair.people.extend(submitted_by("guest").people);
         assert!(add_group_members(&rows, &mut [&mut pair]));

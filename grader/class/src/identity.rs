@@ -25,9 +25,9 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
     groups.into_values().collect()
 }
 
-/// Returns the index of the submission with this id or in this file or folder, or of the only
-/// submission by somebody with this name or identifier. `all` lists the id of each submission and
-/// information about it.
+/// Returns the index of the submission that `who` refers to: by the submission's id, by its file or
+/// folder, or by the name or an identifier of somebody who has only one submission. `all` contains
+/// each submission's id and information.
 pub fn find_submission(who: &str, all: &[(&str, &EntryInfo)]) -> Result<usize, String> {
     let is_named = |(id, info): &(&str, &EntryInfo)| are_equal(id, who) || info.from == who;
     if let Some(index) = all.iter().position(is_named) {

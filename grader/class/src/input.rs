@@ -116,8 +116,8 @@ impl Input {
     }
 }
 
-/// Marks each entry with a file that could not be unpacked as having no files. If a file that could
-/// not be unpacked belongs to no entry, adds it to the unmatched files.
+/// Handles the files that could not be unpacked. If such a file belongs to an entry, the entry is
+/// marked as having no files. Otherwise, the file is added to the unmatched files.
 fn reject_incomplete(class: &mut RecognisedClass, folder: &Path, incomplete: Vec<UnmatchedPath>) {
     for file in incomplete {
         let path = folder.join(&file.name);

@@ -37,7 +37,7 @@ const SHARED_NAME: &str = "but several people have this name, and all of them ge
     address or a student number instead";
 
 impl UnclearTime {
-    /// Returns the error for a submission that has a time or should have one.
+    /// Returns an error with this reason, for a submission that isn't known to be a draft.
     pub fn new(why: impl Into<String>) -> Self {
         UnclearTime {
             why: why.into(),
@@ -45,7 +45,7 @@ impl UnclearTime {
         }
     }
 
-    /// Returns the error for an unusable submission time that points depend on.
+    /// Returns the error to report when points depend on a submission time that cannot be used.
     fn submitted(text: &str, why: TimeError) -> Self {
         UnclearTime::new(format!(
             "the submission time {text:?} cannot be used: {why}"
@@ -179,7 +179,7 @@ fn extensions(
 }
 
 /// Prints a warning for each of the policy's extensions that doesn't belong to any of these people,
-/// or that belongs to several with the same name.
+/// or that belongs to several people with the same name.
 pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
     for (name, problem) in extension_problems(policy, people) {
         let name = sanitize(name, 200);
@@ -189,8 +189,8 @@ pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
     }
 }
 
-/// Returns each name in the policy's extensions that belongs to none or several of these people,
-/// together with a description of the problem.
+/// Returns each name in the policy's extensions that belongs to none of these people or to several
+/// of them, together with a description of the problem.
 fn extension_problems<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<(&'a str, &'static str)> {
     let ids = person_ids(people);
     let problem = |key: &'a String| {

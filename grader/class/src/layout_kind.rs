@@ -59,7 +59,7 @@ impl LayoutChoice {
 }
 
 impl Layout {
-    /// Returns the name on the command line.
+    /// Returns the name that is used on the command line.
     pub fn name(self) -> String {
         let value = self.to_possible_value().expect("no layout is hidden");
         value.get_name().to_owned()

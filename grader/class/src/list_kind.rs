@@ -32,7 +32,7 @@ impl ListKind {
     pub const GRADEBOOKS: [ListKind; 3] =
         [ListKind::Canvas, ListKind::Moodle, ListKind::Gradescope];
 
-    /// Returns the name on the command line: the option without its dashes.
+    /// Returns the name that is used on the command line: the option without its dashes.
     pub fn name(self) -> String {
         let value = self.to_possible_value().expect("no list is hidden");
         value.get_name().to_owned()

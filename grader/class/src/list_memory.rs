@@ -29,7 +29,7 @@ pub struct UsedLists {
     pub lists: Lists,
     /// The lists to record in `run.json`.
     pub kept: ListCopies,
-    /// Sentences for staff that have yet to be printed.
+    /// Sentences for staff, which are printed later.
     notes: Vec<String>,
     copies: BTreeMap<ListKind, Vec<u8>>,
     /// Whether the command line specifies manual points.
@@ -42,9 +42,10 @@ pub struct UsedLists {
 pub type FolderCopies<'a> = (&'a Path, &'a ListCopies);
 
 impl UsedLists {
-    /// Chooses each list. A list on the command line takes precedence. If there is none and the
-    /// list isn't dropped, uses the copy in the output folder `out` or, failing that, the list that
-    /// all merged shards were graded with. Prints where the lists come from and which ones changed.
+    /// Decides where each list comes from. A list on the command line takes precedence. Otherwise,
+    /// unless the list is dropped, the copy in the output folder `out` is used or, failing that,
+    /// the list that all merged shards were graded with. Prints where the lists come from and which
+    /// ones changed.
     pub fn choose(given: Lists, out: Option<&Path>, parts: &[FolderCopies]) -> Result<Self, Error> {
         let mut used = UsedLists {
             lists: given,
@@ -56,8 +57,8 @@ impl UsedLists {
         Ok(used)
     }
 
-    /// Adds the list of people found in the platform's download or, if there is none, the copy of
-    /// an earlier list, unless the list of people is dropped.
+    /// Unless the list of people is dropped, adds the list found in the platform's download or,
+    /// failing that, the copy of an earlier list.
     pub fn add_downloaded(
         &mut self,
         found: Option<PathBuf>,
@@ -177,8 +178,8 @@ impl UsedLists {
 }
 
 impl UsedLists {
-    /// Goes back to the last run's manual points if this run's are refused. Manual points can only
-    /// be checked after grading. `finished` is the result of the run.
+    /// Goes back to the last run's manual points if this run's manual points are rejected. Manual
+    /// points can only be checked after grading. `finished` is the result of the run.
     pub fn forget_refused<T>(
         mut self,
         finished: Result<T, Error>,

@@ -16,7 +16,7 @@ use crate::names::{are_equal, are_same_name, with_detail};
 use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
 
-/// The required columns. A column `date` is optional.
+/// The required columns. A `date` column is optional.
 const COLUMNS: [&str; 5] = ["student", "task", "delta", "comment", "author"];
 const REMEDY: &str = "manual points need the columns student, task, delta, comment and author";
 
@@ -104,7 +104,7 @@ impl ManualPointsList {
             let Some((first, id)) = found.next() else {
                 let remedy = match missing.iter().find(|person| points.is_for(person)) {
                     Some(person) => format!(
-                        "to give points anyway, add an empty folder {:?} to the class",
+                        "to give points anyway, add an empty folder named {:?} to the class",
                         person.display_name()
                     ),
                     None => "use the email address, the student number, the account name or the \
@@ -217,8 +217,9 @@ impl ManualPoints {
         })
     }
 
-    /// If nobody has the written name, but it differs from exactly one person's name only in
-    /// punctuation, returns the points with that person's name. Otherwise, returns them unchanged.
+    /// If nobody has exactly the name in the row, but it differs from one person's name only in
+    /// punctuation, returns the points with that person's name. Otherwise, returns the points
+    /// unchanged.
     fn with_name_of(mut self, entries: &[&mut EntryInfo]) -> Self {
         let people = || entries.iter().flat_map(|info| &info.people);
         let names = people().map(|person| person.name.as_str());

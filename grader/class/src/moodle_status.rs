@@ -1,4 +1,4 @@
-//! The column `Status` of Moodle's grading worksheet: sentences in the language of the person who
+//! The `Status` column of Moodle's grading worksheet: sentences in the language of the person who
 //! downloaded it, joined with ` - ` (`col_status` in Moodle's `mod/assign/gradingtable.php`).
 
 use crate::names::are_equal;

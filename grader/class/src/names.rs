@@ -44,7 +44,7 @@ pub fn are_same_name(one: &str, other: &str) -> bool {
     are_equal(one, other) || (kept(one).next().is_some() && kept(one).eq(kept(other)))
 }
 
-/// Returns whether a platform can have made the name of a file or folder from a listed name by
+/// Returns whether a platform could have derived the name of a file or folder from a listed name by
 /// removing characters or replacing them with spaces.
 pub fn can_become(listed: &str, file: &str) -> bool {
     let (listed, file) = (fold(listed), fold(file));
@@ -67,7 +67,7 @@ pub fn are_alike(file: &str, listed: &str) -> bool {
     .any(|name| letters(name) == wanted)
 }
 
-/// Returns the texts with a separator between them.
+/// Joins the texts with a separator.
 pub fn joined<T: AsRef<str>>(texts: impl IntoIterator<Item = T>, separator: &str) -> String {
     let texts = texts.into_iter().map(|text| text.as_ref().to_owned());
     Vec::from_iter(texts).join(separator)
@@ -99,7 +99,8 @@ pub fn number_at_end(text: &str) -> &str {
     &text[rest.len()..]
 }
 
-/// Returns the sorted letters and digits. Accents are removed, because some platforms drop them.
+/// Returns a name's letters and digits, sorted. Accents are removed, because some platforms drop
+/// them.
 fn letters(name: &str) -> Vec<char> {
     let name = without_invisible(name).to_lowercase();
     let plain = name.nfkd().filter(|c| !is_combining_mark(*c));

@@ -18,7 +18,7 @@ pub struct EntryResult {
     /// The entry's id, which is the name of its folder.
     #[serde(skip)]
     pub id: String,
-    /// Information about the submission, such as its people.
+    /// Information about the submission, such as who handed it in.
     #[serde(rename = "about")]
     pub info: EntryInfo,
     /// The outcome of grading the entry.

@@ -73,7 +73,7 @@ fn result_line(result: &EntryResult) -> String {
         EntryOutcome::Graded(score) => format!("{id}: {} of {}", score.points, score.max_points),
         EntryOutcome::NothingToGrade(why) => format!("{id}: nothing to grade: {why}"),
         EntryOutcome::Fault(why) => {
-            format!("{id}: not graded, which is not the student's fault: {why}")
+            format!("{id}: not graded, through no fault of the student: {why}")
         }
     };
     sanitize_line(&line, usize::MAX)

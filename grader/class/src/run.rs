@@ -106,7 +106,7 @@ impl Run {
         }
     }
 
-    /// Returns the run after a restart.
+    /// Returns the run with the state that it has once it is resumed.
     #[must_use]
     pub fn resume(self) -> Self {
         let state = if self.was_finished() {

@@ -29,7 +29,7 @@ pub struct SimilarPair {
 pub struct ComparedFile {
     /// The task file's name, without its extension.
     pub task: String,
-    /// The submission's id from the key, as a safe cell.
+    /// The submission's id from the key, in a form that is safe in a table's cell.
     pub submission: String,
     /// The path of the file with the students' own lines.
     pub path: PathBuf,

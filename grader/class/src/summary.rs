@@ -14,7 +14,7 @@ use crate::outcome::{EntryOutcome, ItemScore, ScoreSummary, TaskScore, id_and_na
 
 /// The format version of `class.json`.
 const SCHEMA: u32 = 1;
-/// The maximum number of root causes that are listed.
+/// The maximum number of root causes to list.
 const MAX_CAUSES: usize = 20;
 
 /// The contents of `class.json`.
@@ -43,9 +43,10 @@ pub struct ClassSummary {
     pub unclear_times: usize,
     /// The number of submissions without final points because it is unclear who handed them in.
     pub unclear_people: usize,
-    /// The number of submissions by people who aren't in the lists.
+    /// The number of submissions by people who aren't on the lists.
     pub unlisted: usize,
-    /// The number of submissions that aren't used because another submission by the same person is.
+    /// The number of submissions that aren't used because another submission by the same person
+    /// counts.
     pub superseded: usize,
     /// The number of submissions the teacher has yet to choose or reject.
     pub undecided: usize,
@@ -297,7 +298,8 @@ fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
     // Only the most likely hint is counted.
     let hint = |item: &ItemScore| Some((item.hints.first()?.hint.clone(), Some(item.id.clone())));
     let known: Vec<_> = failed.clone().filter_map(hint).collect();
-    // A known mistake also fails items, such as pictures, that cannot tell it from other mistakes.
+    // A known mistake also causes failures in items, such as pictures, that cannot tell it from
+    // other mistakes.
     if !known.is_empty() {
         return known;
     }
@@ -327,7 +329,7 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
     });
     let outlier = |row: &ClassRow| {
         let copies = row.result.ignored_copies().iter().map(|note| Reason {
-            cause: "some files are copies or have other names".to_owned(),
+            cause: "some files are copies or have unexpected names".to_owned(),
             detail: note.clone(),
             remedy: "; check which of them should be graded",
         });

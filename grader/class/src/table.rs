@@ -31,7 +31,9 @@ impl Table {
         let bytes = files::read(path).map_err(Error::user)?;
         Table::parse(&bytes).map_err(|why| {
             let path = path.display();
-            Error::user(format!("{path}: {why}; export it again, as CSV in UTF-8"))
+            Error::user(format!(
+                "{path}: {why}; export it again as a CSV file in UTF-8"
+            ))
         })
     }
 
@@ -160,7 +162,7 @@ impl Table {
     }
 }
 
-/// Returns the error for a missing column, including a remedy.
+/// Returns the error to report when a column is missing. The error includes a remedy.
 pub fn missing_column(path: &Path, column: &str, remedy: &str) -> Error {
     let path = path.display();
     Error::user(format!("{path} has no column {column}: {remedy}"))

@@ -39,8 +39,8 @@ pub struct UnpackedArchive {
     pub build_dir: BuildDir,
     /// The members that cannot be unpacked.
     pub problems: Vec<UnmatchedPath>,
-    /// The files that are needed but are empty because they could not be unpacked. Each is named by
-    /// its path in the folder.
+    /// The files that are needed but are empty because they could not be unpacked. Each is
+    /// identified by its path in the folder.
     pub incomplete: Vec<UnmatchedPath>,
 }
 
@@ -54,7 +54,7 @@ pub fn unpack(
         UnpackError::Archive(why) => {
             let path = path.display();
             Error::user(format!(
-                "{path}: {why}; alternatively, unpack it yourself and pass the path of the folder"
+                "{path}: {why}; alternatively, unpack the archive yourself and pass the path of the folder"
             ))
         }
         UnpackError::File(error) => Error::user(error),

@@ -10,8 +10,8 @@ use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use tar::{Archive, Entry};
 
-/// The number of random inputs per target, roughly half of them changes to the corpus and half
-/// noise. `cargo fuzz` runs millions.
+/// The number of random inputs per target. Roughly half are changed inputs from the corpus, and
+/// half are noise. `cargo fuzz` tries millions of inputs.
 const CASES: u32 = 300;
 /// The maximum length of a noise input, in bytes.
 const MAX_NOISE_BYTES: usize = 300;

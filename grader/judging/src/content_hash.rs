@@ -8,8 +8,8 @@ const DIGITS: usize = 32;
 pub struct ContentHash(blake2b_simd::State);
 
 impl ContentHash {
-    /// Adds a part. Its length is hashed too, so that the parts `ab` and `c` give a different hash
-    /// than `a` and `bc`.
+    /// Adds a part. Its length is hashed too, so that adding `ab` and `c` results in a different
+    /// hash from adding `a` and `bc`.
     pub fn add(&mut self, part: &[u8]) {
         self.0.update(&(part.len() as u64).to_le_bytes());
         self.0.update(part);

@@ -42,8 +42,8 @@ pub struct TraversalStep {
 pub struct UpperLevels {
     /// The nodes down to level [`UpperLevels::LEVELS`] - 1, in any order.
     pub nodes: Vec<LevelNode>,
-    /// The plane that splits the root's primitives, as its axis and a coordinate between the
-    /// centres of the primitives on either side. `None` if the root is a leaf, or if no plane
+    /// The plane that splits the root's primitives, described by its axis and a coordinate between
+    /// the centres of the primitives on either side. `None` if the root is a leaf, or if no plane
     /// separates the centres.
     pub plane: Option<(u8, f32)>,
 }
@@ -69,7 +69,7 @@ pub struct LevelNode {
     pub cost: f32,
 }
 
-/// The message if the data belongs to a different kind of question.
+/// The error message for data that belongs to a different kind of question.
 const OTHER_KIND: &str = "the drawing data is for a different kind of question";
 
 impl DrawingData {
@@ -81,7 +81,7 @@ impl DrawingData {
         }
     }
 
-    /// Returns the reason that the data doesn't fit `question`, or `None` if it fits.
+    /// Returns the reason why the data doesn't fit `question`, or `None` if it does.
     pub fn problem(&self, question: &Question) -> Option<String> {
         let count = question.count();
         match (self, question) {

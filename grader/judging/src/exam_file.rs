@@ -117,7 +117,7 @@ pub fn assignment_id(bytes: &[u8]) -> Option<String> {
     exam.map(|exam| exam.assignment)
 }
 
-/// Returns the problem if the file's format version is not the one this grader reads.
+/// Returns the problem to report if the file's format isn't the version that this grader reads.
 fn format_problem(schema: u32) -> Option<String> {
     (schema != Exam::SCHEMA).then(|| {
         let known = Exam::SCHEMA;

@@ -89,7 +89,7 @@ pub enum NoAnswerReason {
 /// messages and numbers, but the kind is the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PanicKind {
-    /// An index or a range outside a list.
+    /// An index or a range that is out of bounds.
     Index,
     /// An integer overflow, or an integer division by zero.
     Arithmetic,
@@ -129,8 +129,8 @@ impl ObservedAnswer {
         PanicKind::of(message).map_or(ObservedAnswer::Panicked, ObservedAnswer::PanickedBy)
     }
 
-    /// Returns whether the answer only says that the result is missing, and nothing about the
-    /// cause.
+    /// Returns whether the answer only says that the result is missing, without any information
+    /// about the cause.
     pub fn is_uninformative(&self) -> bool {
         match self {
             ObservedAnswer::Panicked
@@ -140,7 +140,7 @@ impl ObservedAnswer {
         }
     }
 
-    /// Returns whether the answer is a kind of panic that few mistakes cause.
+    /// Returns whether the answer is a panic of a kind that few mistakes cause.
     pub fn is_telling_panic(&self) -> bool {
         matches!(self, ObservedAnswer::PanickedBy(_))
     }

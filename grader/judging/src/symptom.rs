@@ -68,8 +68,8 @@ impl Symptom {
 }
 
 impl Side {
-    /// Returns the side of an answer that is there although it shouldn't be, or is missing although
-    /// it should be there.
+    /// Returns the side for an answer that is present when it shouldn't be, or missing when it
+    /// should be present.
     pub fn of_presence(is_there: bool) -> Self {
         if is_there { Side::More } else { Side::Less }
     }

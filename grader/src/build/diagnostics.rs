@@ -78,7 +78,8 @@ fn of_level(messages: &str, level: &str) -> Vec<Diagnostic> {
 impl Diagnostic {
     /// Returns the task file to fix, which is usually the file with the error. For an error in a
     /// given file, it is the task file that the message refers to ("method not found for this
-    /// struct") or, failing that, the one whose name appears first in the line with the error.
+    /// struct") or, failing that, the task file whose name appears first in the line with the
+    /// error.
     pub fn blamed_file(&self, task_files: &[TaskFile]) -> Option<&'static str> {
         let mut spans = self.spans_in_order();
         let named =
@@ -94,8 +95,8 @@ impl Diagnostic {
         self.spans.iter().filter(|span| span.is_primary)
     }
 
-    /// Returns all spans that the message refers to: first those of the error, then those that only
-    /// explain it.
+    /// Returns all spans that the message refers to: first the spans of the error itself, then the
+    /// spans that only explain it.
     fn spans_in_order(&self) -> impl Iterator<Item = &Span> {
         let secondary = self.spans.iter().filter(|span| !span.is_primary);
         let explaining = self.children.iter().flat_map(|child| &child.spans);

@@ -17,7 +17,7 @@ const BUNDLED_LINKER: &str = "lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld"
 /// The C compiler that `rustc` links with, and the linker that the C compiler looks for.
 const DRIVER: &str = "cc";
 const LINKER: &str = "ld";
-/// Programs that stand in for a C compiler and would look for the real one on the PATH.
+/// Programs that stand in for a C compiler and would look for the real compiler on the PATH.
 const WRAPPERS: [&str; 4] = ["ccache", "sccache", "distcc", "icecc"];
 
 /// The system's linker.

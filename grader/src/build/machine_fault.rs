@@ -8,7 +8,7 @@ use crate::build::diagnostics::Diagnostic;
 use crate::machine::system;
 use crate::sandbox::ExitReason;
 
-/// Free disk space, in bytes, below which a failed compile is blamed on the disk.
+/// Free disk space, in bytes, below which a failed compile is blamed on a full disk.
 const MIN_FREE_BYTES: u64 = 64 << 20;
 /// Part of the compiler's message if the linker was killed with SIGKILL. Resource limits kill it
 /// with different signals.
@@ -18,8 +18,8 @@ const LINKER_KILLED: &str = "signal: 9 (SIGKILL)";
 pub(super) const KILLED: &str = "the system killed the compiler (signal 9), even for a small program: \
                                  give this machine more memory, or grade fewer submissions at a time";
 
-/// Returns an error if the disk is full. `folder` is the build directory of a failed compile. It is
-/// removed first, so that a submission isn't excused if it filled the disk itself.
+/// Returns an error if the disk is full. `folder` is the build directory of a failed compile. This
+/// directory is removed first, so that a submission that filled the disk itself isn't excused.
 pub(super) fn check_disk(folder: &Path) -> io::Result<()> {
     fs::remove_dir_all(folder).ok();
     let path = folder.parent().unwrap_or(folder);

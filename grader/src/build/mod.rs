@@ -165,9 +165,9 @@ impl Builder {
         self.build_with_progress(submission, |_| {})
     }
 
-    /// Builds a submission like [`Builder::build`], but calls `report_errors` whenever it finds
-    /// more files that don't compile, before it compiles the others. This way, students see errors
-    /// early.
+    /// Builds a submission as [`Builder::build`] does, but calls `report_errors` whenever it finds
+    /// more files that don't compile, before it compiles the other files. This way, students see
+    /// errors early.
     pub fn build_with_progress(
         &self,
         submission: &Submission,

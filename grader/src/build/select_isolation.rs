@@ -22,7 +22,7 @@ pub enum IsolationRequest {
 
 const ADVICE: &str = "see `cargo grade --doctor`; to grade your own work, leave out --untrusted";
 
-/// Tests the requested isolation and returns the builder with it. For
+/// Tests the requested isolation and returns a builder that uses it. For
 /// [`IsolationRequest::OwnWork`], the builder is returned unchanged.
 pub fn with_requested_level(builder: Builder, request: IsolationRequest) -> Result<Builder, Error> {
     match request {
@@ -36,8 +36,8 @@ pub fn with_requested_level(builder: Builder, request: IsolationRequest) -> Resu
     }
 }
 
-/// Returns the builder with the best available level, provided that it is good enough for other
-/// people's code.
+/// Returns a builder that uses the best available level, provided that this level is good enough
+/// for other people's code.
 pub fn with_best_level(builder: &Builder) -> Result<Builder, Error> {
     let mut missing = String::new();
     let levels = Isolation::ALL.into_iter();
@@ -53,7 +53,7 @@ pub fn with_best_level(builder: &Builder) -> Result<Builder, Error> {
     )))
 }
 
-/// Tests this level and returns the builder with it.
+/// Tests this level and returns a builder that uses it.
 pub fn with_level(builder: &Builder, level: Isolation) -> Result<Builder, SelfTestError> {
     let builder = builder.clone().with_sandbox(Sandbox::at(level));
     if level > Isolation::None {

@@ -9,17 +9,17 @@ use crate::build::diagnostics::Diagnostic;
 pub struct Crate<'a> {
     /// Name of the crate.
     pub name: &'a str,
-    /// Whether to compile the crate to a program or to a library.
+    /// Whether to compile the crate as a program or as a library.
     pub kind: CrateKind,
     /// Folder that contains the sources. The output is also written there.
     pub folder: &'a Path,
-    /// File of the root module, relative to the folder.
+    /// Path of the root module's file, relative to `folder`.
     pub root: &'a str,
     /// Names and libraries of the crates that this crate may import, in addition to those that
     /// every submission may import.
     pub links: &'a [(&'a str, &'a Path)],
-    /// Folder that contains the additional dependencies of `links`, i.e. those that submissions
-    /// don't have. `None` if there are no such dependencies.
+    /// Folder that contains the dependencies of `links`, apart from the crates that every
+    /// submission may import. `None` if `links` has no other dependencies.
     pub dependency_folder: Option<&'a Path>,
 }
 
@@ -37,7 +37,7 @@ impl<'a> Crate<'a> {
     }
 }
 
-/// The kind of output that a crate is compiled to.
+/// The kind of output that compiling a crate produces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CrateKind {
     /// An executable.

@@ -1,12 +1,12 @@
 //! Compiles one of a submission's files with the reference's parts in place of the other files.
-//! This way, for example, a mistake in the box test doesn't cost points for traversing a tree.
+//! This way, for example, a mistake in the box test doesn't cost points for tree traversal.
 //!
 //! The parts are some of the reference's files, compiled once. The submission's file is compiled
-//! only against the metadata of the parts. It is linked with them in a separate step, which reads
-//! none of the file's source. The reference's own version of the file isn't used. The harness
-//! around the file may replace some of the file's functions: around `bvh.rs`, it replaces the
-//! submission's `build` with a simple one, so that a mistake in building doesn't cost points for
-//! traversal.
+//! only against the metadata of the parts. It is then linked with the parts in a separate step,
+//! which doesn't read the file's source. The reference's own version of the file isn't used. The
+//! harness around the file may replace some of the file's functions: around `bvh.rs`, it replaces
+//! the submission's `build` with a simple one, so that a mistake in building doesn't cost points
+//! for traversal.
 
 use std::fs;
 use std::io;
@@ -47,8 +47,8 @@ pub struct ReferenceParts {
 }
 
 impl ReferenceParts {
-    /// Returns the parts from `cache`. Compiles them if the reference's files or the compiler have
-    /// changed.
+    /// Returns the parts from `cache`, after compiling them if the reference's files or the
+    /// compiler have changed.
     pub fn prepare(
         spec: &'static SubstitutedFile,
         handed_out: &HandedOut,
@@ -81,7 +81,8 @@ impl ReferenceParts {
         files::create_dir_all(cache)?;
         let work = TempDir::new_in(cache).at("create a folder in", cache)?;
         compile_parts(&parts, &root, work.path(), rustc)?;
-        // The folder appears complete or not at all. Another process may have created it first.
+        // Renaming makes the folder appear all at once, never half-written. Another process may
+        // have created it first.
         match fs::rename(work.path(), folder) {
             Err(_) if folder.is_dir() => {}
             renamed => renamed.at("create", folder)?,
@@ -213,8 +214,8 @@ impl Substitution {
     }
 
     /// Compiles the starter's file with the parts. Called if no error explains why the submission's
-    /// file doesn't compile, or if its program cannot be started. If the starter's file doesn't
-    /// compile either, the machine is to blame.
+    /// file doesn't compile, or if the program built from that file cannot be started. If the
+    /// starter's file doesn't compile either, the machine is to blame.
     pub(super) fn starter_program(&self) -> io::Result<PathBuf> {
         let starter = Substitution {
             file: self.file,

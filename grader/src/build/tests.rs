@@ -7,7 +7,8 @@ use crate::build::linker::SystemLinker;
 use crate::handed_out::RAYS;
 
 impl Build {
-    /// Returns a build in this folder that has no programs because these files didn't compile.
+    /// Returns a build in `folder` without any programs, because the files in `not_compiled` didn't
+    /// compile.
     pub fn without_programs(
         folder: &Path,
         not_compiled: BTreeMap<&'static str, NotCompiled>,

@@ -22,7 +22,8 @@ pub struct Toolchain {
 }
 
 impl Toolchain {
-    /// Finds the toolchain whose cargo runs this program or, failing that, the one on the PATH.
+    /// Finds the toolchain whose `cargo` is running this program or, failing that, the toolchain on
+    /// the PATH.
     pub fn find() -> Result<Self, Error> {
         if let Some(toolchain) =
             env::var_os("CARGO").and_then(|cargo| toolchain_beside(Path::new(&cargo)))
@@ -46,7 +47,7 @@ impl Toolchain {
     }
 
     /// Returns text that changes when the compiler changes. It isn't the compiler's version,
-    /// because running the compiler to get that would take 10 ms.
+    /// because running the compiler to ask for its version would take 10 ms.
     pub fn fingerprint(&self) -> String {
         let driver = self.sysroot().join("lib");
         let [rustc, driver] = [&self.rustc, &driver].map(|path| file_fingerprint(path));
@@ -66,7 +67,7 @@ pub fn file_fingerprint(path: &Path) -> String {
 
 fn not_found(why: &str) -> Error {
     Error::Machine(format!(
-        "cannot find rustc: install Rust, or put it on the PATH ({why})"
+        "cannot find rustc: install Rust, or add rustc to the PATH ({why})"
     ))
 }
 

@@ -27,7 +27,7 @@ const MAX_OUTPUT_BYTES: usize = 1 << 16;
 const HONEST_OUTPUT: &str = "end\n";
 
 /// Returns an error unless the control program, compiled next to `folder`, runs to completion. The
-/// control program uses as much memory as any program may use without being considered out of
+/// control program uses the most memory that a program may use without being considered out of
 /// memory.
 pub(super) fn check_run(rustc: &Rustc, folder: &Path) -> io::Result<()> {
     let (_folder, program) = rustc.compile_honest(folder)?;
@@ -51,7 +51,8 @@ pub(super) fn run(sandbox: &Sandbox, program: &Path, input: &str) -> io::Result<
     let output = Capture::start(stdout, MAX_OUTPUT_BYTES);
     let errors = Capture::start(stderr, MAX_OUTPUT_BYTES);
     let mut stdin = process.child.stdin.take().expect("the stream is piped");
-    // If the program has already ended, its output says why.
+    // Writing fails if the program has already ended. In that case, the program's output says why
+    // it ended.
     stdin.write_all(input.as_bytes()).ok();
 
     let deadline = Instant::now() + WALL_LIMIT;

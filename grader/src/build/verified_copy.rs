@@ -18,7 +18,7 @@ const MAGIC_NUMBERS: [&[u8]; 2] = [b"\x7fELF", b"!<arch>\n"];
 pub(super) enum OutputFile {
     /// The path of a program or library.
     Verified(PathBuf),
-    /// The file has this many bytes, which is too many.
+    /// The file is too large: it has this many bytes.
     TooLarge(u64),
     /// The file is missing, or it isn't a regular file that begins like a program or library.
     Missing,

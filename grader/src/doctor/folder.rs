@@ -1,4 +1,4 @@
-//! Checks the packages that are folders: the one for classroom50 and the template repository for
+//! Checks the packages that are folders: the classroom50 package and the template repository for
 //! GitHub.
 
 use std::fs;

@@ -25,7 +25,7 @@ const LINUX_ONLY_CRATE: &str = "/landlock-";
 /// Options and commands that are followed by the name of a Rust toolchain.
 const INSTALLERS: [&str; 2] = ["--default-toolchain ", "toolchain install "];
 
-/// Returns whether a script installs a toolchain without a fixed version, such as `stable`.
+/// Returns whether a script installs a toolchain that has no fixed version, such as `stable`.
 fn installs_floating(script: &[u8], installer: &str) -> bool {
     let script = String::from_utf8_lossy(script);
     let mut toolchains = script.split(installer).skip(1);
@@ -53,7 +53,7 @@ impl PackageContents {
             |name: &String| name.starts_with(CRATE_CACHE) && name.contains(LINUX_ONLY_CRATE);
         match [CRATE_CACHE, CRATE_INDEX].into_iter().find(|part| !self.has_files_in(part)) {
             Some(empty) => problems.push(format!(
-                "{empty} is empty, so the grader cannot be built without a network: create the package on a machine where `cargo build` has run"
+                "{empty} is empty, so the grader cannot be built without network access: create the package on a machine where `cargo build` has run"
             )),
             None if !self.permissions.keys().any(is_for_linux) => problems.push(format!(
                 "{CRATE_CACHE} lacks the crates that only Linux needs, and Gradescope runs on Linux: create the package on Linux"

@@ -38,7 +38,7 @@ impl Diagnosis {
         working.next().map_or(Isolation::None, |(level, _)| *level)
     }
 
-    /// Returns 0 if other people's work can be graded here, otherwise 3.
+    /// Returns the exit code: 0 if other people's work can be graded on this machine, otherwise 3.
     pub fn exit_code(&self) -> u8 {
         if self.best_level() >= MIN_FOR_UNTRUSTED {
             0

@@ -162,7 +162,7 @@ fn draw_legend(sheet: &mut Sheet, query: &BoxQuery) {
     let start = format!("the ray starts at {}", describe::point(query.ray.origin));
     sheet.add_legend(Symbol::Mark(Mark::Origin), &start);
     if query.slabs.is_some() {
-        let text = "when the ray is between the planes of x, y and z";
+        let text = "when the ray is between the x, y and z planes";
         sheet.add_legend(Symbol::Area(Fill::Tint(Ink::Text, 0.18)), text);
     }
 }

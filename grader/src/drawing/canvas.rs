@@ -182,8 +182,8 @@ impl Canvas {
     }
 
     /// Draws a ray's line: its range, and the parts behind and ahead of its origin. `at` returns
-    /// the point at a distance along the ray. The line is drawn up to the distance `far` in both
-    /// directions.
+    /// the point at a given distance along the ray. The line is drawn up to the distance `far` in
+    /// both directions.
     pub(super) fn ray(
         &mut self,
         window: &Window,

@@ -6,8 +6,8 @@ use protocol::Shape;
 use super::hit_comparison::HitComparison;
 use super::{Drawing, sphere, triangle};
 
-/// Draws the shape of the expected hit. If no hit is expected, draws the shape of the submitted hit
-/// or, if there is none either, the shape nearest to the ray.
+/// Draws the shape of the expected hit. If no hit is expected, draws the shape of the submitted
+/// hit. If there is no submitted hit either, draws the shape nearest to the ray.
 pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawing> {
     let hit = comparison.wanted.or(comparison.got.hit());
     let distance = |shape: &&Shape| match hit {
@@ -31,7 +31,7 @@ pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawi
     }
 }
 
-/// Returns the approximate distance of a point from the surface of a shape.
+/// Returns the approximate distance from a point to the surface of a shape.
 fn distance_to_surface(shape: &Shape, point: DVec3) -> f64 {
     match *shape {
         Shape::Sphere { center, radius, .. } => {
@@ -46,7 +46,7 @@ fn distance_to_surface(shape: &Shape, point: DVec3) -> f64 {
     }
 }
 
-/// Returns the distance of a shape's centre from the ray's line.
+/// Returns the distance from a shape's centre to the ray's line.
 fn distance_to_line(shape: &Shape, comparison: &HitComparison) -> f64 {
     let [p0, p1, p2] = corners(shape);
     let aside = (p0 + p1 + p2) / 3.0 - comparison.ray.origin.as_dvec3();

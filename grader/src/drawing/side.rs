@@ -170,7 +170,9 @@ impl SideView<'_> {
         }
         add_range_legend(sheet, comparison);
         let text = match window.distance_outside(DVec2::ZERO) {
-            away if away > 0.0 => format!("the ray starts {} outside the picture", short(away)),
+            away if away > 0.0 => {
+                format!("the ray starts {} units outside the picture", short(away))
+            }
             _ => "the ray's origin".to_owned(),
         };
         sheet.add_legend(Symbol::Mark(Mark::Origin), &text);

@@ -1,5 +1,6 @@
-//! Draws a ray and a triangle as seen from two directions: along the ray, so that the ray is a
-//! point inside or outside the triangle, and from the side, so that the triangle's plane is a line.
+//! Draws a ray and a triangle as seen from two directions: along the ray, where the ray appears as
+//! a point inside or outside the triangle, and from the side, where the triangle's plane appears as
+//! a line.
 
 use glam::{DVec2, DVec3, dvec2};
 use protocol::Vertex;

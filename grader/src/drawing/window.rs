@@ -55,8 +55,8 @@ impl Window {
         length / self.scale
     }
 
-    /// Converts a point to page coordinates and clamps it to the panel. The flag is true if the
-    /// point was outside. Returns `None` if the point isn't finite.
+    /// Converts a point to page coordinates and clamps it to the panel. The flag says whether the
+    /// point was outside the panel. Returns `None` if the point isn't finite.
     pub(super) fn pin_to_border(&self, at: DVec2) -> Option<(DVec2, bool)> {
         let (min, max) = (self.panel.min + 7.0, self.panel.max - 7.0);
         let page = self.page_position(at);

@@ -61,7 +61,8 @@ fn result(view: &StudentView, item: &ItemScore, context: &FormatContext) -> Valu
     })
 }
 
-/// Returns a check that explains the grade. The format doesn't provide another place for it.
+/// Returns a check that explains the grade. The format doesn't provide another place for such an
+/// explanation.
 fn counted_result(text: String) -> Value {
     json!({
         "name": "counted",

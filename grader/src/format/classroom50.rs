@@ -19,7 +19,8 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ..FormatSpec::EMPTY
 };
 
-/// The environment variables that describe the submission. The runner sets all except the last.
+/// The environment variables that describe the submission. The runner sets all of them except the
+/// last.
 const VARIABLES: [&str; 9] = [
     "CLASSROOM",
     "ASSIGNMENT",

@@ -88,8 +88,9 @@ fn output(view: &StudentView) -> String {
     parts.collect::<Vec<_>>().join("\n\n")
 }
 
-/// Returns a test without points that explains the total. It is needed if the total includes hidden
-/// items: when Gradescope shows students the total, they should also see how it was calculated.
+/// Returns a test that is worth no points and explains the total. Such a test is needed if the
+/// total includes hidden items: when Gradescope shows students the total, they should also see how
+/// it was calculated.
 fn counted_test(view: &StudentView, number: usize) -> Option<Value> {
     let items = view.all_items.iter().map(|entry| entry.visibility);
     let hidden: Vec<Visibility> = items.filter(|shown| !shown.is_shown_now()).collect();

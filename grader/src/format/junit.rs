@@ -1,7 +1,7 @@
 //! JUnit XML with a suite for each task and a test case for each item.
 //!
 //! The file is written with `maud`, whose escaped text is valid XML. A crate for JUnit would bring
-//! in seven other crates and add a tenth to the compile time of the first `cargo grade`. Every
+//! in seven other crates and lengthen the compile time of the first `cargo grade` by a tenth. Every
 //! element is closed explicitly with `{}`, since XML has no void elements.
 
 use maud::{Markup, PreEscaped, html};

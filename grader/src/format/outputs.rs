@@ -33,9 +33,9 @@ struct Output {
 }
 
 impl Outputs {
-    /// Resolves the path of each requested output: the path in the request or, if there is none,
-    /// the platform's path or, failing that, a file in `folder`. Fails if the environment lacks a
-    /// variable that a format needs.
+    /// Resolves the path of each requested output. A path in the request takes precedence over the
+    /// platform's path. If there is neither, the output goes to a file in `folder`. Fails if the
+    /// environment lacks a variable that a format needs.
     pub fn new(
         specs: &[OutputSpec],
         folder: &Path,

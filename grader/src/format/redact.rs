@@ -32,7 +32,7 @@ pub(super) fn visible_score(score: &Score, items: &[ItemView]) -> Score {
             .iter()
             .map(|task| visible_task(task, items))
             .collect(),
-        // The compiler ran before any question was sent, so its messages cannot repeat one.
+        // The compiler ran before any question was sent, so its messages cannot repeat any of them.
         build: sanitized_build(&score.build),
         timings: if shows_everything(items) {
             score.timings.clone()
@@ -101,7 +101,7 @@ pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]
             at: None,
             look: (item.look.clone()).filter(|_| verdict.kind() == VerdictKind::Failed),
             verdict,
-            // A program could choose which clue it gets.
+            // A program could choose which clue is shown, and so reveal a question.
             clue: None,
             section: item.section.clone(),
             symptom_clue: None,
@@ -174,8 +174,8 @@ fn verdict_from_points(is_pending: bool, points: u32, max_points: u32) -> Verdic
     }
 }
 
-/// Returns the items of a task that students may see now, plus one item that combines all the
-/// others.
+/// Returns the items of a task that students may see now, plus one item that combines all hidden
+/// items.
 fn items_shown_now(task: &TaskScore, of_task: &[&ItemView]) -> Vec<ItemScore> {
     let (open, hidden): (Vec<&ItemView>, Vec<&ItemView>) = of_task
         .iter()

@@ -1,9 +1,9 @@
-//! The sentences about an item that students read if they don't have the exam.
+//! The sentences about an item for students who don't have the exam.
 //!
-//! When a submission's program is graded, it sees the questions. Anything that it can influence and
-//! that a student later reads could leak the questions: the text of a panic, an exit code or the
-//! number of wrong answers. So the sentence about an item depends only on the item's verdict. The
-//! only other thing it may contain is an item's id.
+//! When a submission's program is graded, it sees the questions. Anything that the program can
+//! influence and that a student later reads could leak the questions: the text of a panic, an exit
+//! code or the number of wrong answers. So the sentence about an item depends only on the item's
+//! verdict. The only other thing it may contain is an item's id.
 
 use crate::score::Verdict;
 

@@ -18,9 +18,9 @@ pub struct FormatSpec {
     pub file: &'static str,
     /// The environment variables whose values are copied into the file. All of them must be set.
     pub variables: &'static [&'static str],
-    /// The environment variable that holds the path of a file shared between commands by the
-    /// platform. If it is set, the text is appended to that file unless a different path is
-    /// requested.
+    /// The environment variable that holds the path of a file to which several commands on the
+    /// platform append. If the variable is set, the text is appended to that file unless a
+    /// different path is requested.
     pub shared_file: Option<&'static str>,
     /// Renders the file. `None` for the score file, which isn't for students.
     pub render: Option<Render>,
@@ -28,7 +28,7 @@ pub struct FormatSpec {
     pub runner_commands: Option<Render>,
 }
 
-/// A renderer. It only gets what students may see.
+/// A function that renders a format. It only receives what students may see.
 pub type Render = fn(&StudentView, &FormatContext) -> String;
 
 /// Facts about a submission that aren't part of its score.
@@ -55,8 +55,8 @@ pub struct MethodLocation {
 }
 
 impl FormatContext {
-    /// Returns the name of the file with a task's method. The name is empty if the task isn't part
-    /// of the assignment.
+    /// Returns the name of the file that contains a task's method. The name is empty if the task
+    /// isn't part of the assignment.
     pub fn file_of(&self, task: Task) -> &str {
         self.methods.get(&task).map_or("", |method| method.file)
     }
@@ -72,7 +72,8 @@ pub struct OutputSpec {
 }
 
 impl FormatSpec {
-    /// A format with empty values, as a base for the others.
+    /// A format whose values are all empty, on which the definitions of the actual formats are
+    /// based.
     pub const EMPTY: FormatSpec = FormatSpec {
         id: "",
         file: "",

@@ -117,8 +117,8 @@ fn item_points(item: &ItemScore) -> ItemPoints<'_> {
 }
 
 /// Returns whether students may see everything about all items of a task. If even one item is
-/// restricted, they don't see everything about any of them: one process answers the whole task, so
-/// its answer to an open item can repeat a question of another item.
+/// restricted, students don't see everything about the others either: one process answers the whole
+/// task, so its answer to an open item can repeat a question from another item.
 fn is_open(task: &TaskScore, policy: &Policy, score: &Score) -> bool {
     let mut items = task.items.iter();
     items.all(|item| policy.visibility(&score.exam, &item.id) == Visibility::All)
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
     use crate::format::tests::sample;
 
-    /// Returns the students' view of the sample, treated as a final exam. `items` lists the
+    /// Returns the students' view of the sample as if it were for a final exam. `items` lists the
     /// exceptions to full visibility.
     fn view(items: &str) -> StudentView {
         let policy = format!("[visibility]\nfinal = 'all'\n[visibility.items]\n{items}");

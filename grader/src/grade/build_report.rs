@@ -20,7 +20,7 @@ pub fn build_report(submission: &Submission, build: &Build) -> BuildReport {
     }
 }
 
-/// Returns notes on the submission's files, which don't affect points.
+/// Returns notes on the submission's files. These notes don't affect points.
 fn notes(submission: &Submission, build: &Build) -> Vec<String> {
     let mut notes = submission.notes.clone();
     let compiled = submission

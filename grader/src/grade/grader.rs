@@ -156,8 +156,8 @@ impl<'a> Grader<'a> {
         &self.policy
     }
 
-    /// Returns the exam. If only some tasks are graded, it contains their items and the items that
-    /// those depend on.
+    /// Returns the exam. If only some tasks are graded, it contains the items of these tasks and
+    /// all items that they depend on.
     pub fn exam(&self) -> &Exam {
         &self.exam
     }
@@ -248,8 +248,8 @@ impl<'a> Grader<'a> {
         }
     }
 
-    /// Returns the report's files. Returns `None` if only some tasks are graded, because their
-    /// points don't make up a score.
+    /// Returns the report's files, or `None` if only some tasks are graded, because their points
+    /// don't make up a score.
     pub fn files(&self, submission: &Submission, reload: Reload) -> Option<ReportFiles> {
         let folder = match &self.options.out {
             Some(folder) => folder.clone(),

@@ -1,4 +1,4 @@
-//! Grades a submission, from the options to the score.
+//! Grades a submission, covering every step from the options to the score.
 
 mod build_report;
 pub(crate) mod cached_report;

@@ -44,7 +44,8 @@ pub struct GradeOptions {
 
 impl GradeOptions {
     /// Returns the value of `--assignment` in a command that repeats the grading, or `None` if the
-    /// exam file determines the assignment or if it is the default one.
+    /// option isn't needed because the exam file determines the assignment or because it is the
+    /// default assignment.
     pub fn assignment_option(&self) -> Option<&'static str> {
         let is_default = self.handed_out == <&HandedOut>::default();
         let is_chosen = self.exam == ExamSource::Practice && !is_default;
@@ -77,7 +78,7 @@ pub enum Dependents {
     /// Grade them with the reference's parts, if the reference is in the workspace.
     #[default]
     SubstituteReference,
-    /// Block them, as on a student's machine.
+    /// Block them, as happens on a student's machine.
     Block,
 }
 

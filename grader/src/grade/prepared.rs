@@ -43,7 +43,7 @@ impl<'a> PreparedSubmission<'a> {
         })
     }
 
-    /// Returns the builder, which doesn't have a sandbox yet. It is prepared on the first call.
+    /// Returns the builder, which doesn't have a sandbox yet. The first call prepares the builder.
     pub fn builder(&mut self) -> Result<&Builder, Error> {
         let builder = match self.builder.take() {
             Some(builder) => builder,

@@ -1,4 +1,4 @@
-//! The bytes of the archive. The same files always give the same bytes, on any machine.
+//! The bytes of the archive. The same files always produce the same bytes, on any machine.
 
 use std::io::Write;
 

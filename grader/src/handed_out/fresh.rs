@@ -32,7 +32,9 @@ impl HandedOut {
     /// If the task isn't part of the assignment.
     pub fn task_method(&self, task: Task, text: &str) -> Result<TaskMethod, String> {
         let info = self.assignment.info(task);
-        let file = self.task_file(info.file).expect("tasks have a task file");
+        let file = self
+            .task_file(info.file)
+            .expect("every task has a task file");
         let is_tasks = |span: &MethodSpan| {
             let is_inherent = !span.implemented.split(' ').any(|word| word == "for");
             span.name == info.method && is_inherent
@@ -62,7 +64,7 @@ impl HandedOut {
     }
 }
 
-/// A method's current declaration and the original one.
+/// A method's current and original declarations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChangedDeclaration {
     /// The declaration in the submission, on one line.

@@ -10,7 +10,7 @@ use super::tokens::tokens;
 
 /// The reason reported if a method cannot be found because a brace, bracket or parenthesis is
 /// missing or superfluous.
-const UNMATCHED_BRACES: &str = "its braces do not match";
+const UNMATCHED_BRACES: &str = "the file's braces do not match";
 
 /// A method in an `impl` block at the top level of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -23,7 +23,7 @@ pub use own_lines::own_lines;
 pub use rays::RAYS;
 pub use tokens::without_comments;
 
-/// The assignments that `--assignment` selects from. The first is the default.
+/// The assignments that can be selected with `--assignment`. The first is the default.
 pub static ASSIGNMENTS: [&HandedOut; 1] = [&RAYS];
 
 /// An assignment as handed out to students.
@@ -92,7 +92,7 @@ fn starter_methods(file: &TaskFile) -> Vec<MethodSpan<'static>> {
 }
 
 impl Default for &'static HandedOut {
-    /// Returns the assignment for a command line that doesn't name one.
+    /// Returns the assignment to use when the command line doesn't name one.
     fn default() -> Self {
         ASSIGNMENTS[0]
     }
@@ -154,8 +154,8 @@ impl HandedOut {
         }
     }
 
-    /// Returns the folders in which the assignment expects task files and which contain at least
-    /// one. The paths are relative to the submission's folder.
+    /// Returns the folders in which the assignment expects task files, leaving out folders that
+    /// contain none. The paths are relative to the submission's folder.
     pub fn folders_in(&self, submission: &Path) -> impl Iterator<Item = &'static str> {
         let has_task_file = move |below: &&str| {
             let folder = submission.join(below);

@@ -3,7 +3,7 @@
 use crate::handed_out::TaskFile;
 use crate::handed_out::tokens::{tokens, without_comments};
 
-/// Returns the lines in a task file's text that aren't the starter's, without comments and empty
+/// Returns the lines of a task file's text that weren't in the starter, without comments and empty
 /// lines. Two lines are equal if their tokens are equal. Only lines in the same order as in the
 /// starter are considered handed out, so that the braces of a student's own code are kept. A byte
 /// order mark, which some editors write, is ignored.

@@ -39,7 +39,7 @@ pub fn without_comments(text: &str) -> String {
     code
 }
 
-/// Returns whether `all` contains the tokens of `part` one after the other, without a gap.
+/// Returns whether `all` contains the tokens of `part` as a contiguous sequence.
 pub(super) fn contains(all: &[&str], part: &[&str]) -> bool {
     part.is_empty() || all.windows(part.len()).any(|window| window == part)
 }

@@ -18,8 +18,8 @@ pub struct QuestionRef {
 }
 
 impl QuestionRef {
-    /// Returns the exam's item with this id or, failing that, the only item whose id has this name
-    /// after the task, such as `from_inside`.
+    /// Returns the exam's item with this id or, failing that, the only item whose id consists of a
+    /// task and this name, such as `from_inside`.
     ///
     /// # Errors
     ///

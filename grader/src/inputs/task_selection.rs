@@ -16,9 +16,9 @@ pub enum TaskSelection {
 }
 
 impl TaskSelection {
-    /// Selects tasks by name. A name is a task's id, or a file's name with or without `.rs`, which
-    /// selects all tasks in that file. Names are case-insensitive. Several names are separated by
-    /// commas.
+    /// Selects tasks by name. A name is either a task's id or a file's name, with or without `.rs`.
+    /// The name of a file selects all tasks in that file. Names are case-insensitive. Several names
+    /// are separated by commas.
     ///
     /// # Errors
     ///
@@ -51,13 +51,14 @@ impl TaskSelection {
 pub enum TaskOrFile {
     /// The task with this id.
     Task(Task),
-    /// The file with this name. It stands for all tasks in the file. If it is to be reset, it may
-    /// also be a given file.
+    /// The file with this name, which stands for all tasks in that file. In a list of files to
+    /// reset, a given file is also allowed.
     File(&'static str),
 }
 
 impl TaskOrFile {
-    /// Returns the tasks with these names, separated by commas. See [`TaskSelection::parse`].
+    /// Returns the tasks and files named in this comma-separated list. See
+    /// [`TaskSelection::parse`].
     ///
     /// # Errors
     ///
@@ -67,8 +68,7 @@ impl TaskOrFile {
         names.map(|name| Self::parse(name, assignment)).collect()
     }
 
-    /// Returns the tasks and files with these names, separated by commas, like
-    /// [`TaskOrFile::parse_list`]. The files may also be given files, such as `world.rs`.
+    /// Like [`TaskOrFile::parse_list`], but the list may also name given files, such as `world.rs`.
     ///
     /// # Errors
     ///

@@ -6,7 +6,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// The beginning and the length of the output that a process has printed so far.
+/// The beginning of the output that a process has printed so far, and the length of that output.
 #[derive(Clone, Debug)]
 pub struct Capture {
     shared: Arc<Shared>,

@@ -5,19 +5,21 @@ use std::path::Path;
 
 use crate::machine::printing::print_error_line;
 
-/// Opens a file with the desktop's default program for it, without waiting for the program to exit.
-/// If this fails, prints the path of the file instead of returning an error.
+/// Opens a file with the desktop's default program for its type, without waiting for the program to
+/// exit. If this fails, prints the path of the file instead of returning an error.
 pub fn show(file: &Path) {
     if let Err(why) = open(file) {
         print_error_line(format_args!("{why}: open {} yourself", file.display()));
     }
 }
 
-/// Opens a file with the desktop's default program for it, without waiting for that program.
+/// Opens a file with the desktop's default program for its type, without waiting for the program to
+/// exit.
 ///
 /// # Errors
 ///
-/// Returns the reason as a message: there is either no desktop or no program for this type of file.
+/// Returns a message with the reason: there is either no desktop or no program for this type of
+/// file.
 pub fn open(file: &Path) -> Result<(), String> {
     if !has_desktop() {
         return Err("no desktop session is available".to_owned());

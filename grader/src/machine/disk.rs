@@ -1,10 +1,10 @@
 //! The interface between the grader and the disk. An installed [`Disk`] is called before every
 //! operation on the files of submissions, reports and classes, and can make the operation fail.
 //! Tests install disks that are full, or that fail every operation from some point on, as if the
-//! process had been killed. Outside tests, none is installed.
+//! process had been killed. Outside tests, no disk is installed.
 //!
-//! The disk isn't called for files used by the compiler, its sandbox or the probes. Those run in
-//! separate processes, so tests make the processes fail instead.
+//! The disk isn't called for files used by the compiler, its sandbox or the probes. Compilers and
+//! probes run in separate processes, so tests make these processes fail instead.
 
 use std::io;
 use std::path::Path;
@@ -40,7 +40,7 @@ pub trait Disk: Send + Sync {
 static INSTALLED: OnceLock<&'static dyn Disk> = OnceLock::new();
 
 /// Installs a disk for the rest of this process. Returns `false` if a disk has already been
-/// installed. In that case, the new one has no effect.
+/// installed. In that case, the new disk has no effect.
 pub fn install(disk: &'static dyn Disk) -> bool {
     INSTALLED.set(disk).is_ok()
 }

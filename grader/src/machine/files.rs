@@ -24,7 +24,7 @@ pub struct PathError {
 
 /// Adds a path to the error of a system call.
 pub trait AtPath<T> {
-    /// Adds the path, and the words to put between "cannot" and the path.
+    /// Adds the path, and `action` as the words between "cannot" and the path.
     fn at(self, action: &'static str, path: impl AsRef<Path>) -> Result<T, PathError>;
 }
 
@@ -67,9 +67,9 @@ impl PathError {
     }
 }
 
-/// Returns whether a read error is about the file itself: it is gone, or its permissions don't
-/// allow it to be read. Other errors, such as those from a network drive, are the machine's fault
-/// and must not cost a submission any points.
+/// Returns whether a read error is caused by the file itself: the file is gone, or its permissions
+/// don't allow it to be read. Other errors, such as those from a network drive, are the machine's
+/// fault and must not cost a submission any points.
 pub fn is_about_file(error: &io::Error) -> bool {
     matches!(
         error.kind(),

@@ -63,7 +63,7 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Prints the help that the command line asks for, or the error in the command line, and exits.
+/// Prints the help that the user requested, or the error in the command line, and exits.
 #[expect(clippy::exit, reason = "clap exits in the same way")]
 pub fn exit_with(error: &clap::Error) -> ! {
     let text = error.render().ansi().to_string();
@@ -80,7 +80,7 @@ pub fn exit_with(error: &clap::Error) -> ! {
 /// may be removed later.
 pub fn without_commands(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    // The number of colons in the line so far, or `None` if it contains anything else.
+    // The number of colons in the line so far, or `None` if the line contains anything else.
     let mut colons = Some(0);
     // The number of `#` characters just before this character, up to 2. There may be letters after
     // the second one.

@@ -1,4 +1,4 @@
-//! Decides whether the machine is the reason for a failure. The failed operation is repeated while
+//! Decides whether the machine is to blame for a failure. The failed operation is repeated while
 //! this process runs nothing else, and then attempted with one of the grader's own programs for
 //! comparison.
 
@@ -8,10 +8,11 @@ use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 /// Held while a program runs. Programs that may run concurrently share it.
 static RUNNING: RwLock<()> = RwLock::new(());
 
-/// Attempts an operation while other programs may run. If the machine may be the reason for the
-/// outcome, tries once more while nothing else runs. If the machine may still be the reason,
-/// `control` attempts the same with the grader's own code and returns an error if that fails too.
-/// Otherwise, the outcome stands. Neither `attempt` nor `control` may call this function.
+/// Attempts an operation while other programs may run. If the machine may be to blame for the
+/// outcome, tries once more while nothing else runs. If the machine may still be to blame, calls
+/// `control`, which attempts the same operation with the grader's own code and returns an error if
+/// that fails too. Otherwise, the outcome stands. Neither `attempt` nor `control` may call this
+/// function.
 pub fn decide<T>(
     mut attempt: impl FnMut() -> io::Result<T>,
     is_doubtful: impl Fn(&T) -> bool,

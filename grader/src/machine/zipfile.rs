@@ -32,7 +32,8 @@ pub enum EntryKind {
 /// A file, folder, link or device in a zip.
 #[derive(Debug)]
 pub struct Entry {
-    /// The recorded name. It may be a path that leads out of the folder where the zip is unpacked.
+    /// The recorded name. It may be a path that leads out of the folder into which the zip is
+    /// unpacked.
     pub name: String,
     /// The kind of the entry.
     pub kind: EntryKind,
@@ -52,7 +53,7 @@ pub enum ZipError {
     #[error("{0}")]
     Damaged(#[from] rawzip::Error),
     /// The directory has more or fewer entries than the zip declares.
-    #[error("its directory does not have the declared number of files")]
+    #[error("its directory does not list the declared number of files")]
     WrongCount,
     /// The zip has too many entries.
     #[error("it has more than {0} files")]
@@ -125,8 +126,8 @@ impl Entry {
 }
 
 /// Decodes a name. UTF-8 is tried even if the flag for it isn't set, since not every program sets
-/// the flag. Other names are in code page 437, the original encoding of the format (PKWARE's
-/// APPNOTE.TXT, appendix D).
+/// the flag. Names that aren't valid UTF-8 are decoded as code page 437, the original encoding of
+/// the format (PKWARE's APPNOTE.TXT, appendix D).
 fn decode_name(bytes: &[u8]) -> String {
     match str::from_utf8(bytes) {
         Ok(name) => name.to_owned(),

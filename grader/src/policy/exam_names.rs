@@ -25,7 +25,8 @@ impl Policy {
         }
     }
 
-    /// Returns a name that doesn't fit these items, and the problem with it.
+    /// Returns a name in the policy that doesn't fit these items, and a message that describes the
+    /// problem.
     fn name_problem(&self, items: &[&str]) -> Option<(&str, String)> {
         let mut tasks: Vec<&str> = items.iter().map(|item| task_of(item)).collect();
         tasks.dedup();

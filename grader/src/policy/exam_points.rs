@@ -34,13 +34,13 @@ pub struct ItemPoints<'a> {
     pub blocked_by: Option<&'a str>,
 }
 
-/// The share that a submission earned, before lateness is considered.
+/// The share of the points that a submission earned, before lateness is considered.
 pub(super) struct Basis {
     /// The numerator of the share.
     pub earned: u128,
     /// The denominator of the share. It equals the numerator for a perfect submission.
     pub all: u128,
-    /// The maximum number of points in the course, unless the policy sets a different maximum.
+    /// The maximum number of points in the course if the policy doesn't set one.
     pub out_of: u32,
     /// Sentences about the differences from the exam, without full stops.
     pub changes: Vec<String>,
@@ -100,7 +100,7 @@ impl PointsPolicy {
     }
 
     /// Returns the ids of the items that are ignored for this submission: the items that the policy
-    /// removes, and the items that couldn't be graded because of a removed one.
+    /// removes, and the items that couldn't be graded because they depend on a removed item.
     fn items_out<'a>(&self, tasks: &[TaskPoints<'a>]) -> BTreeSet<&'a str> {
         let mut out = BTreeSet::new();
         for item in tasks.iter().flat_map(|task| &task.items) {

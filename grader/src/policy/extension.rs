@@ -29,8 +29,8 @@ impl Extension {
         }
     }
 
-    /// Returns the due time with this extension. The result is never earlier than the regular due
-    /// time. If a time zone is given, days are calendar days in that zone.
+    /// Returns the due time after applying this extension. The result is never earlier than the
+    /// regular due time. If a time zone is given, days are calendar days in that zone.
     pub fn apply(self, due: Timestamp, zone: Option<&TimeZone>) -> Timestamp {
         match self {
             Extension::Days(days) => after_days(due, days.into(), zone),

@@ -35,7 +35,7 @@ pub enum Deduction {
     FreeDays,
     /// A percentage is deducted.
     Percent {
-        /// The percentage for all charged days together.
+        /// The total percentage for all late days that aren't free.
         percent: u32,
         /// The points that the percentage refers to.
         of: PercentBase,
@@ -155,8 +155,8 @@ mod tests {
     use super::FinalPoints;
     use crate::policy::{Lateness, Policy};
 
-    /// Returns the final points for a submission that earned this many of 100 points and was handed
-    /// in this many hours late, after staff adjusted its points by `manual`.
+    /// Returns the final points for a submission that earned `earned` of 100 points and was handed
+    /// in `hours` hours late. Staff added `manual` points, which may be negative.
     fn counted(policy: &str, earned: u32, manual: i32, hours: u64) -> FinalPoints {
         let policy: Policy = toml::from_str(policy).unwrap();
         let late = Lateness::of_seconds(hours * 60 * 60);

@@ -12,8 +12,8 @@ impl Policy {
         self.counted_points_with(points, max_points, 0, lateness)
     }
 
-    /// Like [`final_points`](Self::final_points), but adds the points that staff gave manually
-    /// before anything else.
+    /// Like [`final_points`](Self::final_points), but first adds the points that staff gave
+    /// manually.
     pub fn counted_points_with(
         &self,
         points: u32,
@@ -31,8 +31,8 @@ impl Policy {
         self.count(&[whole_exam], lateness)
     }
 
-    /// Returns the final points for these tasks. First, items are removed and tasks are reweighted,
-    /// together with the points that staff gave manually. Then lateness is considered.
+    /// Returns the final points for these tasks. First, items are removed, the points that staff
+    /// gave manually are added, and tasks are reweighted. Then lateness is considered.
     pub fn count(&self, tasks: &[TaskPoints], lateness: Lateness) -> FinalPoints {
         let basis = self.points.basis(tasks);
         let out_of = self.points.out_of.unwrap_or(basis.out_of);
@@ -63,7 +63,7 @@ impl Policy {
         Some(self.late.extended(self.late.due?, extensions))
     }
 
-    /// Returns the extensions for somebody with these names and identifiers.
+    /// Returns the extensions for a person or group with these names and identifiers.
     pub fn extensions_of<'a>(
         &self,
         names: impl Iterator<Item = &'a str> + Clone,

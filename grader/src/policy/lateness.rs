@@ -9,7 +9,7 @@ const DAY: u64 = 24 * 60 * 60;
 /// The time between the due time and the submission.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Lateness {
-    /// Seconds after the due time, or 0 if on time.
+    /// Seconds after the due time, or 0 if the submission is on time.
     pub seconds: u64,
     /// Days since the due time. A day that has only started counts in full.
     pub(super) days: u32,
@@ -22,7 +22,8 @@ impl Lateness {
         days: 0,
     };
 
-    /// Returns a lateness in days of 24 hours, for a submission whose time is unknown.
+    /// Returns the lateness of a submission that is this many seconds late. Every day counts as 24
+    /// hours, since the time of the submission is unknown.
     pub fn of_seconds(seconds: u64) -> Self {
         let days = u32::try_from(seconds.div_ceil(DAY)).unwrap_or(u32::MAX);
         Lateness { seconds, days }
@@ -44,9 +45,9 @@ impl Lateness {
     }
 }
 
-/// Returns the same time of day this number of days later. If clocks skip that time, a later one is
-/// returned. If clocks show that time twice, its second occurrence is returned. Both choices are in
-/// the student's favour.
+/// Returns the same time of day this number of days later. If clocks skip that time, a later time
+/// is returned. If clocks show that time twice, its second occurrence is returned. Both choices are
+/// in the student's favour.
 pub(super) fn after_days(due: Timestamp, days: i64, zone: Option<&TimeZone>) -> Timestamp {
     if days == 0 {
         return due;

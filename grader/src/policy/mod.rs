@@ -57,8 +57,8 @@ pub struct PointsPolicy {
     pub void: Vec<String>,
     /// How the points of these items are treated.
     pub void_points: VoidPoints,
-    /// Points for the tasks whose points differ from the exam's, keyed by the task's id. A task
-    /// with 0 points is left out.
+    /// Points for the tasks that don't keep their points from the exam, keyed by the task's id. A
+    /// task with 0 points is left out.
     pub tasks: BTreeMap<String, u32>,
 }
 
@@ -66,12 +66,13 @@ pub struct PointsPolicy {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VoidPoints {
-    /// The maximum is reduced by these points.
+    /// The maximum is reduced by the points for these items.
     #[default]
     Shrink,
-    /// The maximum stays the same, and the other items are scaled up to it.
+    /// The maximum stays the same, and the points for the other items are scaled up to make up for
+    /// them.
     Scale,
-    /// Everybody gets these points.
+    /// Everybody gets full points for these items.
     Give,
 }
 
@@ -104,7 +105,7 @@ pub struct LatePolicy {
     pub free_days: u32,
     /// Cost of each further day, in percent.
     pub percent_per_day: u32,
-    /// Whether `percent_per_day` is a percentage of the points earned or of the points possible.
+    /// Whether `percent_per_day` is a percentage of the points earned or of the maximum.
     pub percent_of: PercentBase,
     /// Maximum final points of a late submission, in percent of all points.
     pub most_percent: u32,
@@ -129,9 +130,9 @@ pub enum AttemptRule {
     /// No submission, until staff have chosen one.
     #[default]
     Ask,
-    /// The one that was handed in last.
+    /// The submission that was handed in last.
     Latest,
-    /// The one with the most final points.
+    /// The submission with the most final points.
     Best,
 }
 
@@ -142,7 +143,7 @@ pub enum PercentBase {
     /// The points that the submission earned.
     #[default]
     Earned,
-    /// The points of a perfect submission.
+    /// The points for a perfect submission.
     Possible,
 }
 

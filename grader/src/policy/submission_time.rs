@@ -18,7 +18,7 @@ pub struct SubmissionTime {
     submitted: Timestamp,
     /// The names and email addresses of the people who submitted.
     people: Vec<String>,
-    /// The due time, or `None` if the assignment sets none.
+    /// The due time, or `None` if the assignment has no due time.
     due: Option<Timestamp>,
 }
 
@@ -74,8 +74,9 @@ fn parse_time(text: &str) -> Result<Timestamp, String> {
 }
 
 impl Policy {
-    /// Returns the lateness of a submission relative to the policy's due time or, if the policy has
-    /// none, to the platform's. For a group, the latest extension of any member applies.
+    /// Returns the lateness of a submission relative to the policy's due time or, if the policy
+    /// doesn't set one, to the platform's due time. For a group, the latest extension of any member
+    /// applies.
     pub fn lateness_of(&self, submission: &SubmissionTime) -> Lateness {
         let people = submission.people.iter().map(String::as_str);
         let extensions: Vec<Extension> = self.extensions_of(people).collect();
@@ -118,8 +119,8 @@ mod tests {
 
     #[test]
     fn reports_an_invalid_time() {
-        let expected = "\"tomorrow\": it is not a date and time in a recognised form, such as 2026-11-20 \
-                        23:59:59 +0100";
+        let expected = "\"tomorrow\": it is not a date and time in a recognised format, such as \
+                        2026-11-20 23:59:59 +0100";
         assert_eq!(parse_with_due(r#""tomorrow""#), Err(expected.to_owned()));
         let error = SubmissionTime::parse("{}").unwrap_err();
         assert!(error.contains("created_at"), "{error}");

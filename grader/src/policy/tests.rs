@@ -73,7 +73,7 @@ proptest! {
         policy.late.due = Some(due);
         policy.late.timezone = own_zone;
         let (early, late) = (times.0.min(times.1), times.0.max(times.1));
-        // Platforms write each time with the offset of some zone.
+        // Platforms write each time with the offset of some time zone.
         let [early, late] = [(early, zones.0), (late, zones.1)].map(|(time, zone)| {
             let written = time.to_zoned(zone).strftime("%Y-%m-%d %H:%M:%S %z").to_string();
             policy.lateness(read_time(&written, None).unwrap(), &[]).unwrap()
@@ -95,7 +95,7 @@ proptest! {
         let read = read_time(&written, Some(&zone)).unwrap();
         let true_lateness = policy.lateness(time, &[]).unwrap();
         prop_assert!(policy.lateness(read, &[]).unwrap() <= true_lateness);
-        // Only a repeated hour is read as a different time.
+        // Only times in a repeated hour are read as different times.
         prop_assert!(read == time || time.duration_since(read) <= SignedDuration::from_hours(1));
     }
 

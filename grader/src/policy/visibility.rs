@@ -13,8 +13,8 @@ pub enum Visibility {
     /// The question, the submission's answer and the expected answer.
     All,
     /// The points, the kind of failure, and hints. Questions and answers are left out, since
-    /// students could reconstruct the exam from them. Everything that the submission's program wrote
-    /// or chose is left out too.
+    /// students could reconstruct the exam from them. Everything that the submission's program
+    /// wrote or chose is left out too.
     Feedback,
     /// Title and points.
     Points,
@@ -37,7 +37,7 @@ impl Visibility {
 }
 
 impl Policy {
-    /// Returns the part of an item in this exam that students see.
+    /// Returns how much of an item in this exam students see.
     pub fn visibility(&self, exam: &ExamName, item: &str) -> Visibility {
         let task = item.split('.').next().unwrap_or(item);
         let exceptions = &self.visibility.items;

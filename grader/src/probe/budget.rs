@@ -18,9 +18,9 @@ pub struct Budget {
 }
 
 impl Default for Budget {
-    /// Returns a budget whose limit adapts to the submission's own speed. Correct items take
-    /// milliseconds, so an infinite loop is usually noticed after two seconds. On a slow machine,
-    /// or for slow but correct code, the limit rises to ten seconds.
+    /// Returns a budget in which the time limit adapts to the submission's own speed. Correct items
+    /// take milliseconds, so an infinite loop is usually noticed after two seconds. On a slow
+    /// machine, or for slow but correct code, the limit rises to ten seconds.
     fn default() -> Self {
         Budget {
             least: Duration::from_secs(2),
@@ -49,7 +49,7 @@ impl Budget {
         12 * self.most
     }
 
-    /// Returns whether a submission that has used this much time may use no more.
+    /// Returns whether a submission that has used this much time has used up its budget.
     fn is_used_up(self, used: TimeUsed) -> bool {
         used.cpu >= self.total_cpu() || used.waiting >= TOTAL_WAITING
     }
@@ -67,12 +67,12 @@ impl Budget {
 #[derive(Clone, Debug)]
 pub struct Allowance {
     budget: Budget,
-    /// The time that the tasks before this one have used, as far as known.
+    /// The time that the tasks before this one have used, as far as it is known.
     before: TimeUsed,
     /// The time that this task has used.
     used: TimeUsed,
-    /// The CPU time of the task's slowest item that has passed. Items of other tasks don't affect
-    /// this task's limits, because they may be running at the same time.
+    /// The CPU time of the slowest item, among the task's items that have passed. Items of other
+    /// tasks don't affect this task's limits, because they may be running at the same time.
     slowest_passed: Duration,
 }
 
@@ -112,7 +112,7 @@ impl Allowance {
     }
 
     /// Returns whether this task would have run the same items so far if it had been known from the
-    /// start that the tasks before it use `before`.
+    /// start that the tasks before it would use `before`.
     pub fn holds_after(&self, before: TimeUsed) -> bool {
         before == self.before || !self.budget.is_used_up(before + self.used)
     }
@@ -180,8 +180,8 @@ mod tests {
         assert!(allowance.holds_after(seconds(99, 34)));
         assert!(!allowance.holds_after(seconds(100, 34)));
         assert!(!allowance.holds_after(seconds(99, 35)));
-        // If the time used before was known from the start, the task has already kept to the
-        // budget.
+        // If the time used by the earlier tasks was known from the start, the task has already kept
+        // to the budget.
         allowance.spend(seconds(90, 0));
         assert!(allowance.holds_after(seconds(50, 0)));
         assert!(allowance.next_item().is_none());

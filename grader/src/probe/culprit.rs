@@ -12,8 +12,8 @@ use protocol::Question;
 
 use super::{ItemLimits, Launcher, TimeUsed};
 
-/// The time limits for each question. Most correct items take less time than this in total, so a
-/// question that takes longer is treated as hung.
+/// The time limits for each question. Most correct items take less time in total, so a question
+/// that exceeds these limits is treated as hung.
 const LIMITS: ItemLimits = ItemLimits {
     waiting: Duration::from_millis(300),
     ..ItemLimits::from_cpu(Duration::from_millis(100))
@@ -73,7 +73,7 @@ impl Culprit {
         for (number, question) in questions.enumerate() {
             match probe.ask([&question], LIMITS) {
                 Ok(_) => {}
-                // The question isn't the reason for the fault.
+                // The question isn't to blame for the fault.
                 Err(fault) if fault.is_doubtful() => break,
                 Err(_) => {
                     faulty = Some(number);
@@ -93,7 +93,7 @@ fn chunks(range: Range<usize>, length: usize) -> impl Iterator<Item = Range<usiz
         .map(move |start| start..end.min(start + length))
 }
 
-/// Returns the square root, rounded up, but at least 1.
+/// Returns the square root of `count`, rounded up, but at least 1.
 fn isqrt_up(count: usize) -> usize {
     count.saturating_sub(1).isqrt() + 1
 }

@@ -1,4 +1,4 @@
-//! Faults, which are the reasons a probe gives no answer.
+//! Faults: the reasons why a probe gives no answer.
 
 use std::fmt;
 
@@ -22,7 +22,7 @@ pub enum Fault {
 pub enum TimeLimit {
     /// The CPU time limit.
     Cpu,
-    /// The limit on waiting for something other than a processor.
+    /// The limit on time spent waiting for something other than a processor.
     Waiting,
     /// The wall time limit, on systems that don't report how a process uses its time.
     Wall,
@@ -40,13 +40,13 @@ pub enum Crash {
     /// It was killed from outside while using little memory. If the machine runs out of memory, the
     /// system may kill any process.
     Killed,
-    /// It failed before the first question, when none of the submission's functions had been
-    /// called.
+    /// It failed before the first question, so none of the submission's functions had been called
+    /// yet.
     NotStarted,
 }
 
 impl Fault {
-    /// Returns whether the machine may be the reason for the fault.
+    /// Returns whether the machine, rather than the submission, may have caused the fault.
     pub fn is_doubtful(&self) -> bool {
         matches!(self, Fault::Crashed(Crash::Killed | Crash::NotStarted))
     }

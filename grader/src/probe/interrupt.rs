@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A request made by another thread while a probe is answering. All clones share it. By default,
-/// there is no request.
+/// A request to stop, which another thread can make while a probe is answering. It is shared by all
+/// clones. Initially, no request has been made.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 
@@ -15,7 +15,7 @@ impl Interrupt {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Returns whether the request was made.
+    /// Returns whether the request has been made.
     pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -17,13 +17,13 @@ pub struct ItemLimits {
     /// The CPU time limit of a program that prints a lot. Printing on every call takes a thousand
     /// times as long as a correct answer.
     pub cpu_if_printing: Duration,
-    /// The limit on the time the program waits, e.g. sleeps. Waiting for a processor isn't
-    /// included, because on a busy machine it says nothing about the code.
+    /// The limit on the time that the program spends waiting, e.g. sleeping. Waiting for a
+    /// processor isn't included, because on a busy machine it says nothing about the code.
     pub waiting: Duration,
 }
 
 impl ItemLimits {
-    /// Returns limits with this much CPU time.
+    /// Returns limits that allow this much CPU time.
     pub const fn from_cpu(cpu: Duration) -> Self {
         ItemLimits {
             cpu,

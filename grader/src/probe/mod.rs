@@ -46,7 +46,8 @@ pub struct Probe {
     /// Time used for questions.
     used: TimeUsed,
     interrupt: Interrupt,
-    /// The fault if the probe didn't start. Such a probe answers no questions.
+    /// The fault that kept the probe from starting, if any. A probe that didn't start answers no
+    /// questions.
     not_started: Option<Fault>,
 }
 
@@ -64,17 +65,17 @@ pub struct Launcher {
 impl Launcher {
     /// Maximum address space of a probe, in bytes. This includes 64 MiB for its stack.
     pub const MEMORY_LIMIT: u64 = 1 << 30;
-    /// Memory use, in bytes, above which a probe that was killed is considered out of memory.
-    /// Correct solutions use less than half of this.
+    /// Memory use, in bytes, above which a probe that was killed is considered to have run out of
+    /// memory. Correct solutions use less than half of this.
     pub const LARGE_MEMORY: u64 = Self::MEMORY_LIMIT / 4;
 
-    /// Starts a probe that waits for questions. `cpu` is the total CPU time it may use. This limit
-    /// ends it even if the grader itself has been killed.
+    /// Starts a probe that waits for questions. `cpu` is the total CPU time that the probe may use.
+    /// A probe that exceeds this limit is killed even if the grader itself has already been killed.
     ///
-    /// No code of the submission runs before the first question, but its static variables may need
-    /// too much memory. If the program fails before that question, all questions result in
-    /// [`Crash::NotStarted`]. Returns an error if the launcher fails or the system cannot create a
-    /// process. A submission can cause neither.
+    /// None of the submission's code runs before the first question, but the submission's static
+    /// variables may need too much memory. If the program fails before that question, all questions
+    /// result in [`Crash::NotStarted`]. Returns an error if the launcher fails or the system cannot
+    /// create a process. A submission can cause neither of these.
     pub fn start(&self, cpu: Duration) -> io::Result<Probe> {
         let limits = Limits {
             memory: Self::MEMORY_LIMIT,
@@ -113,7 +114,9 @@ impl Probe {
         }
         let questions: Vec<&Question> = questions.into_iter().collect();
         let mut nonces = nonces(questions.len() + 1);
-        let end = nonces.pop().expect("one more nonce than questions");
+        let end = nonces
+            .pop()
+            .expect("there is one more nonce than there are questions");
         let mut batch = Batch::default();
         for (nonce, question) in nonces.iter().zip(questions) {
             let append = |frames| wire::append_question(frames, *nonce, question);
@@ -213,7 +216,7 @@ fn answer_to(nonce: u64, frame: &Frame) -> Result<Answer, Fault> {
 }
 
 fn no_question() -> Fault {
-    Fault::Protocol("an answer that doesn't belong to any question".to_owned())
+    Fault::Protocol("an answer that does not match any question".to_owned())
 }
 
 fn protocol_fault(error: WireError) -> Fault {

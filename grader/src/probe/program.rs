@@ -38,7 +38,7 @@ const RUNTIME_MESSAGES: [&str; 4] = [
 /// A submission's running program. Nothing it does can block the thread that uses it.
 #[derive(Debug)]
 pub struct RunningProgram {
-    /// The process, for reading its time and memory, and for killing it.
+    /// The process, used to measure its time and memory and to kill it.
     pub process: Process,
     streams: Streams,
     output: Capture,
@@ -67,7 +67,7 @@ impl RunningProgram {
         self.streams.send(requests);
     }
 
-    /// Returns the next response, or `None` if there is none after a short time, so that the caller
+    /// Returns the next response, or `None` if none arrives within a short time, so that the caller
     /// can check its limits.
     pub fn next_frame(&mut self) -> Result<Option<Frame>, Fault> {
         match self.streams.next(POLL_INTERVAL) {

@@ -10,8 +10,8 @@ use super::{Budget, Crash, Fault, Launcher};
 /// The maximum number of programs to start. Each ends within a few milliseconds.
 const MAX_ATTEMPTS: usize = 100;
 
-/// Leaves out primitives as long as building the rest still overflows the stack. Returns the
-/// remaining primitives, or `None` if building with all of them doesn't overflow the stack.
+/// Leaves out primitives for as long as a build without them still overflows the stack. Returns the
+/// remaining primitives, or `None` if even a build with all primitives doesn't overflow the stack.
 ///
 /// The method is delta debugging (Zeller and Hildebrandt, "Simplifying and Isolating
 /// Failure-Inducing Input", IEEE Transactions on Software Engineering 28, 2002): first leave out

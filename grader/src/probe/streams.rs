@@ -1,8 +1,8 @@
 //! The threads that write to and read from a probe's pipes, so that a probe that never reads or
 //! never answers doesn't block the grader.
 //!
-//! Questions and answers are exchanged in batches, because a system call or waking a thread takes
-//! as long as answering many questions.
+//! Questions and answers are exchanged in batches, because making a system call or waking a thread
+//! takes as long as answering many questions.
 
 use std::io::{BufReader, Read, Write};
 use std::mem;
@@ -27,8 +27,8 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// Adds a request, which `append` encodes and appends to the previous frames. Its response has
-    /// at most `limit` bytes.
+    /// Adds a request, which `append` encodes and appends to the previous frames. The response may
+    /// have at most `limit` bytes.
     pub fn add(
         &mut self,
         limit: usize,
@@ -52,7 +52,7 @@ pub(super) struct Streams {
     questions: Sender<Vec<u8>>,
     limits: Sender<Vec<usize>>,
     answers: Receiver<Result<Vec<Frame>, WireError>>,
-    /// Frames that were received but not yet requested.
+    /// Frames that have been received but not yet returned to the caller.
     received: vec::IntoIter<Frame>,
 }
 

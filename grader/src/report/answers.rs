@@ -14,7 +14,7 @@ use crate::score::{ItemScore, VerdictKind};
 pub struct ReportAnswers(BTreeMap<String, Vec<Answer>>);
 
 impl ReportAnswers {
-    /// Keeps the answers to an item if the report can draw something from them.
+    /// Keeps the answers to an item if the report may draw them.
     pub fn record(&mut self, item: &Item, line: &ItemScore, answers: Vec<Answer>) {
         let is_judged = matches!(
             line.verdict.kind(),

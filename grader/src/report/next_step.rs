@@ -71,7 +71,7 @@ pub fn first_step(
         | VerdictKind::Pending => format!("fix `{}` in {method}: {}", info.method, item.title),
     };
     let what = format!("{}: {}", item.id, item.message);
-    // The step for a file that doesn't compile names a section itself.
+    // The step for a file that doesn't compile already names a section.
     let read = item.where_to_read().or(task.chapter.as_ref());
     let read = read.filter(|_| item.verdict != Verdict::NotCompiled);
     let hint = (!item.hints.is_empty()).then(|| joined_hints(&item.hints, hints));

@@ -75,7 +75,7 @@ struct FileChange {
     before: Option<Vec<u8>>,
     /// The file's new text, or `None` if it wouldn't change.
     after: Option<String>,
-    /// The part that is reset, for a message.
+    /// The part that is reset, to be named in a message.
     part: String,
 }
 
@@ -106,7 +106,8 @@ impl FileChange {
                 let fresh = text.and_then(|text| fresh_methods(handed_out, text, &tasks));
                 fresh.map_err(|why| {
                     Error::User(format!(
-                        "{why}`cargo grade --reset {name}` replaces the whole file and keeps a copy"
+                        "{why}`cargo grade --reset {name}` replaces the whole file and keeps a copy \
+                         of the old one"
                     ))
                 })?
             }
@@ -119,13 +120,14 @@ impl FileChange {
         })
     }
 
-    /// Keeps the old file and writes the new one. Returns lines for a message.
+    /// Keeps the old file and writes the new one. Returns the lines of the message that are about
+    /// this file.
     fn apply(&self, source: &SourceFolder) -> Result<String, Error> {
         let path = source.path.join(self.file);
         let part = &self.part;
         let Some(after) = &self.after else {
             return Ok(format!(
-                "{}: nothing to reset, since {part} was not modified\n",
+                "{}: nothing to reset, since there are no changes in {part}\n",
                 display_path(&path)
             ));
         };
@@ -183,8 +185,8 @@ struct SourceFolder {
 }
 
 impl SourceFolder {
-    /// Finds the folder with a submission's task files in one of the places where the assignment
-    /// expects it.
+    /// Finds the folder that contains a submission's task files, looking only in the places where
+    /// the assignment expects them.
     fn find(folder: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         refuse_link(folder)?;
         if !folder.is_dir() {

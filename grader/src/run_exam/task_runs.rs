@@ -1,4 +1,4 @@
-//! Runs the tasks of an exam on several threads, each in processes of its own.
+//! Runs the tasks of an exam on several threads. Each task runs in its own processes.
 //!
 //! The results don't depend on the number of threads. Everything that affects an item's result
 //! comes from its own task or from earlier tasks, whose results it waits for. The only exception is
@@ -120,7 +120,7 @@ struct Progress {
 
 impl<'a> TaskRuns<'a> {
     /// Returns the runs of these tasks and the receiver for each task's messages. `results` are the
-    /// results of all tasks before these.
+    /// results of all earlier tasks.
     pub fn new(
         exam: &'a Exam,
         build: &'a Build,

@@ -158,9 +158,9 @@ impl<'a> TaskSession<'a> {
         }
     }
 
-    /// Runs an item. If the machine may be the reason for a fault, the item is rerun while nothing
-    /// else runs. If the fault occurs again, but not in the control program, the submission is the
-    /// reason. `cpu` is the CPU time limit of a process.
+    /// Runs an item. If the machine may have caused a fault, the item is rerun while nothing else
+    /// runs. If the fault occurs again, but not in the control program, the submission is to blame.
+    /// `cpu` is the CPU time limit of a process.
     fn ask_fairly(
         &mut self,
         launcher: &Launcher,
@@ -201,8 +201,8 @@ impl<'a> TaskSession<'a> {
         })
     }
 
-    /// If the outcome is a fault, counts it towards the number of faults that stops the task.
-    /// Faults that another task may have caused aren't counted.
+    /// If the outcome is a fault, counts it towards the number of faults after which the task is
+    /// stopped. Faults that another task may have caused aren't counted.
     pub fn count_fault(&mut self, outcome: &ItemOutcome) {
         let ItemOutcome::Fault { fault, .. } = outcome else {
             return;

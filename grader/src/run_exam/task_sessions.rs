@@ -30,7 +30,7 @@ pub struct FinishedTask {
     pub is_stopped: bool,
     /// Time spent, by activity.
     pub spent: TimeSpent,
-    /// Time that the submission has used.
+    /// The part of the submission's time budget that the task has used.
     pub used: TimeUsed,
     /// The submission's output.
     pub printed: Option<String>,
@@ -75,8 +75,8 @@ impl<'a> TaskSessions<'a> {
             let outcome = ItemOutcome::NotCompiled(why);
             return Ok((item_score(item, &outcome, handed_out), Vec::new()));
         }
-        // Whatever stopped that task, or caused a fault in another item that depends on it, would
-        // stop this item too.
+        // If the blocking item's task was stopped, or if another blocked item had a fault, this
+        // item would be stopped for the same reason.
         let is_hopeless =
             blocking.is_some_and(|blocking| blocking.is_of_stopped_task || self.has_blocked_fault);
         let (outcome, answers) = if is_hopeless {
@@ -167,7 +167,7 @@ mod tests {
         };
         assert_eq!(verdict(Some(blocking(true)), false), blocked);
         assert_eq!(verdict(Some(blocking(false)), true), blocked);
-        // Otherwise, the item is run. Here, the submission has no program.
+        // Otherwise, the item is run. It stays pending here, because the submission has no program.
         assert_eq!(verdict(Some(blocking(false)), false), Verdict::Pending);
         assert_eq!(verdict(None, true), Verdict::Pending);
     }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::machine::system::{self, ExitReason, Limits, ProcessTime};
 use crate::sandbox::launch_request::READY;
 
-/// The maximum length of a launcher's error message, in bytes. The rest isn't read.
+/// The maximum number of bytes to read of a launcher's error message.
 const MAX_REASON_BYTES: u64 = 4 << 10;
 
 /// A running program, with pipes to its three standard streams. The program is killed when this
@@ -123,9 +123,9 @@ impl ExitReason {
         self == ExitReason::Code(0)
     }
 
-    /// Returns whether the process was killed with SIGKILL, as the system does when memory runs
-    /// out. The cause is outside the process, because its own limits use other signals and a
-    /// confined probe cannot send this signal to itself.
+    /// Returns whether the process was killed with SIGKILL, the signal that the system sends when
+    /// memory runs out. The cause is outside the process, because its own limits use other signals
+    /// and a confined probe cannot send this signal to itself.
     pub fn is_external_kill(self) -> bool {
         /// The number of SIGKILL on every system.
         const KILL: i32 = 9;

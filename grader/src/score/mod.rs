@@ -392,8 +392,8 @@ impl ItemScore {
         self.clue_section.as_ref().or(self.section.as_ref())
     }
 
-    /// Returns the rows that describe the item in text reports, each with a label and a text. Rows
-    /// without a text are left out. The report chooses the wording of the message and the hints.
+    /// Returns the rows that describe the item in text reports, each with a label and some text.
+    /// Rows without text are left out. The report chooses the wording of the message and the hints.
     pub fn rows(&self, what: String, hint: Option<String>) -> Vec<(&'static str, String)> {
         let evidence = |text: fn(&Evidence) -> &String| self.evidence.as_ref().map(text).cloned();
         let rows = [
@@ -438,7 +438,7 @@ impl Score {
     /// Returns the text of the score file.
     pub fn to_json(&self) -> String {
         let text = serde_json::to_string_pretty(self);
-        text.expect("all map keys in a score must be strings") + "\n"
+        text.expect("all map keys in a score are strings") + "\n"
     }
 
     /// Replaces the score of the item with the same id.

@@ -50,7 +50,7 @@ pub enum SubmissionError {
         files: String,
         /// The names of the files and folders found instead.
         found: Vec<String>,
-        /// The advice if the files only have the wrong names. Empty otherwise.
+        /// The advice to give if only the files' names are wrong. Empty otherwise.
         advice: String,
     },
     /// One of the files or folders to read is a link.

@@ -48,7 +48,7 @@ impl fmt::Display for Limit {
                 let mebibytes = most >> 20;
                 return write!(
                     f,
-                    "too many bytes in its archives (more than {mebibytes} MiB)"
+                    "too much data in its archives (more than {mebibytes} MiB)"
                 );
             }
         };

@@ -49,7 +49,7 @@ impl ByteBudget {
         self.left.set(bytes);
     }
 
-    /// Deducts bytes that were read, or inflated.
+    /// Deducts bytes that were read or inflated.
     pub(super) fn spend(&self, bytes: u64) {
         for left in [Some(&self.left), self.total.as_ref()]
             .into_iter()

@@ -73,7 +73,7 @@ impl Submission {
 
     /// Reads the task files in the folder `src` of the package that students work in: the files
     /// that Cargo compiles, regardless of copies in other folders. If there is no such folder,
-    /// searches for the files like [`Submission::collect`].
+    /// searches for the files in the same way as [`Submission::collect`].
     pub fn collect_package(
         path: &Path,
         handed_out: &'static HandedOut,
@@ -153,7 +153,7 @@ impl Submission {
         if let Some(path) = paths.find(|path| search.links.contains(path)) {
             return Err(link(&path));
         }
-        // The missing files could be in something that cannot be read.
+        // The missing files could be in a folder or archive that cannot be read, or behind a link.
         if !choice.is_complete {
             let mut links = search.links.iter();
             let leads_to_files = |path: &&String| may_lead_to_files(path, handed_out);
@@ -276,7 +276,7 @@ fn notes(other_files: &BTreeMap<String, Vec<u8>>, handed_out: &HandedOut) -> Vec
         Some(given) if *given == handed_out.main => None,
         Some(given) => {
             let theirs = String::from_utf8_lossy(bytes);
-            // Compare by line, because git and editors may change line endings.
+            // Compare line by line, because Git and editors may change line endings.
             let same = theirs.lines().eq(given.text.lines());
             (!same).then(|| {
                 format!("{name} differs from the given file, which is used instead of yours")

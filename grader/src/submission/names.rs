@@ -1,6 +1,6 @@
 //! Determines from a file's name what the file could be: a task file, a copy of one, or an archive.
-//! People, browsers, file managers and editors rename files, so names are compared without such
-//! additions.
+//! People, browsers, file managers and editors add to the names of files, so names are compared
+//! without such additions.
 
 use unicode_normalization::UnicodeNormalization;
 
@@ -22,7 +22,7 @@ const OTHER_COPY_WORDS: [&str; 7] = [
     "コピー",
     "のコピー",
 ];
-/// Extensions of text files that could be source code despite lacking `rs`.
+/// Extensions, other than `rs`, of text files that could contain source code.
 const TEXT_EXTENSIONS: [&str; 14] = [
     "txt", "text", "rust", "bak", "old", "orig", "save", "tmp", "swp", "rtf", "doc", "docx", "odt",
     "pages",
@@ -41,7 +41,7 @@ const MACOS_METADATA: &str = "._";
 pub(super) enum Resemblance {
     /// The name is exactly the task file's.
     Exact,
-    /// The name is the task file's, with the additions that a browser or a file manager makes for a
+    /// The name is the task file's, plus whatever a browser or a file manager adds to the name of a
     /// copy: `bvh (1).rs`, `Copy of bvh.rs`. If there is no task file with the exact name, the copy
     /// is used as that file.
     Copy,

@@ -14,7 +14,7 @@ use crate::handed_out::HandedOut;
 /// The contents of a submission.
 #[derive(Debug)]
 pub(super) struct Search {
-    /// The path of the submission, for messages.
+    /// The path of the submission, for use in messages.
     pub(super) submission: PathBuf,
     /// The assignment.
     pub(super) handed_out: &'static HandedOut,
@@ -210,7 +210,7 @@ mod tests {
             assert_eq!(refused, format!("ann contains too many {refusal}{end}"));
             assert!(search.check_bytes().is_ok());
         }
-        let bytes = "too many bytes in its archives (more than 1024 MiB)";
+        let bytes = "too much data in its archives (more than 1024 MiB)";
         assert_eq!(Limit::Bytes.to_string(), bytes);
         let levels = "too many levels of nested folders";
         assert_eq!(Limit::Levels.to_string(), levels);

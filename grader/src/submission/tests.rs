@@ -249,7 +249,7 @@ fn of_uploads_with_the_same_name_the_last_one_counts() {
     let note = "bvh.rs was handed in more than once: the last version is graded, and an earlier, \
                 different one is ignored";
     assert_eq!(found.ignored_copies, [note]);
-    // The starter's text isn't a version.
+    // The starter's text doesn't count as a version.
     let starter = upload("bvh.rs", "4", RAYS.task_file("bvh.rs").unwrap().starter);
     let with_starter = [files[1].clone(), starter];
     let found = Submission::from_files("ann", &with_starter, &RAYS).unwrap();

@@ -82,8 +82,8 @@ fn add_symptom_clue(
     };
 }
 
-/// Returns whether these are all items of a task. After a save, the items that failed before are
-/// graded first, and rays from the other items may hit something.
+/// Returns whether these are all the items of a task. After a save, the items that failed before
+/// are graded first, and rays from the other items may hit something.
 fn is_whole_task<'a>(items: impl Iterator<Item = &'a Item>, info: &TaskInfo) -> bool {
     items.map(|item| item.points).sum::<u32>() == info.points
 }
@@ -166,7 +166,8 @@ mod tests {
         }
         let miss = ElementOutcome::Value(None);
         let hit = ElementOutcome::Value(Some(Interval::AHEAD));
-        // Returns the clue in an item's score if all items are answered with two misses and `last`.
+        // Returns the clue in an item's score after all items were answered with two misses and
+        // `last`.
         let clue_in = |line: &ItemScore, exam: &Exam, last: &ElementOutcome<_>| {
             let mut observations = Observations::default();
             for item in &exam.items {
@@ -186,7 +187,7 @@ mod tests {
         assert!(clue.is_some());
         assert_eq!(clue_in(&wrong, &whole, &miss), clue);
         assert_eq!(clue_in(&wrong, &whole, &hit), None);
-        // The answer to a question that isn't asked could have been a hit.
+        // A question that isn't asked could have been answered with a hit.
         let mut some = whole.clone();
         some.items.pop();
         assert_eq!(clue_in(&wrong, &some, &miss), None);
@@ -239,7 +240,7 @@ mod tests {
         ]);
         let sphere = &RAYS.assignment.find("sphere").unwrap().clues;
         let miss = sphere.of_symptom(&Symptom::MISS).unwrap();
-        // The first item's own advice is about every symptom.
+        // The first item's own advice covers every symptom.
         assert_eq!(
             (&lines[0].symptom_clue, &lines[0].clue_section),
             (&None, &None)
@@ -250,7 +251,8 @@ mod tests {
         assert_eq!(lines[2].symptom_clue.as_deref(), Some(first));
         assert_eq!(lines[2].clue_section, lines[1].clue_section);
         assert_eq!(lines[3].symptom_clue, None);
-        // The other side is another way to fail, but the item's own advice is about it.
+        // The second item's own advice covers its symptom. The third item fails in a different way
+        // from the first, so it has its own clue.
         let lines = wrong([
             Symptom::MISS,
             Symptom::of("uv"),

@@ -131,7 +131,9 @@ fn not_run_message(why: &NotRunReason) -> String {
         NotRunReason::TaskStopped(Fault::OutOfMemory | Fault::Crashed(_) | Fault::Protocol(_)) => {
             "not run because two other items in this task crashed"
         }
-        NotRunReason::NeedsStoppedTask => "not run because a task that it depends on was stopped",
+        NotRunReason::NeedsStoppedTask => {
+            "not run because a task that this item depends on was stopped"
+        }
         NotRunReason::BudgetUsedUp => "not run because earlier items used up the submission's time",
     };
     why.to_owned()
@@ -258,7 +260,8 @@ fn evidence(item: &Item, (question, element): (usize, usize), answers: [String; 
     }
 }
 
-/// Returns a message with the number of wrong answers and `what` is wrong in the one that is shown.
+/// Returns a message that gives the number of wrong answers and says `what` is wrong with the
+/// answer shown.
 fn wrong_answer_message(
     what: &str,
     item: &Item,
@@ -299,7 +302,7 @@ fn wrong_answers(
 pub fn unwritten_score(item: &Item, file: &str, method: u32) -> ItemScore {
     ItemScore {
         verdict: Verdict::Unimplemented,
-        message: format!("{file}:{method} is still the method that was handed out"),
+        message: format!("{file}:{method} is unchanged from the version that was handed out"),
         at: Some(CodeLocation {
             file: file.to_owned(),
             line: method,
@@ -367,7 +370,7 @@ pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> I
     let message = match (own.verdict == Verdict::Pass, substituted.message.as_str()) {
         (true, "") => String::new(),
         (false, "") => {
-            format!("wrong only because {by} failed: correct with the reference's other files")
+            format!("wrong only because {by} failed; passes with the reference's other files")
         }
         (true, message) => format!(
             "{message}; passes only because the mistake in {by} cancels this one, so it is graded \

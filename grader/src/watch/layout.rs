@@ -14,8 +14,8 @@ pub(super) struct Page<'a> {
     pub(super) next: &'a str,
     /// The table on one line.
     pub(super) short_table: &'a str,
-    /// Returns a line that says how to see the rest. The argument is the task that the rest is
-    /// about.
+    /// Returns a line that says how to see the rest of the report. The argument is the task that
+    /// the first hidden line is about.
     pub(super) rest: &'a dyn Fn(Option<Task>) -> String,
 }
 
@@ -72,7 +72,7 @@ fn arrange(page: &Page, rows: usize) -> Vec<Line> {
     lines
 }
 
-/// Returns the lines that fit. If some don't fit, the last line says how to see the rest.
+/// Returns the lines that fit. If some lines don't fit, the last line says how to see them.
 fn cut(mut lines: Vec<Line>, rows: usize, page: &Page) -> Vec<Line> {
     if lines.len() > rows {
         let rest = lines.split_off(rows.saturating_sub(1));

@@ -134,7 +134,7 @@ impl<'a> Screen<'a> {
     }
 
     /// Draws as much as fits on the screen. Lines are truncated, because a wrapped line would push
-    /// the others down.
+    /// down the lines below it.
     fn draw(&self, page: &Page) -> io::Result<()> {
         let (rows, columns) = self.term.size();
         self.drawn_size.set((rows, columns));
@@ -151,8 +151,8 @@ impl<'a> Screen<'a> {
     }
 }
 
-/// Returns the command that shows everything for this task or, if there is none, for the first task
-/// that fails.
+/// Returns the command that shows everything about this task or, if no task is given, about the
+/// first task that fails.
 fn command_for_the_rest(score: &Score, task: Option<Task>) -> String {
     let fails = |verdict: &Verdict| !matches!(verdict, Verdict::Pass | Verdict::Pending);
     let mut tasks = score.tasks.iter();

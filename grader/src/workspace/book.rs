@@ -6,8 +6,8 @@ use judging::section::{CHAPTERS, Section};
 
 use crate::workspace::Workspace;
 
-/// The folders where a book may be, relative to the workspace, whether it was handed out or built
-/// by `cargo book`.
+/// The folders that may contain a book, whether handed out or built by `cargo book`. The paths are
+/// relative to the workspace.
 const FOLDERS: [&str; 3] = ["handout/book", "target/handout", "target/students-handout"];
 
 /// A folder with the pages of the built handout.

@@ -29,8 +29,8 @@ pub fn list(bundle: &BTreeMap<String, Vec<u8>>) -> String {
         .collect()
 }
 
-/// Returns a note if files in the workspace at `root` differ from the list. A missing file doesn't
-/// compile, so it needs no note.
+/// Returns a note if files in the workspace at `root` differ from the list. A missing file needs no
+/// note, because the code doesn't compile without it.
 pub fn changed(root: &Path) -> Option<String> {
     let list = files::read_to_string(root.join(LIST)).ok()?;
     let listed = list.lines().filter_map(|line| line.split_once("  "));

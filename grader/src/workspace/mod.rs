@@ -70,8 +70,8 @@ impl Workspace {
     }
 
     /// Returns the folder for the grader's caches and temporary files. No submission's folder has
-    /// this name, since [`safe_folder_name`](judging::sanitize::safe_folder_name) never begins with a
-    /// dot.
+    /// this name, since [`safe_folder_name`](judging::sanitize::safe_folder_name) never returns a
+    /// name that begins with a dot.
     pub fn cache_folder(&self) -> PathBuf {
         self.output_folder().join(".cache")
     }

@@ -20,7 +20,7 @@ pub struct Canaries {
     key: String,
     /// A secret in the grader's environment.
     secret: String,
-    /// Part of the names of all files that entries deliberately leave behind.
+    /// Text that is part of the name of every file that an entry deliberately leaves behind.
     pub mark: String,
     tcp: TcpListener,
     udp: UdpSocket,

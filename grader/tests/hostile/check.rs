@@ -15,7 +15,7 @@ const MAX_MEMORY: u64 = 256 << 20;
 /// The maximum number of files that the grader may have open at once: three streams, three for each
 /// program it has started, and the files it is reading or writing.
 const MAX_OPEN_FILES: usize = 32;
-/// Markup that entries print, which must never be on the page unescaped.
+/// Markup that entries print and that must never appear unescaped on the page.
 const MARKUP: &str = "<b id=forged>";
 
 /// The start of the line that entries print if they reach something they shouldn't.

@@ -17,14 +17,14 @@ use crate::packaging::{Packaging, pack};
 /// except the description, are added to the task files or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
-/// The file that contains the descriptions of the entries without files.
+/// The file that describes the entries that have no files of their own.
 const PACKAGED_FILE: &str = "packaged.toml";
-/// The prefix of the lines where a file describes its entry.
+/// The prefix of the lines in which a file describes its entry.
 const DESCRIPTION: &str = "//!";
 /// A function that converts a value to a different type via a soundness hole in the language.
 const HOLE: &str = include_str!("hole.rs");
 
-/// A hostile submission, which is read from `entries/`.
+/// A hostile submission, read from `entries/`.
 pub struct Entry {
     pub name: String,
     pub expect: Expectation,
@@ -78,7 +78,7 @@ pub struct Expectation {
     /// The maximum wall time, in seconds.
     #[serde(default = "default_wall_seconds")]
     wall: u64,
-    /// Whether the entry only runs with `--all` or if it is named on the command line.
+    /// Whether the entry only runs with `--all` or when it is named on the command line.
     #[serde(default)]
     pub slow: bool,
     #[serde(default)]
@@ -181,8 +181,8 @@ impl Entry {
         tasks.map(move |task| (task.id, full(task.points)))
     }
 
-    /// Writes the submission into a new folder. Returns the path to submit. Placeholders `@NAME@`
-    /// in its text are filled in.
+    /// Writes the submission into a new folder and fills in the `@NAME@` placeholders in its text.
+    /// Returns the path to submit.
     pub fn write(&self, folder: &Path, canaries: &Canaries) -> PathBuf {
         self.write_folder(folder, &canaries.placeholders());
         match self.expect.pack {
@@ -251,7 +251,8 @@ fn insert_first_statement(text: &str, method: &str, call: &str) -> String {
     format!("{}        {call}\n{}", &text[..body], &text[body..])
 }
 
-/// Replaces `@NAME@` with the value of that name, and `@{1000x(}` with a thousand parentheses.
+/// Replaces each `@NAME@` with the value given for that name and, for example, `@{1000x(}` with a
+/// thousand parentheses.
 fn fill_placeholders(text: &str, placeholders: &[(&str, String)]) -> String {
     let mut text = text.to_owned();
     for (name, value) in placeholders {

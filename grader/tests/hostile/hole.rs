@@ -23,7 +23,7 @@ fn exchange<A: 'static, B: 'static>(either: &mut Either<A, B>, value: A) -> B {
 }
 
 /// Converts a value to a different type without a line of unsafe code (rust-lang issue 25860): the
-/// reference to the old variant outlives it.
+/// reference to the contents of the old variant outlives that variant.
 fn transmuted<A: 'static, B: 'static>(value: A) -> B {
     exchange(std::hint::black_box(&mut Either::B(None)), value)
 }

@@ -32,7 +32,7 @@ pub enum Packaging {
     HardLink,
     /// A tar with a named pipe in place of a file.
     Pipe,
-    /// A zip with a file of 256 MiB that compresses well.
+    /// A zip with a 256 MiB file that compresses well.
     Bomb,
     /// A zip with more files than the limit allows.
     ManyFiles,
@@ -50,7 +50,7 @@ pub enum Packaging {
     OtherKind,
     /// A folder with a sparse file of 10 GB.
     Sparse,
-    /// A folder with a file that grants all permissions and a file that grants none.
+    /// A folder in which one file has all permissions and another has none.
     OddModes,
     /// A folder where one file is a named pipe.
     PipeOnDisk,
@@ -151,7 +151,7 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
 }
 
 /// Moves the files into the subfolder `below` of a new folder next to the old one, as if they were
-/// another student's. Returns the new folder. The old one is empty afterwards.
+/// another student's. Returns the new folder. The old folder is empty afterwards.
 fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
     let others = folder.with_extension("others");
     let target = others.join(below);

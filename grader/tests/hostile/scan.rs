@@ -10,7 +10,7 @@ unsafe extern "C" {
     fn syscall(number: i64, ...) -> i64;
 }
 
-/// Error codes of a refused call: EPERM, EACCES, ENOSYS, ENOENT.
+/// The error codes that a refused call may return: EPERM, EACCES, ENOSYS, ENOENT.
 const REFUSED: [i32; 4] = [1, 13, 38, 2];
 
 fn main() {

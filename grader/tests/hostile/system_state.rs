@@ -40,7 +40,7 @@ impl SystemState {
     }
 }
 
-/// Returns the lines of a kernel table, without the fields that change spontaneously.
+/// Returns the lines of a kernel table, without the fields that change on their own.
 fn kernel_table(list: &str) -> Vec<String> {
     let text = fs::read_to_string(Path::new("/proc").join(list)).unwrap_or_default();
     // The second to fourth words of a key are its flags, usage count and remaining lifetime.

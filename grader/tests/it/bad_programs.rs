@@ -1,12 +1,12 @@
-//! Submissions that compile and then misbehave: they panic, hang, crash or answer nonsense. Each
-//! gets a report, and the points of other tasks don't change.
+//! Submissions that compile and then misbehave: they panic, hang, crash or give nonsensical
+//! answers. Each gets a report, and the points of other tasks don't change.
 
 use insta::assert_snapshot;
 
 use crate::cases::{EXITING, PANICKING};
 use crate::harness::{FULL_POINTS, GradeRun, Submission, full_points_except, without};
 
-/// Returns the reference with this statement before the box test.
+/// Returns the reference with this statement inserted before the box test.
 fn before_box_test(name: &str, statement: &str) -> Submission {
     let test = "let inverse = dir.recip();";
     Submission::reference(name).with_replaced("bbox.rs", test, &format!("{statement} {test}"))
@@ -119,7 +119,7 @@ fn two_crashes_stop_a_task() {
     assert_eq!(boxes.last().unwrap(), not_run);
 }
 
-/// Sleeps for each new triangle, sphere and box, but for less time than an item's limit.
+/// Sleeps for each new triangle, sphere and box, but for less than an item's time limit.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_slow_submission_has_a_budget_and_keeps_the_points_before() {

@@ -1,5 +1,5 @@
-//! Submissions whose files are missing, don't compile or use each other. Each gets a report, and
-//! the points of other tasks don't change.
+//! Submissions with files that are missing, don't compile or depend on each other. Each gets a
+//! report, and the points of other tasks don't change.
 
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
@@ -65,7 +65,7 @@ fn a_renamed_file_counts_as_missing_and_is_noted() {
     let note = &graded.score()["build"]["ignored_copies"][0];
     let points = FULL_POINTS["sphere"];
     let expected = format!(
-        "sphere_final.rs is not graded because its name is not sphere.rs, which costs {points} \
+        "sphere_final.rs is not graded because its name is not sphere.rs; this costs {points} \
          points"
     );
     assert_eq!(*note, expected);

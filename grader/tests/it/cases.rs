@@ -50,7 +50,7 @@ impl Submission {
         )
     }
 
-    /// Ends the process in `Camera::sample_ray` from the fifth column of pixels on.
+    /// Ends the process when `Camera::sample_ray` reaches the fifth column of pixels.
     pub fn exiting() -> Self {
         Submission::reference("exiting").with_replaced(
             "camera.rs",
@@ -68,7 +68,7 @@ impl Submission {
         submission.with_replaced("sphere.rs", "[near, far]", "[far, near]")
     }
 
-    /// Returns NaN as the distance of a sphere's hit.
+    /// Returns NaN as the distance to a hit on a sphere.
     pub fn not_a_number() -> Self {
         Submission::reference("not_a_number").with_replaced(
             "sphere.rs",

@@ -69,9 +69,10 @@ fn each_package_depends_only_on_what_it_may() {
     assert!(!dependencies("protocol").contains("framework"));
 }
 
-/// Checks that the features are equal. Otherwise, Cargo would compile these crates twice before the
-/// first grade: once for the grader, and once for submissions. If this fails, correct the features
-/// in `grader/workspace-hack/Cargo.toml`.
+/// Checks that crates used by both the grader and submissions are built with the same features.
+/// Otherwise, Cargo would compile these crates twice before the first grade: once for the grader,
+/// and once for submissions. If this fails, correct the features in
+/// `grader/workspace-hack/Cargo.toml`.
 #[test]
 fn crates_shared_with_submissions_have_the_same_features() {
     let of = |packages: &[&str]| -> BTreeMap<String, String> {

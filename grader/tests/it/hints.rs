@@ -49,7 +49,7 @@ fn a_known_mistake_gets_a_nudge() {
     );
 }
 
-/// Returns the clues of all items of a score.
+/// Returns the clues for all items in a score.
 fn clues(graded: &GradeRun) -> Vec<String> {
     let clue = |item: Value| item["clue"].as_str().map(str::to_owned);
     graded.all_items().into_iter().filter_map(clue).collect()

@@ -32,7 +32,7 @@ const OTHER_FILES: [(&str, &str); 6] = [
     ),
 ];
 
-/// Returns a zip with these files, all with this mode.
+/// Returns a zip of these files, all of which get this mode.
 fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, text) in files {
@@ -45,7 +45,7 @@ fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     archive.finish().unwrap().into_inner()
 }
 
-/// Checks a package with these bytes.
+/// Checks a package that consists of these bytes.
 fn check_bytes(bytes: &[u8]) -> String {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("package.zip");

@@ -61,7 +61,7 @@ fn a_task_starts_afresh_and_everything_else_stays() {
     let points = graded.points();
     assert_eq!(points["build"], FULL_POINTS["build"]);
     assert!(points["traverse"] < FULL_POINTS["traverse"], "{points:?}");
-    // The old file is in the folder and is mentioned, but doesn't matter.
+    // The report mentions the old file in the folder, but the file doesn't affect the grade.
     let report = graded.report();
     let note = "note: bvh.rs.bak-1 differs from bvh.rs and is ignored";
     assert_eq!(report.matches("note:").count(), 1, "{report}");
@@ -104,7 +104,11 @@ fn a_task_as_handed_out_is_left_alone() {
 fn a_method_that_is_not_found_is_left_alone_and_the_remedy_is_named() {
     let cases = [
         ("pub fn hit(", "pub fn hit_it(", "it was renamed or removed"),
-        ("impl Sphere {", "impl Sphere {{", "its braces do not match"),
+        (
+            "impl Sphere {",
+            "impl Sphere {{",
+            "the file's braces do not match",
+        ),
         (
             "#[cfg(test)]",
             "impl Sphere { fn hit() {} }\n#[cfg(test)]",

@@ -22,7 +22,7 @@ const SKIPPED: [&str; 9] = [
     "Cargo.lock",
 ];
 
-/// Returns the files below a path whose extension is one of these.
+/// Returns the files below a path that have one of these extensions.
 fn files(path: &str, extensions: &[&str]) -> Vec<Source> {
     let absolute = workspace().join(path);
     if SKIPPED.contains(&path) {
@@ -75,7 +75,7 @@ fn contains_any(line: &str, words: &[&str]) -> bool {
 struct Rule {
     folders: &'static [&'static str],
     is_found: fn(&str) -> bool,
-    /// Files and folders that may contain it.
+    /// Files and folders that may contain this code.
     exceptions: &'static [&'static str],
     instead: &'static str,
 }
@@ -100,7 +100,7 @@ const RULES: [Rule; 4] = [
             "grader/class/src/unpack.rs",
             // only checks whether a new folder is empty
             "grader/class/src/similarity.rs",
-            // calls `disk::before` for each operation of a write
+            // calls `disk::before` for each step of a write
             "grader/src/report/atomic_write.rs",
             // opens archives after calling `disk::before`, and opens the same file again to read it
             "grader/src/submission/archive/mod.rs",

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::harness::{Submission, shell_line, workspace};
 
-/// A grader that watches a submission in a terminal. It ends when this is dropped.
+/// A grader that watches a submission in a terminal. The grader is stopped when this is dropped.
 struct Terminal {
     /// The name of this test's own tmux server.
     server: String,
@@ -136,7 +136,7 @@ fn the_report_is_arranged_again_when_the_terminal_is_resized() {
 fn a_save_interrupts_an_endless_loop_and_old_results_are_grey() {
     let camera = fs::read_to_string(wrong_camera("x").path().join("camera.rs")).unwrap();
     let submission = wrong_camera("hanging");
-    // With this limit, the loop would take five minutes.
+    // With this limit, the loop would run for five minutes.
     let Some(terminal) = Terminal::watch(&submission, 24, &["--cpu-limit", "300"]) else {
         return;
     };

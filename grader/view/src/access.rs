@@ -1,12 +1,12 @@
 //! Decides which requests to answer. The page shows and controls the user's program, so only the
-//! user's browser may talk to it, even though any user of this machine and any web page opened on
-//! it can connect.
+//! user's browser may talk to this server, even though any user of this machine and any web page
+//! opened on this machine can connect.
 
 use std::env;
 
 use crate::http::Request;
 
-/// Names that always mean this machine.
+/// Host names that always refer to this machine.
 const LOOPBACK: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
 /// The name of the header that contains the token, in lower case. A page from another site or port
 /// cannot send this header, because the browser would first ask this server for permission, which
@@ -19,7 +19,7 @@ pub struct Access {
     /// The secret in the printed address. The page keeps it in its origin's storage. A cookie
     /// wouldn't be safe, because browsers send a host's cookies to every port on that host.
     token: String,
-    /// The host names that lead here.
+    /// The host names under which this server can be reached.
     hosts: Vec<String>,
     /// The public name of the port in a codespace.
     forwarded: Option<String>,

@@ -25,7 +25,7 @@ const INTERVALS: [(Duration, Duration); 3] = [
 ];
 /// The colour of pixels where the code panicked.
 const PANIC_COLOUR: [u8; 3] = [255, 0, 255];
-/// The number of tests at the end of the colour scale.
+/// The number of tests at the upper end of the colour scale.
 const MOST_TESTS: f32 = 1000.0;
 /// Pixels with at least this many marks get the brightest colour.
 const MOST_MARKS: f32 = 16.0;
@@ -150,8 +150,8 @@ fn share_of_scale(tests: MarkedTests) -> f32 {
 }
 
 /// Returns the colour for a ray's mistakes: the colour of the rule that the ray breaks most often,
-/// brighter the more often it does. A ray without mistakes is grey, and lighter the more tests it
-/// needs.
+/// which is brighter the more often that rule is broken. A ray without mistakes is grey, and is
+/// lighter the more tests it needs.
 fn mistakes(tests: MarkedTests) -> Vec3 {
     let marks = tests.marks.iter().zip(RULE_COLOURS);
     match marks.rev().max_by_key(|(count, _)| **count) {

@@ -156,7 +156,7 @@ fn aspect_ratio() -> f32 {
     FILM.x as f32 / FILM.y as f32
 }
 
-/// Returns the shapes numbered in order, like the shapes in a scene.
+/// Numbers the shapes in order, like the shapes in a scene, and returns them.
 fn numbered(mut shapes: Vec<Shape>) -> Vec<Shape> {
     for (index, shape) in (0..).zip(&mut shapes) {
         match shape {

@@ -12,7 +12,7 @@ use crate::program::Program;
 /// The maximum CPU time of a program. This limit only ends forgotten programs, because each request
 /// has its own limit.
 const CPU_LIMIT: Duration = Duration::from_secs(24 * 3600);
-/// The minimum CPU time limit for a request if the program prints a lot.
+/// The minimum CPU time limit for a request during which the program prints a lot.
 const LIMIT_IF_PRINTING: Duration = Duration::from_secs(10);
 /// How long a program may wait for something other than a processor.
 const WAITING_LIMIT: Duration = Duration::from_secs(2);
@@ -97,7 +97,7 @@ impl Probe {
             .decode()
             .map_err(|error| Fault::Protocol(error.to_string()))?;
         if frame.nonce != self.nonce || !response.answers(request) {
-            let why = "a response that does not belong to the request";
+            let why = "a response that does not match the request";
             return Err(Fault::Protocol(why.to_owned()).into());
         }
         Ok(response)

@@ -169,8 +169,8 @@ fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>)
     files.map(error).collect()
 }
 
-/// Returns the assignment with the viewer's `main` function and with the given files replaced by
-/// what `given` returns for them. The result lives as long as the process.
+/// Returns the assignment with the viewer's `main` function and with each given file replaced by
+/// what `given` returns for it. The new assignment is never freed.
 fn with_probe(
     handed_out: &HandedOut,
     given: impl Fn(&GivenFile) -> GivenFile,

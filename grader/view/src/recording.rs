@@ -1,4 +1,4 @@
-//! Makes a submission's `BBox::hit` and `Primitive::hit` report their calls without changing the
+//! Makes a submission's `BBox::hit` and `Primitive::hit` report each call, without changing the
 //! traversal that calls them.
 //!
 //! Each of these methods is renamed, and a new method with the old name calls it and reports the
@@ -6,18 +6,18 @@
 
 use grader::handed_out::find_method;
 
-/// A method whose calls are recorded.
+/// A method that is changed to report each call.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedMethod {
     /// The file.
     pub file: &'static str,
     /// The type.
     type_name: &'static str,
-    /// The parameters and the body of the method that takes over the name.
+    /// The parameters and the body of the new method that takes over the name `hit`.
     wrapper: &'static str,
 }
 
-/// The methods whose calls are recorded.
+/// The methods that are changed to report each call.
 pub const RECORDED: [RecordedMethod; 2] = [
     RecordedMethod {
         file: "bbox.rs",
@@ -38,7 +38,7 @@ pub const RECORDED: [RecordedMethod; 2] = [
 ];
 
 impl RecordedMethod {
-    /// Returns the file's text, changed so that the method's calls are recorded, or `None` if the
+    /// Returns the file's text, changed so that calls to the method are recorded, or `None` if the
     /// method doesn't exist.
     pub fn apply(&self, text: &str) -> Option<String> {
         let name = find_method(text, self.type_name, "hit").ok()?.name_start;

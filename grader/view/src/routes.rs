@@ -19,14 +19,14 @@ use crate::session::Command;
 use crate::shared_session::SharedSession;
 use crate::subject::{SceneList, Subject};
 
-/// How long a request for news waits. Tunnels close connections that are silent for more than a
-/// minute.
+/// The time after which a request for news is answered even if nothing has changed. Tunnels close
+/// connections that are silent for more than a minute.
 const POLL_TIMEOUT: Duration = Duration::from_secs(25);
 /// The maximum number of boxes to draw over the picture. 400 boxes have 4,800 edges.
 const MAX_BOXES: usize = 400;
 /// The number of nodes in the list of worst nodes.
 const WORST: usize = 12;
-/// The width of the narrowest bar, as a share of the strip's width.
+/// The width of the narrowest bar, as a fraction of the strip's width.
 const NARROWEST: f32 = 1.0 / 600.0;
 
 /// The files of the page: path, type and text.
@@ -62,7 +62,8 @@ pub struct Routes {
     pub scenes: SceneList,
     /// The settings for paths.
     pub settings: PathSettings,
-    /// The file that leads the browser here. It contains the secret, so it is deleted after use.
+    /// The file that redirects the browser to this server. It contains the secret, so it is deleted
+    /// after use.
     pub redirection: Mutex<Option<NamedTempFile>>,
 }
 

@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     if let Some(forwarded) = access.forwarded() {
         let path = access.first_path();
         print_line(format_args!(
-            "From outside this codespace: open https://{forwarded}{path}"
+            "From outside this codespace, open https://{forwarded}{path}"
         ));
     }
     print_line("The page redraws after every save. Press Ctrl-C to stop.");

@@ -8,7 +8,7 @@ use std::{io, thread};
 use crate::session::{Key, Session};
 
 /// The number of pages that may wait for news at the same time. A browser opens at most six
-/// connections to one server, and it needs the other ones for pictures.
+/// connections to one server, and it needs the remaining connections for pictures.
 const MAX_WAITING: usize = 4;
 /// How long a page waits if more than [`MAX_WAITING`] pages are waiting.
 const SHORT_WAIT: Duration = Duration::from_millis(500);

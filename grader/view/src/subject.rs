@@ -48,7 +48,7 @@ pub struct Subject {
 /// A ray from the exam and the texts of its question.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExamRay {
-    /// The ray, if the question is about one. The page only learns whether there is one.
+    /// The ray, if the question is about a ray. The page is only told whether there is one.
     #[serde(rename = "has_ray", serialize_with = "is_some")]
     pub ray: Option<Ray>,
     /// The corners of the boxes to draw, for questions about boxes.
@@ -86,7 +86,7 @@ impl Subject {
     }
 
     /// Returns the criteria for a tree over these shapes. A tree from the exam isn't checked,
-    /// because its decoys are defects.
+    /// because its decoys would count as defects.
     pub fn tree_criteria<'a>(&self, shapes: &'a [Shape]) -> TreeCriteria<'a> {
         let is_complete = shapes.len() == self.data.shapes.len();
         TreeCriteria {
@@ -100,8 +100,8 @@ impl Subject {
         }
     }
 
-    /// Returns the reason that a tree of this size isn't read, or `None` if the tree isn't much
-    /// larger than a correct tree can be.
+    /// Returns the reason not to read a tree of this size, or `None` if the tree isn't much larger
+    /// than a correct tree can be.
     pub fn oversize(&self, size: TreeSize) -> Option<String> {
         let shapes = self.data.shapes.len();
         let own = match &self.data.tree {
@@ -127,7 +127,7 @@ impl Subject {
     }
 }
 
-/// Returns the box around all finite boxes. If there are none, returns a box of size one around the
+/// Returns the box around all finite boxes. If there are none, returns a unit cube centred at the
 /// origin.
 pub fn bounds(boxes: impl Iterator<Item = Bounds>) -> Bounds {
     let finite = boxes.filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite());

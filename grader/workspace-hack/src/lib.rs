@@ -1,1 +1,1 @@
-//! This crate is empty. It only exists for the features in `Cargo.toml`.
+//! This crate is empty. It exists only to enable the features listed in `Cargo.toml`.

@@ -45,7 +45,7 @@ fn main() -> ExitCode {
 fn run() -> Result<(), Box<dyn error::Error>> {
     let file = env::args()
         .nth(1)
-        .ok_or("name the page to write, such as target/drawings.html")?;
+        .ok_or("specify the page to write, such as target/drawings.html")?;
     let word = env::args().nth(2).unwrap_or_default();
     let solutions = Solutions::load(Workbench::open(&RAYS)?)?;
     let exam = exams::load_practice(Path::new(ROOT), &RAYS)?;

@@ -52,18 +52,18 @@ pub enum Command {
         #[arg(long, requires = "book")]
         students: bool,
     },
-    /// Draw the handout's pictures of right and wrong solutions
+    /// Draw the handout's pictures of correct and wrong solutions
     Gallery(CheckArgs),
     /// Write the students' bundle, as an archive or as a folder for a Git repository
     Bundle(BundleArgs),
     /// Write the autograder package that instructors upload to a platform
     Package(PackageArgs),
-    /// For each known mistake, write the items that it fails with every seed, and the table of the
-    /// items that it fails in the practice exam
+    /// For each known mistake, write the items that it fails whatever the seed, and the table of
+    /// the items that it fails in the practice exam
     Mistakes(MistakesArgs),
     /// Write the table of the contract's sentences and the items that test them
     Coverage(CheckArgs),
-    /// Measure how well hints recognise known and unknown mistakes, with the practice exam or with
+    /// Measure how well hints recognise known and unknown mistakes, using the practice exam or
     /// final exams
     Hints(HintsArgs),
     /// Make many small mechanical changes to the reference (operators, bodies, epsilons, confused
@@ -135,7 +135,8 @@ pub struct PackageArgs {
 #[derive(Clone, Debug, Args)]
 pub struct MistakesArgs {
     /// The number of seeds to grade the mistakes with, counting from 0; the default is 20, or 1
-    /// with `--check`. The 50 mistakes that are caught least clearly get ten times as many
+    /// with `--check`. The 50 mistakes that are caught least clearly are graded with ten times as
+    /// many
     #[arg(long, value_name = "N")]
     pub seeds: Option<u64>,
     /// Write only the table and leave the lists unchanged, which takes a minute
@@ -159,7 +160,7 @@ pub struct HintsArgs {
     #[arg(long, value_name = "N", conflicts_with = "seeds")]
     #[allow(
         clippy::option_option,
-        reason = "absent, without a value, with a value"
+        reason = "the option can be absent, have no value, or have a value"
     )]
     pub pairs: Option<Option<usize>>,
     /// Measure known mistakes made in variants, with the practice exam; fail if one of them doesn't
@@ -210,7 +211,7 @@ pub struct CalibrateArgs {
     pub record: RecordArgs,
 }
 
-/// Returns the folder that a book is built into, given the folder on the command line.
+/// Returns the folder to build a book into, given the folder named on the command line, if any.
 pub fn book_folder(folder: Option<PathBuf>, students: bool) -> PathBuf {
     let default = if students {
         DEFAULT_STUDENTS_BOOK

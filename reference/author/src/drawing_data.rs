@@ -10,7 +10,7 @@ use crate::oracle::{Ray64, scan, sweep};
 use crate::tree::Tree;
 use crate::tree::traversal::{Traversal, TraversalRule};
 
-/// The rule for the traversal that is drawn. Of all correct traversals, it is the one a student is
+/// The rule for the traversal that is drawn. It describes the correct traversal that a student is
 /// most likely to write.
 const RULE: TraversalRule = TraversalRule {
     left_first: true,

@@ -34,8 +34,8 @@ pub enum Mode {
     Check,
 }
 
-/// Writes the files below `root`, or compares them with the files there. The error message says to
-/// run `command`, which writes the files.
+/// Writes the files below `root`, or compares them with the files there. If any of them differ, the
+/// error message says to run `command`, which writes the files.
 pub fn write_or_check(
     files: &[GeneratedFile],
     root: &Path,

@@ -55,9 +55,9 @@ pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
     Ok(exam)
 }
 
-/// Returns whether all questions of an item are tables or trees. Pictures don't have signatures,
-/// and neither do trees that the submission both builds and traverses, because a wrong answer then
-/// depends on how the submission orders its own nodes.
+/// Returns whether all questions of an item are tables or trees. Pictures don't have signatures.
+/// Neither do trees that the submission both builds and traverses, because wrong answers about such
+/// a tree depend on how the submission orders its nodes.
 fn is_table(item: &Item) -> bool {
     item.questions
         .iter()

@@ -89,7 +89,7 @@ impl Rng {
         DVec3::from_array(std::array::from_fn(|_| self.uniform(min, max)))
     }
 
-    /// Returns a uniformly distributed direction of length one.
+    /// Returns a uniformly distributed unit vector.
     pub fn direction(&mut self) -> DVec3 {
         // Rejection sampling in the unit ball avoids trigonometry.
         loop {
@@ -101,7 +101,7 @@ impl Rng {
         }
     }
 
-    /// Returns a direction of length one that is perpendicular to `dir`.
+    /// Returns a random unit vector that is perpendicular to `dir`.
     pub fn perpendicular_to(&mut self, dir: DVec3) -> DVec3 {
         loop {
             let rejection = self.direction().reject_from(dir);

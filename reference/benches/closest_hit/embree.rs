@@ -83,7 +83,7 @@ impl Embree {
                 ($name:literal) => {
                     *library
                         .get($name)
-                        .unwrap_or_else(|error| panic!("is EMBREE version 4? {error}"))
+                        .unwrap_or_else(|error| panic!("EMBREE must be version 4: {error}"))
                 };
             }
             let new_device: unsafe extern "C" fn(*const c_char) -> Handle =

@@ -36,12 +36,12 @@ const SIDE: u32 = 512;
 const SHORT_SIDE: u32 = 32;
 
 /// The number of rays a contender traces before it is the next contender's turn. The number is
-/// small enough (a few milliseconds) that a slow moment of the machine affects all contenders, and
-/// large enough that the caches fill with the contender's own data.
+/// small enough (a few milliseconds) that a temporary slowdown of the machine affects all
+/// contenders, and large enough that the caches fill with the contender's own data.
 const RAYS_PER_TURN: usize = 1 << 15;
 
 fn main() {
-    // In the short form, only the agreement of the hits matters.
+    // In the short form, all that matters is whether the hits agree.
     let is_short = std::env::args().any(|argument| argument == "--check");
     let (rounds, side) = if is_short {
         (1, SHORT_SIDE)
@@ -181,7 +181,7 @@ fn check_agreement(
     let differing = expected.len() - expected.iter().zip(other).filter(same).count();
     assert!(
         differing * 1000 <= expected.len(),
-        "{name}, {kind}: {differing} of {} rays have a different hit than in the reference",
+        "{name}, {kind}: the hits of {differing} of {} rays differ from the reference's",
         expected.len()
     );
     report.record_mismatches(name, differing as f64 / expected.len() as f64);

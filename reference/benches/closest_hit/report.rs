@@ -11,8 +11,8 @@ pub struct Report {
     columns: Vec<&'static str>,
     /// For each name and column, one value per round.
     cells: Vec<(&'static str, &'static str, Vec<f64>)>,
-    /// The fraction of rays where a contender and the reference found different hits: the maximum
-    /// over all contenders and rounds.
+    /// The fraction of rays for which a contender and the reference found different hits: the
+    /// maximum over all contenders and rounds.
     differing: f64,
     most_differing: &'static str,
 }

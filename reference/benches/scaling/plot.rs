@@ -34,10 +34,10 @@ pub fn plot(rows: &[Row]) -> String {
     let markup = html! {
         svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 880 380" width="880" height="380"
             font-family="sans-serif" font-size="13" fill="#222" {
-            title { "Work for each ray and each triangle, against the number of triangles" }
+            title { "Work per ray and per triangle, against the number of triangles" }
             rect width="880" height="380" fill="#fff" {}
-            (frame(LEFT[0], "Tests for one ray", decades))
-            (frame(LEFT[1], "Tests for one ray, and build calls", tens))
+            (frame(LEFT[0], "Tests per ray", decades))
+            (frame(LEFT[1], "Tests per ray, and build calls per triangle", tens))
             @for line in [BRUTE, BOXES, PRIMITIVES] { (curve(LEFT[0], rows, line, log)) }
             @for line in [BOXES, PRIMITIVES, HANDLED] { (curve(LEFT[1], rows, line, linear)) }
         }

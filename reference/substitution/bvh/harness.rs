@@ -1,5 +1,5 @@
-//! The crate around a submission's `bvh.rs` when it is graded with the reference's parts. The
-//! reference's other files replace the submission's.
+//! The crate that compiles a submission's `bvh.rs` when it is graded with the reference's parts.
+//! The submission's other files are replaced by the reference's.
 
 pub use parts::*;
 

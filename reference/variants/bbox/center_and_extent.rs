@@ -1,6 +1,6 @@
-// Uses the centre and half the size of the box: the ray takes as long to get from its entry into a
-// slab to the slab's middle as from the middle to its exit. A ray parallel to the slab is a
-// separate case, since it never crosses the middle.
+// Uses the centre and half the size of the box: a ray crosses the middle of a slab exactly halfway
+// between entering and leaving the slab. A ray parallel to the slab is a separate case, since it
+// never crosses the middle.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

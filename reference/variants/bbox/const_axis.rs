@@ -7,7 +7,7 @@ impl BBox {
         self.clip_to_slab::<2>(ray, inside)
     }
 
-    /// Returns the part of `times` where the ray is in the slab of an axis.
+    /// Returns the part of `times` during which the ray is inside the slab of an axis.
     fn clip_to_slab<const AXIS: usize>(&self, ray: &Ray, times: Interval) -> Option<Interval> {
         let (min, max) = (self.min[AXIS], self.max[AXIS]);
         let (origin, inverse) = (ray.origin[AXIS], ray.dir[AXIS].recip());

@@ -3,7 +3,7 @@
 // Benthin, Johnson and Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG
 // 33(4), 2014.
 
-/// The minimum absolute value of a direction's component.
+/// The minimum absolute value of each component of the direction.
 const LEAST: Vec3 = Vec3::splat(1e-18);
 
 impl BBox {

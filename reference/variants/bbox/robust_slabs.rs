@@ -1,6 +1,6 @@
-// Lets the ray leave each slab a little later, by a bound on the rounding errors, so that rounding
-// never causes a miss. See Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition),
-// section 6.1.2.
+// Delays the time at which the ray leaves each slab by a bound on the rounding error, so that
+// rounding never causes a miss. See Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th
+// edition), section 6.1.2.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

@@ -7,7 +7,7 @@ use std::ops::Add;
 impl Add for BBox {
     type Output = BBox;
 
-    /// Returns the union of both boxes.
+    /// Returns the union of the two boxes.
     fn add(mut self, other: BBox) -> BBox {
         self.enclose(other);
         self

@@ -1,5 +1,5 @@
-// Computes an interval of times for each slab and intersects `times` with them. Returns early with
-// `?` if nothing is left.
+// Computes the interval of times that the ray spends in each slab and intersects `times` with each
+// of these intervals. Returns early with `?` if an intersection is empty.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

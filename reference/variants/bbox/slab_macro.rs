@@ -1,6 +1,6 @@
 // Expands a macro once for each of the three axes, passing it the name of the coordinate.
 
-/// Shortens an interval to the part where the ray is in the slab of one axis.
+/// Shortens an interval to the part during which the ray is inside the slab of one axis.
 macro_rules! clip_to_slab {
     ($inside:ident, $bbox:expr, $ray:expr, $axis:ident) => {
         let to_min = ($bbox.min.$axis - $ray.origin.$axis) / $ray.dir.$axis;

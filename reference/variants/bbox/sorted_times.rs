@@ -1,6 +1,6 @@
 // Sorts two lists: the times when the ray enters the slabs, together with the start of `times`, and
-// the times when it leaves the slabs, together with the end of `times`. The last entry and the
-// first exit are the result.
+// the times when it leaves the slabs, together with the end of `times`. The result is the interval
+// from the last entry to the first exit.
 
 impl BBox {
     pub fn hit(&self, ray: &Ray, times: Interval) -> Option<Interval> {

@@ -9,7 +9,7 @@ struct Quadratic {
 }
 
 impl Quadratic {
-    /// Returns the roots, the smaller one first.
+    /// Returns the two roots in increasing order.
     fn roots(&self) -> Option<[f32; 2]> {
         let root = (self.b * self.b - self.a * self.c).sqrt();
         let roots = [-self.b - root, -self.b + root].map(|root| self.improve(root / self.a));

@@ -1,5 +1,5 @@
 // Solves the quadratic equation in a numerically stable way: computes the root of larger magnitude
-// first, and the other from near · far = c / a. See Press et al., "Numerical Recipes" (3rd
+// first, and the other root from near · far = c / a. See Press et al., "Numerical Recipes" (3rd
 // edition), section 5.6.
 
 impl Sphere {

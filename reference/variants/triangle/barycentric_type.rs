@@ -45,7 +45,8 @@ impl Triangle {
     }
 }
 
-/// Returns the weights of the point where a line through (0, 0, 0) hits the plane of three corners.
+/// Returns the weights of the point where a line through (0, 0, 0) hits the plane through the three
+/// corners.
 fn weights([a, b, c]: [Vec3; 3], dir: Vec3) -> Option<Barycentric> {
     let (e1, e2) = (b - a, c - a);
     let across = dir.cross(e2);

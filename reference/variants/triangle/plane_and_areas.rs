@@ -1,6 +1,6 @@
-// Intersects the plane first. The weights are computed from the signed areas of the three
-// triangles that the point forms with the edges. See Marschner and Shirley, "Fundamentals of
-// Computer Graphics" (4th edition), section 2.7.2.
+// Intersects the ray with the triangle's plane first. The weights are computed from the signed
+// areas of the three triangles that the point forms with the edges. See Marschner and Shirley,
+// "Fundamentals of Computer Graphics" (4th edition), section 2.7.2.
 
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,5 +1,6 @@
-// Intersects the plane first, then computes the weights from two equations whose terms are dot
-// products with the edges. See Ericson, "Real-Time Collision Detection", section 3.4.
+// Intersects the ray with the triangle's plane first, then computes the weights from two equations
+// whose terms are dot products with the edges. See Ericson, "Real-Time Collision Detection",
+// section 3.4.
 
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

@@ -1,6 +1,6 @@
-// Intersects the plane first, then drops the axis along which the face normal has its largest
-// component and computes the weights in two dimensions. See Badouel, "An Efficient Ray-Polygon
-// Intersection", Graphics Gems, 1990.
+// Intersects the ray with the triangle's plane first, then drops the axis along which the face
+// normal has its largest component and computes the weights in two dimensions. See Badouel, "An
+// Efficient Ray-Polygon Intersection", Graphics Gems, 1990.
 
 use glam::{Vec2, Vec3};
 

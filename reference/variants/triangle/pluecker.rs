@@ -43,7 +43,7 @@ impl Line {
         }
     }
 
-    /// Returns a number whose sign tells on which side the lines pass each other. The number is
+    /// Returns a number whose sign indicates on which side the lines pass each other. The number is
     /// zero if they intersect or are parallel.
     fn side(self, other: Line) -> f32 {
         self.dir.dot(other.moment) + other.dir.dot(self.moment)

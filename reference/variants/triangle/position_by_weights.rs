@@ -1,5 +1,5 @@
-// Computes the position as the weighted sum of the corners, like normal and uv, so that it is in
-// the plane even if the ray starts far away.
+// Computes the position as a weighted sum over the corners, like the normal and the uv, so that the
+// position is in the plane even if the ray starts far away.
 
 impl Triangle {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

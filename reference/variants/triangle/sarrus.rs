@@ -1,5 +1,5 @@
-// Applies Cramer's rule with determinants by the rule of Sarrus: the sum of three products of three
-// numbers, minus the sum of three others.
+// Applies Cramer's rule, computing each determinant by the rule of Sarrus: the sum of three
+// products of three numbers each, minus the sum of three other such products.
 
 use glam::Vec3;
 

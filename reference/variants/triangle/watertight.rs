@@ -40,8 +40,8 @@ impl Triangle {
     }
 }
 
-/// Returns a number whose sign tells on which side of the edge from `a` to `b` the ray passes. It
-/// is computed in double precision if single precision gives zero.
+/// Returns a number whose sign indicates on which side of the edge from `a` to `b` the ray passes.
+/// It is computed in double precision if single precision gives zero.
 fn edge(a: Vec3, b: Vec3) -> f32 {
     let side = a.x * b.y - a.y * b.x;
     if side != 0.0 {

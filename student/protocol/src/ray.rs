@@ -8,7 +8,7 @@ use crate::interval::Interval;
 pub struct Ray {
     /// The point where the ray starts.
     pub origin: Vec3,
-    /// The direction, of length one, so that `t` is a distance.
+    /// The direction. It is a unit vector, so `t` is a distance.
     pub dir: Vec3,
     /// The distances from `origin` at which the ray can hit something. Both ends are included, and
     /// neither is negative.

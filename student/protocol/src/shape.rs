@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 pub struct Vertex {
     /// The position of the corner.
     pub position: Vec3,
-    /// The surface normal at this corner, of length one. It can differ from the face's normal.
+    /// The unit normal of the surface at this corner. It can differ from the face's normal.
     pub normal: Vec3,
     /// The texture coordinates.
     pub uv: Vec2,

@@ -2,7 +2,7 @@
 //!
 //! These traits and [`Submission`](crate::Submission) are used through `dyn` and are as small as
 //! possible, because their implementations are compiled together with every submission. The
-//! methods' names differ from those of the students' methods. Otherwise, if a student's method was
+//! methods' names differ from those of the students' methods. Otherwise, if a student's method were
 //! missing, the compiler could resolve the call to the trait's method instead of reporting an
 //! error.
 

@@ -17,7 +17,7 @@ pub enum Value<'a> {
     Length(f32),
     /// A position in space.
     Point(Vec3),
-    /// A direction, of length one.
+    /// A direction, as a unit vector.
     Direction(Vec3),
     /// Texture coordinates. u is periodic: 0 and 1 are the same.
     Uv(Vec2),
@@ -80,7 +80,7 @@ impl dyn Record + '_ {
     }
 }
 
-/// The empty record, which stands for the subject of a function that has none.
+/// The empty record, which stands for the subject of a function that has no subject.
 impl Record for () {
     fn names(&self) -> &'static [&'static str] {
         &[]

@@ -90,7 +90,7 @@ impl BareRustc {
         command
     }
 
-    /// Returns the command that compiles the task files to a program, with `root` as the crate
+    /// Returns the command that compiles the task files into a program, with `root` as the crate
     /// root.
     pub fn program(&self, folder: &Path, root: &str) -> Command {
         self.rustc(folder, &["--crate-type=bin", root])
@@ -119,14 +119,14 @@ impl BareRustc {
 
 fn newest(cache: &Path) -> Value {
     let entries = fs::read_dir(cache)
-        .expect("a grade has filled the cache")
+        .expect("a grading run has filled the cache")
         .flatten();
     let records = entries.map(|entry| entry.path().join("dependencies.json"));
     let newest: Option<PathBuf> = records
         .filter(|record| record.is_file())
         .max_by_key(|record| fs::metadata(record).and_then(|file| file.modified()).ok());
-    let text =
-        fs::read(newest.expect("a grade has filled the cache")).expect("the record can be read");
+    let text = fs::read(newest.expect("a grading run has filled the cache"))
+        .expect("the record can be read");
     serde_json::from_slice(&text).expect("the grader wrote valid JSON")
 }
 
@@ -177,7 +177,7 @@ pub fn change(root: &Path, folder: &Path, round: usize) {
 }
 
 /// Returns the median, which isn't affected by a few slow runs. For an even number of values,
-/// returns the larger of the two in the middle.
+/// returns the larger of the two middle values.
 pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);

@@ -21,9 +21,9 @@ use crate::store::tests::run;
 #[derive(Default)]
 struct FailingGrader {
     policy: Policy,
-    /// The number of times it was called.
+    /// The number of times the grader was called.
     asked: AtomicUsize,
-    /// The store to check for a result of entry `a` while grading.
+    /// The store in which the grader looks for a result of entry `a` when it is called.
     watched: Option<Store>,
     has_seen_result: AtomicBool,
 }

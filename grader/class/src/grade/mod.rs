@@ -179,8 +179,9 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
             )))
         }
         (None, false) => Ok(Run::first_round(settings)),
-        // A stopped regrade is resumed, with or without `--regrade`. A round that was finished
-        // once, however, is regraded, even if a later run or estimate in that round was stopped.
+        // A stopped regrade is resumed, with or without `--regrade`. A round that has already been
+        // finished, however, is regraded, even if a later run or estimate in that round was
+        // stopped.
         (Some(run), _) if run.settings == settings && (!regrade || !run.was_finished()) => {
             Ok(run.resume())
         }

@@ -13,10 +13,9 @@ use crate::roster::POINTS_POSSIBLE;
 use crate::table::{Table, missing_column};
 
 const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and pass that file";
-/// The last column that identifies people.
+/// The title of the last of the columns that identify people.
 const SECTION: &str = "Section";
-/// Texts that mark ignored columns. Canvas silently ignores any column whose title contains one of
-/// them.
+/// Canvas silently ignores any column whose title contains one of these texts.
 const IGNORED_TITLES: [&str; 9] = [
     "Current Score",
     "Current Points",
@@ -91,11 +90,11 @@ fn find_target(
     let found = names.iter().filter(|(_, name)| is_wanted(name)).copied();
     let found: Vec<(usize, &str)> = found.collect();
     let titles = |names: &[(usize, &str)]| joined(names.iter().map(|(_, name)| *name), "; ");
-    let title = column.unwrap_or("that is clearly the assignment's");
+    let title = column.unwrap_or("that clearly belongs to the assignment");
     let missing = |remedy: &str| Err(missing_column(path, title, remedy));
     match found.as_slice() {
         [(_, name)] if is_ignored(name) => missing(&format!(
-            "Canvas ignores columns with a title like {name:?}: rename the assignment"
+            "Canvas ignores columns with a title like {name:?}, so rename the assignment"
         )),
         [(index, _)] => Ok(*index),
         [] => missing(&format!(

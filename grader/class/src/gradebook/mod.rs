@@ -51,8 +51,8 @@ struct Gradebook {
     table: Table,
     /// The column to fill in.
     target: usize,
-    /// The columns that identify people, the most reliable first. A row in which the first of them
-    /// is empty isn't about a person.
+    /// The columns that identify people, the most reliable first. If a row's cell in the first of
+    /// these columns is empty, the row isn't about a person.
     keys: Vec<Key>,
     /// The columns with the parts of a person's name, for messages.
     names: Vec<usize>,
@@ -62,8 +62,8 @@ struct Gradebook {
     maximum: Option<String>,
 }
 
-/// A column that identifies people. A row matches a person if its text in this column equals one of
-/// the person's texts.
+/// A column that identifies people. A row matches a person if its text in this column equals a text
+/// of the same kind that identifies the person.
 struct Key {
     kind: KeyKind,
     column: usize,
@@ -163,7 +163,8 @@ impl Gradebook {
         }
     }
 
-    /// Returns the name and, if others in the list share it, the most reliable key.
+    /// Returns the name of the person in a row. If others in the list share the name, the text in
+    /// the most reliable column follows it.
     fn title(&self, row: &[String]) -> String {
         let name = self.name(row);
         let mut others = self.table.rows.iter().filter(|other| *other != row);
@@ -197,7 +198,7 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
         if ids.len() > 1 {
             let ids = joined(ids, ", ");
             warnings.push(format!(
-                "{who} has several submissions ({ids}), so this row is left unchanged: keep only one"
+                "{who} has several submissions ({ids}), so this row is left unchanged: keep only one submission"
             ));
             continue;
         }
@@ -244,11 +245,11 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
     }
 }
 
-/// A submission, one of its people who is in the gradebook, and that person's grade.
+/// A submission, a person in the gradebook who handed it in, and that person's grade.
 type GradebookMatch<'c> = (&'c ClassRow, &'c Person, &'c PersonGrade);
 
-/// Finds each person of the class in the gradebook. Returns the matches by row index, and a warning
-/// for each person without exactly one row.
+/// Finds each person of the class in the gradebook. Returns the matches, keyed by row index, and a
+/// warning for each person who doesn't have exactly one row.
 fn match_rows<'c>(
     gradebook: &Gradebook,
     class: &'c GradedClass,

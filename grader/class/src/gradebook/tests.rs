@@ -82,7 +82,7 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
                 "Ann Lee could be any of Lee, Ann (7002); Lee, Ann (7003): enter the points by \
                  hand",
                 "Nobody is not in this list",
-                "Doe, Jane has several submissions (b, c), so this row is left unchanged: keep only one",
+                "Doe, Jane has several submissions (b, c), so this row is left unchanged: keep only one submission",
             ],
         ),
         // A namesake with several submissions doesn't affect Jane's points.
@@ -94,7 +94,7 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
             ],
             ["100", "", "", "80"],
             vec![
-                "Lee, Ann (7002) has several submissions (a, c), so this row is left unchanged: keep only one",
+                "Lee, Ann (7002) has several submissions (a, c), so this row is left unchanged: keep only one submission",
             ],
         ),
     ] {

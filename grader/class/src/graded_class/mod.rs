@@ -19,7 +19,7 @@ pub struct GradedClass {
     pub missing: Vec<Person>,
 }
 
-/// A submission's result and the grades of its people.
+/// A submission's result and the grades of the people who handed it in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassRow {
     /// The result of grading the submission.
@@ -184,7 +184,7 @@ impl ClassRow {
         own.collect()
     }
 
-    /// Returns whether other submissions are used for all people in this row.
+    /// Returns whether other submissions are used for everyone in this row.
     pub fn is_superseded(&self) -> bool {
         !self.grades.is_empty() && self.grades.iter().all(PersonGrade::is_superseded)
     }
@@ -240,7 +240,7 @@ impl PersonGrade {
     }
 
     /// Returns sentences that explain how the score contributes to the grade, followed by the
-    /// staff's comments. There are none if the score is used unchanged.
+    /// staff's comments. No explanation is needed if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {
         let counts = match (&self.problem, &self.counted) {
             (Some(problem), _) => Some(format!("No points count towards the grade: {problem}.")),

@@ -12,10 +12,10 @@ use crate::file_tree::Node;
 use crate::names::{is_number, joined};
 
 impl Reader<'_> {
-    /// Returns whether the files can be a download from Canvas. Other files may also have two
-    /// numbers in their names, such as parts of a date. They can be told apart because the number
-    /// or name in the student's place is repeated, or because two files have the same attachment
-    /// number.
+    /// Returns whether the files could be a download from Canvas. The names of other files may also
+    /// contain two numbers, such as parts of a date. Such files can be told apart, because all of
+    /// them have the same number or name in the student's place, or because two of them have the
+    /// same attachment number.
     pub fn is_canvas_download(&self, root: &Node) -> bool {
         let nodes = root.children().iter();
         let names = nodes.map(|node| (node, first_readings(&self.platform.files, &node.name)));

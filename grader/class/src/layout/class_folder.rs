@@ -9,8 +9,8 @@ use super::platforms::{SAKAI_ARCHIVE, TEAMS_DRAFTS, TEAMS_SUBMITTED};
 use crate::file_tree::Node;
 use crate::names::{fold, is_number};
 
-/// Returns the folder with the entries, and a note if it isn't `root` or could also be a different
-/// folder. `archive` is the name of the archive that the folder was unpacked from.
+/// Returns the folder with the entries, and a note if this folder isn't `root` or if a different
+/// folder could be meant. `archive` is the name of the archive that the folder was unpacked from.
 pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node, Option<String>) {
     if let Some(found) = find_teams_folder(root) {
         return found;
@@ -25,7 +25,7 @@ pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node
     let is_sakais = archive.unwrap_or(&root.name).starts_with(SAKAI_ARCHIVE);
     let is_packed = || archive.is_some_and(|archive| is_packed(name, archive));
     if is_gradescopes(only) || is_sakais || is_packed() {
-        let note = format!("the submissions are those in the folder {name}");
+        let note = format!("the submissions are in the folder {name}");
         return (only, Some(note));
     }
     let unpack = archive.map_or("", |_| "unpack the archive and ");
@@ -47,7 +47,7 @@ fn find_teams_folder(root: &Node) -> Option<(&Node, Option<String>)> {
         (Some(TEAMS_DRAFTS), None) => "; those in Working files are drafts",
         (Some(_), _) => return None,
     };
-    let note = format!("the submissions are those in the folder {TEAMS_SUBMITTED}{drafts}");
+    let note = format!("the submissions are in the folder {TEAMS_SUBMITTED}{drafts}");
     Some((submitted, Some(note)))
 }
 

@@ -93,7 +93,7 @@ fn is_version(name: &str, file: &str) -> bool {
 
 /// Returns the names of the subfolders that look like submissions, if there are several and the
 /// folder itself isn't a submission. If a folder contains nothing but another folder, looks inside
-/// that one instead.
+/// the inner folder instead.
 fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<&'a str>> {
     if is_submission(node, handed_out) {
         return None;
@@ -136,7 +136,7 @@ fn is_submission(node: &Node, handed_out: &HandedOut) -> bool {
     handed_out.assignment.folders.iter().any(below)
 }
 
-/// Returns whether a folder has a task file, at any depth that was listed.
+/// Returns whether a folder contains a task file at any of the listed depths.
 fn has_task_files(node: &Node, handed_out: &HandedOut) -> bool {
     let mut inside = node.children().iter();
     contains_task_file(node, handed_out) || inside.any(|node| has_task_files(node, handed_out))

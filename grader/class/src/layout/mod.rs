@@ -90,7 +90,7 @@ impl Layout {
     }
 }
 
-/// Returns whether a file is written by a platform and its text should be read.
+/// Returns whether a file with this name was written by a platform and should be read.
 pub fn is_record(name: &str) -> bool {
     let lists = Platform::all().iter();
     let mut lists = lists.filter_map(|platform| platform.list.as_deref());
@@ -217,7 +217,7 @@ fn is_majority(root: &Node, platform: &'static Platform) -> bool {
     2 * count.count() > nodes.count()
 }
 
-/// Turns ids into safe folder names and appends numbers to those that would be equal on a
+/// Turns ids into safe folder names and appends numbers to any names that would be equal on a
 /// case-insensitive file system.
 fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();

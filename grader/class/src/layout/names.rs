@@ -68,9 +68,10 @@ impl Reader<'_> {
         Ok(names)
     }
 
-    /// Reads the names in a folder. `levels` contains the templates for the folders between it and
-    /// the submissions, `outer` contains the parts read from the names of its parent folders, and
-    /// `above` is the path of these folders, ending in a slash.
+    /// Reads the names in a folder. `levels` contains the templates for the levels of folders
+    /// between this folder and the submissions, `outer` contains the parts read from the names of
+    /// this folder and its parents, and `above` is this folder's path, which is empty or ends in a
+    /// slash.
     fn visit<'a>(
         &self,
         folder: &'a Node,
@@ -215,10 +216,10 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Returns the prefix that more than half of the names have, and that is followed by somebody
-    /// on the lists in the most names. People are recognised by their names only if none is found
-    /// by an identifier. If several prefixes could be meant, returns an empty string. Returns
-    /// `None` if there is no such prefix.
+    /// Of the prefixes that more than half of the names share, returns the one that is most often
+    /// followed by an identifier of somebody on the lists. People's names are only considered if no
+    /// identifiers are found. If several prefixes are equally frequent, returns an empty string. If
+    /// there is no such prefix, returns `None`.
     fn listed_prefix<'a>(
         &self,
         root: &Node,
@@ -240,9 +241,9 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the prefix that more than half of the names have, and that is followed by one of the
-/// `listed` texts in the most names. If several prefixes could be meant, returns an empty string.
-/// The rest of a name is compared after applying `normalize`.
+/// Of the prefixes that more than half of the names share, returns the one that is most often
+/// followed by one of the `listed` texts. If several prefixes are equally frequent, returns an
+/// empty string. `normalize` is applied to the text after a prefix before it is compared.
 fn most_frequent_prefix<'a>(
     names: &[&'a str],
     separator: char,
@@ -286,7 +287,7 @@ fn unlisted_prefix<'a>(names: &[&'a str], separator: char) -> Result<&'a str, Er
     )))
 }
 
-/// Returns the beginnings of a name that end in the separator, and the empty string.
+/// Returns the prefixes of a name that end in the separator, and the empty string.
 fn prefixes(name: &str, separator: char) -> impl Iterator<Item = &str> {
     let ends = name.match_indices(separator);
     let ends = ends.map(|(at, sign)| at + sign.len());

@@ -42,16 +42,16 @@ pub struct Platform {
     /// Templates for the names of text files: either submitted texts or receipts that the platform
     /// writes.
     pub texts: Vec<String>,
-    /// The reason for not grading a submission with texts but without files.
+    /// The reason for not grading a submission that contains texts but no files.
     pub text_only: String,
     /// The reason for not grading texts in addition to files, or `None` if every submission has a
     /// text.
     pub text_beside_files: Option<String>,
-    /// The reason for listing a name that doesn't follow any template.
+    /// The reason for listing a name as unmatched if it doesn't follow any template.
     pub unmatched: String,
     /// Files that the platform writes in addition to the submissions.
     pub own_files: Vec<String>,
-    /// The name of the file that lists people, if one of the platform's files does.
+    /// The name of the platform's file that lists people, if there is one.
     pub list: Option<String>,
     /// Templates for the submission's id.
     pub ids: Vec<String>,
@@ -92,7 +92,7 @@ pub enum NodeKind {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Record {
-    /// None is needed, since the names contain everything.
+    /// No source is needed, since the names contain everything.
     #[default]
     None,
     /// Gradescope's metadata file, which describes each folder.

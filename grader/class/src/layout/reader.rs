@@ -39,8 +39,8 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Returns the entries of a class, the paths that don't belong to any, and notes. `metadata` is
-    /// the text of Gradescope's file.
+    /// Returns the entries of a class, the paths that don't belong to any entry, and notes.
+    /// `metadata` is the text of Gradescope's file.
     pub fn read(
         &self,
         root: &Node,
@@ -135,8 +135,7 @@ impl Reader<'_> {
         }
         let id = parts.fill_first(&platform.ids);
         let mut entry = Entry::new(id, person(platform, parts), &from, self.source(&files));
-        // If files were handed in, their names are the only possible reason that the source is
-        // missing.
+        // If files were handed in, the source can only be missing because of their names.
         entry.info.needs_staff = !files.is_empty() && matches!(entry.source, Source::Missing(_));
         let mut named = files.iter().chain(&text);
         entry.info.late = named.any(|found| found.parts.has("late"));

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use super::times::normalize_time;
 use crate::names::is_number;
 
-/// The template for one of the people in a name or file from Sakai, which removes letters that
-/// aren't Latin.
+/// The template for one of the people in a name from Sakai or in its list of members. Sakai removes
+/// letters that aren't Latin.
 const MEMBER: &str = "[{last}],[ ][{first}]({eid})";
 
 /// The texts in the fields of a template.

@@ -196,7 +196,7 @@ fn render_grade_changes(grades: &GradeChanges) -> String {
     };
     let count = count_or_no(grades.changes.len(), "final grade");
     let title = format!("{count} changed");
-    // All grades are listed, because a change that goes unnoticed is only found weeks later.
+    // List all grades, because a change that is overlooked now would only be noticed weeks later.
     let changes = grades.changes.iter().map(|change| sentence(change));
     section(&title, &causes, changes)
 }
@@ -219,8 +219,8 @@ pub fn points_of_item(change: &ItemChange) -> [String; 2] {
     [change.was, change.now].map(|points| points.map_or("–".to_owned(), text))
 }
 
-/// Returns lines about the first scores that changed, and a line with the number of others.
-/// `location` says where the others can be found.
+/// Returns lines about the first scores that changed, and a line with the number of changes that
+/// aren't listed. `location` says where to find them.
 fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String> {
     let mut lines = Vec::new();
     for drift in drifts.iter().take(MAX_LINES) {

@@ -50,7 +50,7 @@ impl Member {
         person.matches(&self.person) || self.matches_by_name(person)
     }
 
-    /// Returns whether the person's name is the name or an identifier in this row. It is only
+    /// Returns whether the person's name is the name or an identifier in this row. The name is only
     /// compared if the person's email address, student id and account name are unknown, e.g. for a
     /// folder named after a student. If both the row and the person have a platform number, the
     /// numbers must be the same, and the person's name must be an identifier in the row.
@@ -117,7 +117,7 @@ fn parse_members(table: &Table, list: ListKind) -> Option<Vec<Member>> {
         identifier.or_else(|| table.column("canvas_user_id"))
     };
     // Brightspace's list of grades has a `#` before each identifier, so that spreadsheets don't
-    // turn them into numbers.
+    // turn the identifiers into numbers.
     let is_marked = table.column("End-of-Line Indicator").is_some();
     // In other lists, a status column means something else.
     let status = identifier.and(table.column("Status"));
@@ -210,8 +210,8 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
     own.zip(others).all(|(one, other)| are_equal(one, other))
 }
 
-/// Reads the people on the list in a platform's download. If the list is in another language,
-/// nothing in it is recognised.
+/// Reads the people on the list in a platform's download. If the list is in a language that isn't
+/// supported, nobody is returned.
 pub fn read_downloaded(path: &Path) -> Vec<Member> {
     let mut members = read_members(path, ListKind::Downloaded).unwrap_or_default();
     // If names are hidden, everybody has the same name.
@@ -255,7 +255,7 @@ pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
                 break;
             }
         }
-        // The sections that the teacher listed matter more than those of a platform.
+        // The sections in the teacher's roster take precedence over a platform's sections.
         let mut own = rows.iter().filter(|row| row.list == ListKind::Roster);
         let own = own.find(|row| !row.person.section.is_empty() && row.matches(person));
         if let Some(row) = own {

@@ -38,7 +38,7 @@ pub struct Store {
     folder: PathBuf,
 }
 
-/// Returns the error for a file with invalid contents.
+/// Returns the error to report when the contents of a file are invalid.
 fn damaged(path: &Path, why: &serde_json::Error) -> Error {
     let path = path.display();
     Error::machine(format!(
@@ -196,9 +196,9 @@ impl Store {
         Ok(files::remove_if_exists(self.entry_folder(id).join(STAMP))?)
     }
 
-    /// Replaces an entry's files with those in another store. As in grading, the stamp is removed
-    /// first and written last, so that a killed merge never leaves a stamp next to another run's
-    /// score.
+    /// Replaces an entry's files with the same entry's files from another store. As in grading, the
+    /// stamp is removed first and written last, so that a killed merge never leaves a stamp next to
+    /// another run's score.
     pub fn copy_entry(&self, id: &str, from: &Store) -> Result<(), Error> {
         self.copy_files(id, from, id)?;
         match files::read_if_exists(from.entry_folder(id).join(STAMP))? {

@@ -105,7 +105,10 @@ fn a_stamp_is_never_left_without_its_score() {
     store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
     fs::create_dir(store.entry_folder("a").join(REPORT)).unwrap();
     let replaced = store.save_result(&result("a", &["Ann"], nothing()), "key", 1);
-    assert!(replaced.is_err(), "a folder is not removed like a file");
+    assert!(
+        replaced.is_err(),
+        "a folder cannot be removed the way a file can"
+    );
     store.set_score_aside("a", 1).unwrap();
     assert_eq!(store.result("a").unwrap(), None);
 }

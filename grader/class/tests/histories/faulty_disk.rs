@@ -8,8 +8,8 @@ use std::sync::Mutex;
 use grader::disk::{self, Disk, Operation};
 
 /// A disk fault. Each number says which operation of a step is affected, counted from 1.
-/// `ReadErrorAt` counts reads, and the others count changes. A process is never killed during a
-/// read, because that leaves the same files as a kill before the next change.
+/// `ReadErrorAt` counts reads, and the other variants count changes. A process is never killed
+/// during a read, because that would leave the same files as killing it before the next change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiskFault {
     /// No fault.

@@ -31,7 +31,7 @@ struct History {
     log: Vec<String>,
 }
 
-/// Runs the history with this seed. The error says what was lost and after which steps.
+/// Runs the history with this seed. The error says what went wrong and after which steps.
 pub fn run(seed: u64) -> Result<(), String> {
     let folder = TempDir::new().map_err(|error| error.to_string())?;
     let mut history = History {
@@ -190,7 +190,7 @@ impl History {
             Target::Part(_) | Target::Merged | Target::Fresh => true,
         };
         let is_possible = is_possible && self.world.is_class();
-        // Manual points are only possible if their student is in the class.
+        // Manual points are only possible if the student who gets them is in the class.
         let has_manual =
             !self.manual_option().is_empty() || observed.list("manual-points").is_some();
         let has_student = self.world.submissions.contains_key(STUDENTS[0]);

@@ -45,10 +45,10 @@ struct Arguments {
     /// Write the result into the table of long runs
     #[arg(long)]
     record: bool,
-    /// Run the histories in this process, and write what is lost into this file
+    /// Run the histories in this process, and write any failures into this file
     #[arg(long, hide = true)]
     report: Option<PathBuf>,
-    /// End when a history is lost
+    /// Stop at the first history that fails
     #[arg(long, hide = true)]
     until_lost: bool,
     /// Words that test runners add

@@ -152,7 +152,8 @@ impl Model {
         }
     }
 
-    /// Returns the ids of the class's entries whose score a regrade changed, with the previous scores.
+    /// Returns the ids of the class's entries whose scores a regrade changed, together with the
+    /// previous scores.
     fn drifts(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
         let ids = class.keys().copied();
         let entries = &self.observed.entries;

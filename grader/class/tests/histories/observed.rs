@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::recorded_grader::{EXAMS, exam_hash, score_file};
 
-/// A score that is known to be right for a version of the submission and an exam.
+/// A score that is known to be right, identified by the version of the submission and the exam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ScoreId {
     /// The version of the submission.
@@ -85,8 +85,8 @@ impl Observed {
         run.is_some_and(|run| !run["before"].is_null()) && !was_finished
     }
 
-    /// If the folder contains a list of this kind, returns the last part of the path on the command
-    /// line.
+    /// If the folder contains a list of this kind, returns the last component of the path that was
+    /// given on the command line.
     pub fn list(&self, kind: &str) -> Option<&str> {
         let path = self.run.as_ref()?["lists"][kind]["given_as"].as_str()?;
         path.rsplit('/').next()

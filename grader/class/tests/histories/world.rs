@@ -25,7 +25,8 @@ pub const POLICIES: [&str; 4] = [
     "[points]\nout_of = 50\nrounding = \"up\"\n",
     "[visibility]\npractice = \"points\"\nfinal = \"points\"\n",
 ];
-/// The options for manual points: none, and two lists with a row for the first student.
+/// The command-line options for manual points: none, or one of two lists that have a row for the
+/// first student.
 pub const MANUAL_POINTS: [&str; 3] = [
     "",
     "--manual-points=ROOT/manual-1.csv",
@@ -43,7 +44,7 @@ pub enum Target {
     Part(usize),
     /// The merged shards.
     Merged,
-    /// A new folder for a run that other runs are compared with.
+    /// A new folder for a run against which other runs are compared.
     Fresh,
 }
 
@@ -74,7 +75,7 @@ pub struct Ended {
 }
 
 impl World {
-    /// Creates a course without any submissions in a folder.
+    /// Creates a course in a folder. It has no submissions yet.
     pub fn new(root: &Path) -> Self {
         let world = World {
             root: root.to_owned(),
@@ -108,7 +109,7 @@ impl World {
         self.root.join(format!("policy-{number}.toml"))
     }
 
-    /// Returns the path of the folder for these results.
+    /// Returns the path of this results folder.
     pub fn folder(&self, target: Target) -> PathBuf {
         self.root.join(match target {
             Target::Whole => "out".to_owned(),
@@ -148,8 +149,8 @@ impl World {
         self.submissions.remove(student);
     }
 
-    /// Changes all files' dates as if the clock had jumped by this many days. Nothing else about a
-    /// file shows the time.
+    /// Changes the timestamps of all files as if the clock had jumped by this many days. Nothing
+    /// else about a file depends on the clock.
     pub fn jump_clock(&self, days: i64) {
         let by = Duration::from_secs(days.unsigned_abs() * 86_400);
         let now = SystemTime::now();

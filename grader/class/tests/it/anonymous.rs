@@ -1,5 +1,5 @@
 //! Anonymous grading: a copy of the class with pseudonyms instead of names. Only the key file says
-//! whose pseudonyms they are.
+//! who each pseudonym stands for.
 
 use std::collections::BTreeMap;
 use std::fs;

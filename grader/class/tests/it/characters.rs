@@ -1,5 +1,6 @@
 //! Characters that could affect the text around them, such as escape sequences and direction marks.
-//! Nothing a student chooses may put them in the teacher's terminal, tables or pages.
+//! Nothing a student chooses may cause such characters to appear in the teacher's terminal, tables
+//! or pages.
 
 use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
 use class::final_grades::GradeChanges;
@@ -94,7 +95,7 @@ fn score(text: &str) -> ScoreSummary {
     }
 }
 
-/// Returns a class that contains this text everywhere a student can write.
+/// Returns a class that contains this text wherever a student can enter text.
 fn class_with(text: &str) -> GradedClass {
     let outcomes = [
         EntryOutcome::Graded(Box::new(score(text))),
@@ -147,7 +148,7 @@ fn preview_with(text: &str) -> String {
     render_preview(&class, &info(text).people, &RAYS)
 }
 
-/// Returns every text that a teacher reads, together with a name for it.
+/// Returns everything that a teacher reads: the name and the text of each output.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let class = class_with(text);
     let summary = ClassSummary::new(&class);
@@ -223,7 +224,7 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
 fn no_output_has_a_character_that_affects_the_text_around_it() {
     let hostile = hostile_text();
     for (output, text) in outputs(&hostile) {
-        // Drop the styles of the terminal's headings.
+        // Remove the escape sequences that style the headings in the terminal.
         let text = ["0", "1", "2"].iter().fold(text, |text, style| {
             text.replace(&format!("\u{1b}[{style}m"), "")
         });

@@ -55,8 +55,9 @@ fn a_faulty_submission_does_not_affect_the_others() {
     assert!(!page.contains("=starter</script"), "names must be escaped");
 }
 
-/// Programs that see the questions in a final exam must not tell students about them. The grader's
-/// own tests send bits through every channel. This test shows that a class's pages are covered too.
+/// Programs that see the questions in a final exam must not reveal the questions to students. The
+/// grader's own tests try to leak bits through every channel. This test shows that the pages for
+/// students don't leak any bits either.
 #[test]
 fn the_page_for_a_student_has_nothing_that_the_program_wrote() {
     let head = "pub fn sample_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {";
@@ -116,7 +117,7 @@ fn links_are_listed_with_the_reason_and_never_followed() {
     assert!(class.preview().contains(".hidden"), "{}", class.preview());
 }
 
-/// File modes don't stop root, so this test is skipped when root runs it.
+/// File permissions don't restrict root, so this test is skipped when root runs it.
 #[cfg(unix)]
 #[test]
 fn an_unreadable_folder_is_listed_with_the_reason() {
@@ -199,7 +200,7 @@ fn a_transient_fault_is_retried_and_a_lasting_fault_gives_no_score() {
     let output = grade_with_faults(1000, &class, &exam);
     let (code, error) = exit_code_and_stderr(&output);
     assert_eq!(code, 3, "{error}");
-    assert_contains(&error, &["not graded, which is not the student's fault"]);
+    assert_contains(&error, &["not graded, through no fault of the student"]);
     let ann = |column| cell(&class, "ann", "ann", column);
     assert_eq!([ann("status"), ann("points")], ["not graded", ""]);
     let score = class.out().join("students/ann/score.json");

@@ -56,7 +56,8 @@ fn canvas_gets_each_page_under_the_name_of_an_attachment() {
     assert_contains(&class.read("class.html"), &["Jane Doe"]);
 }
 
-/// Moodle splits the name at its first four underscores. The second part is the participant.
+/// Moodle splits the name at its first four underscores. The second part is the participant's
+/// number.
 #[test]
 fn moodle_gets_each_page_as_a_feedback_file_of_the_participant() {
     let class = TestClass::named("CG-Path tracing-77")

@@ -81,7 +81,7 @@ fn an_archived_export_gives_the_same_preview() {
         (name.to_str().unwrap().to_owned(), fs::read(&path).unwrap())
     });
     fs::write(&file, zip(files)).unwrap();
-    let entered = "\n  the submissions are those in the folder assignment_55_export\n";
+    let entered = "\n  the submissions are in the folder assignment_55_export\n";
     let preview = class.preview_of(&file, &[]);
     assert!(preview.contains(entered), "{preview}");
     assert_eq!(preview.replace(entered, ""), class.preview());
@@ -103,7 +103,7 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
     write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);
     write("class/outside/../../escaped.rs", b"text");
     write(&format!("class/{}/camera.rs", "n".repeat(300)), b"text");
-    // Unneeded files are created empty, even if they are large in the archive.
+    // Files that aren't needed are created as empty files, even if they are large in the archive.
     write("class/junk/notes.bin", &[0; 2 << 20]);
     writer.add_directory("class/empty/", plain).unwrap();
     writer

@@ -36,7 +36,7 @@ impl Rules {
         let percent = 100 - (self.percent_per_day * late_days).min(100);
         let sum = earned.checked_add_signed(manual).unwrap().min(100);
         Some(Numbers {
-            // Rounded to the nearest integer, halves up.
+            // Rounded to the nearest integer, with halves rounded up.
             counts: (2 * self.out_of * sum * percent + 10_000) / 20_000,
             earned,
             manual,
@@ -266,7 +266,7 @@ fn text(number: Option<impl ToString>) -> String {
     number.map_or(String::new(), |number| number.to_string())
 }
 
-/// Returns the texts of the cells in the page's row that begins with `first`.
+/// Returns the text of each cell in the row of the page that begins with the cell `first`.
 fn row_of_page(page: &str, first: &str) -> Vec<String> {
     let without_tags = |html: &str| -> String {
         let parts = html.split('<');

@@ -1,5 +1,5 @@
-//! Tests of the class's page: root causes, failure rates and what needs attention. In a browser,
-//! they also test hints, sorting and a narrow window.
+//! Tests of the class's page: root causes, failure rates and what needs attention. One test also
+//! checks hints, sorting and a narrow window in a browser.
 
 use test_support::{Chromium, DESKTOP, Viewer};
 
@@ -76,9 +76,9 @@ pub fn section(page: &str, id: &str) -> String {
         .join("\n")
 }
 
-/// There are two mistakes, and one hides the other in Finn's submission. Pictures don't show either
-/// of them, and Eve hasn't built a tree. One file doesn't compile, one submission can't be graded,
-/// two people's names look alike, and Hana didn't hand in a file.
+/// There are two mistakes, and one of them hides the other in Finn's submission. Neither is visible
+/// in a picture, and Eve hasn't built a tree. One file doesn't compile, one submission can't be
+/// graded, two people's names look alike, and Hana didn't hand in a file.
 #[test]
 fn the_page_shows_what_needs_attention_root_causes_and_failure_rates_by_section() {
     let class = TestClass::named("class")

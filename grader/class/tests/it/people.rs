@@ -25,7 +25,7 @@ fn the_policy_says_which_of_several_attempts_counts() {
     let text = grade("ask");
     let several = [
         "2 without final points, because the same person handed in several submissions",
-        "Lee, Ann has several submissions (ann, u1), so this row is left unchanged: keep only one",
+        "Lee, Ann has several submissions (ann, u1), so this row is left unchanged: keep only one submission",
     ];
     assert_contains(&text, &several);
     let ann = |submission, column| cell(&class, submission, "Ann Lee", column);
@@ -128,7 +128,7 @@ fn namesakes_are_told_apart_or_belong_to_nobody() {
     ];
     assert_contains(&preview, &expected);
     assert_eq!(preview.matches("several people").count(), 1);
-    // Until then, nobody gets these points.
+    // Until the name is replaced, nobody gets these points.
     let exam = class.small_exam(&["camera.offset"]);
     class.graded(&exam, &["--roster", &roster]);
     assert_eq!(
@@ -154,7 +154,7 @@ fn namesakes_are_told_apart_or_belong_to_nobody() {
     assert_eq!(cell(&class, "leeann_7001", "Ann Lee", "username"), "a1");
 }
 
-/// The roster has the tutors, and the list beside the clones has the times.
+/// The roster names the tutors, and the list next to the clones gives the submission times.
 #[test]
 fn the_list_in_a_download_counts_beside_a_roster_and_in_later_runs() {
     let scores = "username,first_name,last_name,email,datetime,late\n\

@@ -308,8 +308,8 @@ fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
     assert_snapshot!(format!("{flat}\n\n{tutorials}"));
 }
 
-/// A single clone of another assignment, or a project by staff, doesn't change where the accounts
-/// begin in the other names.
+/// A single clone of another assignment, or a project by staff, doesn't change where the account
+/// begins in the names of the other clones.
 #[test]
 fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
     let scores = "username,first_name,last_name,email,datetime,late\n\
@@ -450,7 +450,7 @@ fn links_between_the_folders_of_a_platform_are_not_followed() {
     assert_eq!(preview.matches("all 5 files").count(), 2);
 }
 
-/// Returns parts of names, as written by platforms and students.
+/// Generates parts of names, as platforms and students write them.
 fn name_part() -> impl Strategy<Value = String> {
     let usual = [
         "ann",
@@ -505,7 +505,7 @@ proptest! {
             let choice = LayoutChoice { layout: Some(*layout), title: None };
             let is_of_clones = [Layout::GitHub, Layout::GitLab].contains(layout);
             let found = match recognise(&choice, &root, None, &RAYS, &[]) {
-                // Most names begin alike, but not all of them.
+                // Clones are refused if most of their names, but not all of them, begin alike.
                 Err(_) if is_of_clones => continue,
                 found => found.unwrap(),
             };
@@ -519,7 +519,8 @@ proptest! {
                         Source::Missing(_) => true,
                     })
             };
-            // Canvas's archives can be replaced by newer ones, and receipts aren't submissions.
+            // An archive from Canvas can be replaced by a newer archive, and Blackboard's receipts
+            // aren't submissions.
             let is_other = *layout == Layout::Canvas || *layout == Layout::Blackboard;
             for node in root.children().iter().filter(|node| node.name != "grades.csv") {
                 prop_assert!(is_other || is_known(&node.name), "{layout:?}: {}", node.name);

@@ -124,7 +124,7 @@ fn a_changed_submission_keeps_its_old_score_and_removed_students_are_named() {
     assert_contains(&page, &["<strong>0 → 3</strong>", "dora: 3 points"]);
     assert!(!text.contains("ann: "), "{text}");
 
-    // A regrade compares its scores with those before it.
+    // A regrade compares the new scores with the previous scores.
     let (_, other) = exam_with_changed_points(&class, &exam, -1);
     let text = class.graded(&other, &["--regrade"]);
     assert!(text.contains("  bob: 3 → 2\n"), "{text}");

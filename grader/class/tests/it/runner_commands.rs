@@ -7,7 +7,7 @@ use grader::printing::without_commands;
 
 use crate::harness::{TestClass, class_command, zip};
 
-/// A command of each kind. The text is also a valid file name.
+/// One command of each kind, written so that the text is also a valid file name.
 const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
 
 /// Panics if a program prints none of the names, or prints one of them as a command.

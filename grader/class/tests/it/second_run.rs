@@ -1,5 +1,5 @@
 //! A second run into the same folder uses the first run's lists and reports every final grade that
-//! it changes. The commands in its reports refer to the submission.
+//! it changes. The commands in a report name the files that were graded.
 
 use std::fs;
 
@@ -73,7 +73,7 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     let [text, _] = graded.run(&dropped);
     let changed = "1 final grade changed (changed: the roster, the table of manual points)";
     assert!(text.contains(changed), "{text}");
-    // A repeated run prints the same text and needs no flag.
+    // A repeated run reports the same change and doesn't need `--drop-list`.
     let [again, error] = graded.run(&[]);
     assert!(again.contains(changed), "{again}");
     assert!(!error.contains("manual points"), "{error}");
@@ -125,7 +125,7 @@ fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     ];
     insta::assert_snapshot!(all.join("\n").trim_end(), @r"
     1 final grade changed (changed: the table of manual points)
-    ann (Ann Lee): 60 → 30: by hand -1 → -2
+    ann (Ann Lee): 60 → 30: manual points -1 → -2
     1 final grade changed (changed: the roster)
     ann (Ann Lee): 30 → 33: days late 1 → 0
     no final grade changed (changed: the roster)

@@ -75,8 +75,8 @@ fn the_page_shows_the_most_similar_pairs_side_by_side() {
     assert!(!class.read("class.html").contains("id=\"similar\""));
 }
 
-/// Since version 6, JPlag writes the comparisons into a separate file. An id is a name without
-/// slashes.
+/// Since version 6, JPlag writes the comparisons to a separate file. A submission's id is its name,
+/// with each slash replaced by an underscore.
 #[test]
 fn jplags_archive_shows_the_same_pairs_as_its_table() {
     let class = compared_class();
@@ -145,8 +145,8 @@ fn results_that_cannot_be_read_are_errors_before_anything_is_graded() {
     let errors = [
         refused("own", "files.csv", "id,path,content,ast,extra\n"),
         refused("submissions", "results.csv", &jplag(both)),
-        // These are JPlag's file without names, a submission that was not compared, and a name
-        // without a task.
+        // The next three cases are JPlag's anonymous file, which has no names, a submission that
+        // was not compared, and names that don't contain the task.
         refused("own", "results-anonymous.csv", &jplag("0,1,1.0,1.0")),
         refused(
             "own",

@@ -22,7 +22,7 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
         .with_reference("bob")
         // Comments and spaces don't make a difference.
         .with_replaced("bob/sphere.rs", "use glam", "// Bob O'Hara\n\nuse glam")
-        // An editor's byte order mark doesn't either.
+        // A byte order mark, which some editors add, doesn't make a difference either.
         .with_byte_order_mark("bob/camera.rs")
         .with_reference("carl")
         .with_replaced(

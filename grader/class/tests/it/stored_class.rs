@@ -20,12 +20,12 @@ use serde_json::{Value, json};
 pub struct StoredEntry {
     /// The points of each task. `None` if there was nothing to grade.
     pub points: Option<Vec<u32>>,
-    /// The number of people who handed it in.
+    /// The number of people who handed in the submission.
     pub people: usize,
     /// The hours between the due time, 2026-11-20 12:00 UTC, and the submission.
     pub hours_late: i64,
-    /// The manual points that each of the people gets for the first task, if these points are
-    /// within its range.
+    /// The manual points for the first task. Each of the people gets them, unless they would take
+    /// the task's total out of range.
     pub manual: i32,
     /// Whether an earlier version of the submission was graded and got no points.
     pub is_resubmitted: bool,
@@ -52,7 +52,8 @@ fn stored_entry() -> impl Strategy<Value = StoredEntry> {
 }
 
 impl StoredEntry {
-    /// Returns the manual points, limited to the range of the first task's points.
+    /// Returns the manual points, or 0 if they would take the first task's total out of range or if
+    /// there was nothing to grade.
     pub fn possible_manual(&self) -> i32 {
         let most = RAYS.assignment.tasks[0].points;
         let sum = |points: &Vec<u32>| points[0].checked_add_signed(self.manual);
@@ -100,8 +101,8 @@ fn score(points: &[u32]) -> Value {
     json!({ "points": points.iter().sum::<u32>(), "max_points": max_points, "tasks": tasks })
 }
 
-/// Writes a shard of the class in the state after a finished run. `stale` is an entry of somebody
-/// who has since left the class.
+/// Writes a shard of the class in the state after a finished run. If `stale` is true, it also
+/// contains an entry for somebody who has since left the class.
 pub fn write_shard(folder: &Path, class: &[StoredEntry], shard: Option<Shard>, stale: bool) {
     let store = Store::new(folder);
     let all: Vec<(usize, &StoredEntry)> = class.iter().enumerate().collect();

@@ -91,7 +91,7 @@ fn a_copy_counts_only_if_no_other_file_could_be_meant() {
     for (who, copy) in &copies[3..5] {
         let expected = format!(
             "{who}: 4 of 5 files; camera.rs is missing; {copy} is not graded because its name is \
-             not camera.rs, which costs 15 points"
+             not camera.rs; this costs 15 points"
         );
         assert_eq!(line(&preview, who), expected);
     }

@@ -1,4 +1,4 @@
-//! Items and tasks that the policy removes or reweights after the class was graded. Each final
+//! Items and tasks that the policy removes or reweights after the class has been graded. Each final
 //! grade that changes is listed with its cause, pages explain the final points, and nothing is
 //! graded again.
 

@@ -25,7 +25,8 @@ pub struct Assignment {
     /// The folders where a submission's files are expected, in order of preference. The empty path
     /// is the submission's top level.
     pub folders: &'static [&'static str],
-    /// Names of the project's other folders. Files in them, at any depth, are never handed in.
+    /// Names of the project's other folders. Files in these folders, however deeply nested, are
+    /// never handed in.
     pub other_folders: &'static [&'static str],
     /// The tasks, in lecture order.
     pub tasks: &'static [TaskInfo],
@@ -50,7 +51,7 @@ pub struct TaskInfo {
     pub points: u32,
     /// The handout's page about the task.
     pub chapter: &'static str,
-    /// The clues for failures that don't explain themselves.
+    /// The clues for failures whose cause isn't obvious.
     pub clues: TaskClues,
 }
 
@@ -66,7 +67,7 @@ pub struct TaskFile {
     pub required_declarations: &'static [&'static str],
 }
 
-/// Clues to what is wrong with a task's code, for failures that don't explain themselves.
+/// Clues to what is wrong with a task's code, for failures whose cause isn't obvious.
 #[derive(Debug, PartialEq, Eq)]
 pub struct TaskClues {
     /// The clue for code whose rays never hit anything. `None` if none of the task's rays should
@@ -75,7 +76,7 @@ pub struct TaskClues {
     /// The clue for code that overflows the stack. `None` if nothing is known about the recursion.
     pub if_stack_overflows: Option<&'static str>,
     /// The clues for wrong answers to items whose own advice is about another symptom. The first
-    /// clue that includes the symptom is used.
+    /// clue that covers the symptom is used.
     pub by_symptom: &'static [SymptomClue],
 }
 
@@ -83,8 +84,8 @@ pub struct TaskClues {
 /// have the same cause.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SymptomClue {
-    /// The quantities. If the clue is only about one side of a quantity, that side is specified
-    /// too.
+    /// The quantities. If the clue only applies when a quantity is too small, or only when it is
+    /// too large, that side is specified too.
     pub symptoms: &'static [Symptom],
     /// The clue.
     pub clue: &'static str,
@@ -128,7 +129,7 @@ impl Assignment {
         self.tasks.iter().find(|task| task.id == id)
     }
 
-    /// Returns the ids of the tasks as a list for a message, such as `a, b, c`.
+    /// Returns the ids of the tasks as a list to show in a message, such as `a, b, c`.
     pub fn id_list(&self) -> String {
         let ids: Vec<&str> = self.tasks.iter().map(|task| task.id).collect();
         ids.join(", ")

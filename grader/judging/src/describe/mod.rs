@@ -22,7 +22,7 @@ pub fn element(question: &Question, element: usize) -> String {
     if let Question::Radiance { film, samples, .. } = question {
         let (x, y) = (element as u32 % film.x, element as u32 / film.x);
         return format!(
-            "a rendered picture of {}×{} pixels, {samples} samples; pixel ({x}, {y})",
+            "pixel ({x}, {y}) of a rendered picture of {}×{} pixels with {samples} samples each",
             film.x, film.y
         );
     }

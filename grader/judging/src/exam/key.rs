@@ -78,7 +78,7 @@ impl Key {
         Key::table(<Interval as Fields>::NAMES, ExpectedRows::Spans(spans))
     }
 
-    /// Returns a correct answer, or `None` for a tree, since many different trees are right.
+    /// Returns a correct answer, or `None` for a tree, since many different trees are correct.
     pub fn answer(&self) -> Option<Answer> {
         Some(match self {
             Key::Table { rows, .. } => rows.answer(),

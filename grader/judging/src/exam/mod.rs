@@ -78,7 +78,7 @@ pub struct Item {
     pub id: String,
     /// One sentence that says what a correct solution must do. Students read it as feedback.
     pub title: String,
-    /// The task the points belong to.
+    /// The task that the points count towards.
     pub task: Task,
     /// Points for the item.
     pub points: u32,
@@ -137,7 +137,7 @@ impl Item {
         counts.sum()
     }
 
-    /// Returns the number shown to people for an element, counting from 1 across all questions of
+    /// Returns the number of an element as shown to people, counting from 1 across all questions of
     /// the item. A rendered picture is one element, so all of its pixels share a number.
     pub fn number(&self, question: usize, element: usize) -> usize {
         let before = self.questions[..question].iter();
@@ -200,8 +200,8 @@ impl ExamQuestion {
         ExamQuestion::new(question, Key::Tree { checks, sweep_cost })
     }
 
-    /// Returns this element and its key as a question. A question with a single element is returned
-    /// unchanged.
+    /// Returns a question that consists of only this element and its key. A question with a single
+    /// element is returned unchanged.
     ///
     /// # Panics
     ///

@@ -19,12 +19,12 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// The deviation of a correct answer without a tolerance.
+    /// The deviation of a correct answer if there is no tolerance.
     pub const RIGHT: Deviation = Deviation {
         threshold: None,
         value: 0.0,
     };
-    /// The deviation of a wrong answer without a tolerance.
+    /// The deviation of a wrong answer if there is no tolerance.
     pub const WRONG: Deviation = Deviation {
         threshold: None,
         value: f64::INFINITY,
@@ -51,8 +51,8 @@ impl Deviation {
 /// The error that one check measured in an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
-    /// The error. If some wrong positions are tolerated, the worst ones are skipped, and this is
-    /// the largest error of the rest.
+    /// The error. If some wrong positions are tolerated, that many of the worst positions are
+    /// skipped, and this is the largest error at the remaining positions.
     pub deviation: Deviation,
     /// The number of wrong positions, as a deviation, if positions are counted.
     pub count: Option<Deviation>,

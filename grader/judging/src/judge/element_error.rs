@@ -96,7 +96,7 @@ mod tests {
         assert_eq!(element_error(&question, &answer(2.0), 1), None);
         let error = element_error(&question, &answer(2.002), 1).expect("this is wrong");
         assert!(error.starts_with("distance; the error is "), "{error}");
-        // The other element is correct regardless of this one.
+        // This error doesn't affect the other element, which is correct.
         assert_eq!(element_error(&question, &answer(2.002), 0), None);
         let none = Answer::Hits(Vec::new());
         let error = element_error(&question, &none, 1);

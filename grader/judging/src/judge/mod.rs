@@ -1,4 +1,4 @@
-//! Compares answers with keys. This module is pure and the only one that awards credit.
+//! Compares answers with keys. This module is pure, and no other module awards credit.
 
 mod credit;
 mod deviation;

@@ -85,7 +85,7 @@ impl Quantity {
         }
     }
 
-    /// Returns the quantity as multiples of its tolerance.
+    /// Returns the numbers in the quantity as multiples of its tolerance.
     pub(crate) fn in_tolerances(self, record: &dyn Record, scale: f32) -> Vec<f32> {
         self.with(record, |value| value.in_tolerances(scale))
     }

@@ -16,7 +16,8 @@ use crate::types::in_units_of;
 /// A pixel is wrong if a channel differs by more than this fraction of the brightest channel of the
 /// expected pixel.
 pub(super) const RELATIVE_TOLERANCE: f32 = 0.01;
-/// Minimum brightness for computing a tolerance. Darker pixels use this brightness.
+/// Minimum brightness for computing a tolerance. For darker pixels, this brightness is used
+/// instead.
 const MIN_BRIGHTNESS: f32 = 0.01;
 
 /// A rendered picture and its key.

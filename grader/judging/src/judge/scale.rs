@@ -5,7 +5,7 @@ use protocol::{AnyTable, Record, Value};
 
 use crate::types;
 
-/// The scale for questions without positions in space, which is the length of a direction.
+/// The scale for questions without positions in space: the length of a unit vector.
 const UNIT: f32 = 1.0;
 
 /// The scales of a table's rows.

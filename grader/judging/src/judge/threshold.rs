@@ -10,7 +10,7 @@ use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
 use crate::types::{self, Tolerance, direction, length, uv};
 
 /// A threshold between correct and wrong. The steps of partial credit aren't listed here, because
-/// they only distinguish degrees of wrong answers.
+/// they only distinguish between wrong answers of different quality.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Threshold {
     /// The field with this name in a table.
@@ -87,12 +87,12 @@ impl Threshold {
             Threshold::PictureDepth => "depth in a picture",
             Threshold::PictureNormal => "normal in a picture",
             Threshold::PictureUv => "uv in a picture",
-            Threshold::PicturePositions => "wrong positions of a picture",
+            Threshold::PicturePositions => "wrong positions in a picture",
             Threshold::Radiance => "radiance of a pixel",
-            Threshold::RadiancePixels => "wrong pixels of a rendered picture",
+            Threshold::RadiancePixels => "wrong pixels in a rendered picture",
             Threshold::SahCost => "SAH cost of a tree",
-            Threshold::BoxTooLarge => "excess of a box over its contents",
-            Threshold::BoxTooSmall => "part of a primitive outside its box",
+            Threshold::BoxTooLarge => "how far a box extends beyond its contents",
+            Threshold::BoxTooSmall => "how far a primitive extends beyond its box",
         }
     }
 
@@ -110,7 +110,9 @@ impl Threshold {
             }
             Threshold::PictureDepth => format!("{DEPTH:e} of the scale"),
             Threshold::PictureNormal => format!("{NORMAL:e}"),
-            Threshold::PicturePositions => format!("{TOLERATED_POSITIONS}, or 1e-4 of all"),
+            Threshold::PicturePositions => {
+                format!("{TOLERATED_POSITIONS}, or 1e-4 of all positions")
+            }
             Threshold::Radiance => format!("{RELATIVE_TOLERANCE}, relative"),
             Threshold::RadiancePixels => "set by the key".to_owned(),
             Threshold::SahCost => format!("{FULL_MARKS_RATIO} times the exact sweep's"),

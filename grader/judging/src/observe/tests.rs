@@ -105,9 +105,8 @@ fn uv_is_a_multiple_of_its_tolerance_and_a_direction_has_length_one() {
     assert_eq!(direction(4.0 * Vec3::Z), unit);
 }
 
-/// A normal that is computed from a wrong position only has length one if it is normalised, and
-/// code with and without this normalisation is common. The wrong distance is the same in both
-/// cases.
+/// A normal that is computed from a wrong position only has length one if the code normalises it.
+/// Some code does this and some doesn't, but the wrong distance is the same in both cases.
 #[test]
 fn what_follows_from_a_wrong_distance_is_not_observed() {
     let expected = HIT;
@@ -140,8 +139,8 @@ fn what_follows_from_a_wrong_distance_is_not_observed() {
     ];
     assert!(!wrong[0].matches(&wrong[1]));
 
-    // Right normals are observed as right at any distance. At the right distance, different wrong
-    // normals are observed as different.
+    // A correct normal is observed as correct at any distance. At the correct distance, different
+    // wrong normals lead to different observations.
     let right = of(&expected, Some(&expected));
     assert!(of(&farther(expected.normal), Some(&expected)).matches(&right));
     let at_right_distance = |normal| Trace { normal, ..expected };

@@ -184,8 +184,8 @@ mod tests {
 
     use super::*;
 
-    /// Changes a tree over four spheres in a row and returns the observation. The spheres are
-    /// listed in a different order.
+    /// Changes a tree over four spheres in a row and returns the observation. The tree lists the
+    /// spheres in a different order from the question.
     fn defect_after(change: impl FnOnce(&mut Tree)) -> Option<(String, f32)> {
         defect_by(&ALL_CHECKS, change)
     }
@@ -235,7 +235,7 @@ mod tests {
             let r = tree.nodes[2];
             (tree.nodes[0].min, tree.nodes[0].max) = (r.min + off, r.max + off);
         });
-        // One end of the box is the same as the sibling's, but the other isn't.
+        // One corner of the box is the same as the sibling's, but the opposite corner isn't.
         assert_name("box too large: leaves", |tree| {
             tree.nodes[0].max = tree.nodes[2].max;
         });
@@ -280,7 +280,8 @@ mod tests {
         let diagonal = Vec3::new(7.0, 1.0, 1.0).length();
         let root = amount(|tree| tree.nodes[1].max.x += 1.0).unwrap();
         assert!((root * 1e-4 * diagonal - 1.0).abs() < 1e-3, "{root}");
-        // This root reaches half of the primitives, but the amount is computed for all of them.
+        // This root reaches only half of the primitives, but the amount takes all of them into
+        // account.
         let part = defect_by(&[TreeCheck::Contains], |tree| {
             tree.root = 0;
             tree.nodes[0].max.x = 2.0;

@@ -1,5 +1,5 @@
-//! Compares a submitted picture with the expected one for display. This shows the judge's findings
-//! and doesn't affect points.
+//! Compares a submitted picture with the expected one for display. The comparison shows the judge's
+//! findings and doesn't affect points.
 //!
 //! Pixels are listed in the order of the question's elements: row by row from the bottom.
 
@@ -27,7 +27,7 @@ pub struct Picture {
     pub layers: Vec<LayerComparison>,
     /// The error in each pixel.
     pub mask: Vec<MaskPixel>,
-    /// Number of judged positions. In pictures of first hits, each pixel has five.
+    /// Number of judged positions. In pictures of first hits, each pixel has five positions.
     pub positions: usize,
     /// Number of positions where each aspect is wrong, the most serious aspect first.
     pub wrong_counts: Vec<(Aspect, usize)>,

@@ -26,8 +26,8 @@ pub struct LayerComparison {
     pub wanted: Vec<Colour>,
     /// The submitted picture.
     pub got: Vec<Colour>,
-    /// The difference between the two, amplified four times. It is black where the judge found no
-    /// error.
+    /// The difference between the expected and the submitted picture, amplified by a factor of
+    /// four. It is black where the judge found no error.
     pub difference: Vec<Colour>,
 }
 

@@ -55,7 +55,8 @@ pub(super) fn pick(
             (candidate, mismatch, distance_to_nearest(&picked, candidate))
         });
         let far = far.filter(|(_, _, distance)| *distance >= min_distance);
-        // Among equally wrong pixels, pick the one that is farthest from those already picked.
+        // Among equally wrong pixels, pick the pixel farthest from all pixels that are already
+        // picked.
         let next =
             far.min_by(|(_, a, near), (_, b, far)| by_severity(a, b).then(far.total_cmp(near)));
         match next {

@@ -7,7 +7,7 @@ use crate::signatures::ObservedAnswer;
 
 /// A mistake that produces no answers at all is only named if at least this many items fail.
 const MIN_FAILED_ITEMS: usize = 3;
-/// The same minimum for a mistake that doesn't explain all answers on its own.
+/// The corresponding minimum for a mistake that doesn't explain all answers on its own.
 const MIN_FAILED_ITEMS_OF_SEVERAL: usize = 5;
 
 /// The answers to a task's items, together with the answers that known mistakes would give.
@@ -56,8 +56,8 @@ impl<'a> Evidence<'a> {
         self.with_enough_failures(causes, MIN_FAILED_ITEMS_OF_SEVERAL)
     }
 
-    /// Returns whether a mistake changes any answer to an item and all of the submission's answers
-    /// to the item match the mistake's.
+    /// Returns whether a mistake explains an item: the mistake must change at least one answer to
+    /// the item, and all of the submission's answers to the item must match the mistake's.
     pub(super) fn explains(&self, mistake: usize, item: &Item) -> bool {
         let mut affected = self.affected(mistake);
         affected.any(|other| other.item.id == item.id && other.is_explained_by(&[mistake]))
@@ -91,9 +91,9 @@ impl<'a> Evidence<'a> {
 
     /// Returns the mistakes whose hint is in every pair that explains all answers, provided that in
     /// one of these pairs each mistake explains an item on its own. Without this condition, the
-    /// second mistake might only fill in what the first doesn't explain, and it could do the same
-    /// for the answers of an unknown mistake. For the same reason, at least three out of five
-    /// answers to the items that a mistake affects must match the mistake's.
+    /// second mistake might only account for what the first doesn't explain, and it could do the
+    /// same if the answers came from an unknown mistake. For the same reason, at least three out of
+    /// five answers to the items that a mistake affects must match the mistake's.
     fn causes_in_pairs(&self) -> Vec<usize> {
         let mut hints: Option<BTreeSet<&str>> = None;
         let mut members = BTreeSet::new();
@@ -149,8 +149,8 @@ impl<'a> Evidence<'a> {
     }
 
     /// Returns the mistakes that explain every item they affect. There must be several such items,
-    /// they must be most of the wrong items, and no mistake with a different hint may explain these
-    /// items and every other item that it affects.
+    /// they must make up most of the wrong items, and no mistake with a different hint may explain
+    /// these items and every other item that it affects.
     fn partial_causes(&self) -> Vec<usize> {
         let wrong = self.items.iter().filter(|item| item.is_wrong()).count();
         let is_cause = |mistake: usize| {
@@ -176,8 +176,8 @@ impl<'a> Evidence<'a> {
     }
 
     /// Returns, for the items that a mistake affects, how many wrong answers match the mistake's
-    /// and how many answers differ from the mistake's. Misses are no evidence, because too many
-    /// mistakes lead to them.
+    /// and how many answers differ from the mistake's. Misses don't count as matches, because too
+    /// many mistakes lead to misses.
     fn agreement(&self, mistake: usize) -> (usize, usize) {
         let (mut agreeing, mut differing) = (0, 0);
         for item in self.affected(mistake) {
@@ -194,10 +194,10 @@ impl<'a> Evidence<'a> {
         (agreeing, differing)
     }
 
-    /// Returns whether items that the mistake would leave correct fail in the same way as those it
-    /// affects: a tree shows the same defect, or several items lack an answer for the same reason.
-    /// If so, the failures have a different cause. A single such item proves nothing, since
-    /// different code with the same mistake may give no answer.
+    /// Returns whether items that the mistake would leave correct fail in the same way as the items
+    /// that it affects: a tree shows the same defect, or several items lack an answer for the same
+    /// reason. If so, the failures have a different cause. A single item without an answer proves
+    /// nothing, since different code with the same mistake may give no answer.
     fn has_same_defect_elsewhere(&self, mistake: usize) -> bool {
         let wrong: Vec<_> = self.wrong_answers(mistake).collect();
         let has_same_defect = |answer: &ObservedAnswer| {
@@ -220,14 +220,15 @@ impl<'a> Evidence<'a> {
         missing.count() > 1 || elsewhere.into_iter().flatten().any(has_same_defect)
     }
 
-    /// Returns whether a mistake gives any wrong answers, rather than no answers at all.
+    /// Returns whether a mistake gives at least one wrong answer, as opposed to merely failing to
+    /// answer.
     fn is_informative(&self, mistake: usize) -> bool {
         let mut wrong = self.wrong_answers(mistake);
         wrong.any(|answer| !answer.is_uninformative())
     }
 
-    /// Returns whether a mistake does more than miss everything: it gives a wrong answer other than
-    /// a miss, or leaves a hit correct in an item that it affects.
+    /// Returns whether a mistake does more than make every ray miss: it gives a wrong answer other
+    /// than a miss, or leaves a hit correct in an item that it affects.
     fn is_distinctive(&self, mistake: usize) -> bool {
         let mut affected = self.affected(mistake);
         affected.any(|item| {
@@ -290,7 +291,7 @@ impl ObservedItem<'_> {
         })
     }
 
-    /// Returns whether the two mistakes change the numbers of some answer differently.
+    /// Returns whether there is an answer whose numbers the two mistakes change in different ways.
     fn is_changed_differently_by(&self, one: usize, other: usize) -> bool {
         let (Some(by_one), Some(by_other)) = (self.wrong.get(&one), self.wrong.get(&other)) else {
             return false;
@@ -305,7 +306,7 @@ impl ObservedItem<'_> {
     }
 
     /// Counts the answers that the two mistakes change. Returns how many match one of the mistakes,
-    /// and how many match neither, which can happen where both change them.
+    /// and how many match neither. Only an answer that both mistakes change can match neither.
     fn certain_and_open(&self, one: usize, other: usize) -> (usize, usize) {
         let wrong =
             |mistake: usize, element: usize| self.wrong.get(&mistake)?.get(&element).copied();

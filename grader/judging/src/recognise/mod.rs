@@ -9,8 +9,8 @@
 //! 2. It explains all answers together with one other mistake, and every pair of mistakes that does
 //!    so includes it. Most answers must match one of the two, because where both change an answer,
 //!    the result can be anything.
-//! 3. It explains every item it affects, these items are most of the wrong ones, and no other known
-//!    mistake explains them. Other items of the task may be wrong for another reason.
+//! 3. It explains every item it affects, these items make up most of the wrong items, and no other
+//!    known mistake explains them. Other items of the task may be wrong for another reason.
 
 mod evidence;
 
@@ -98,8 +98,8 @@ impl Observations {
     }
 }
 
-/// Returns whether one of an item's rays should hit something. Pictures are ignored, because they
-/// also need other tasks, and those can be the reason a picture has no answer.
+/// Returns whether at least one of an item's rays should hit something. Pictures are ignored,
+/// because they also depend on other tasks, which may be the reason why a picture has no answer.
 fn can_be_hit(item: &Item) -> bool {
     item.questions.iter().any(|question| match &question.key {
         Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),

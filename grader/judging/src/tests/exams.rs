@@ -22,7 +22,7 @@ fn parse(text: &str) -> Result<Exam, String> {
         .map_err(|error| error.to_string())
 }
 
-/// Returns the problem with an exam after a change, if any.
+/// Returns the problem found in a changed copy of an exam, if any.
 fn problem_after(exam: &Exam, change: impl FnOnce(&mut Exam)) -> Option<String> {
     let mut exam = exam.clone();
     change(&mut exam);

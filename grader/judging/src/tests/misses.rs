@@ -38,8 +38,8 @@ fn is_picture(item: &Item) -> bool {
     item.questions.iter().all(of_first_hits)
 }
 
-/// Returns whether a task is reported to miss everything if one item has these answers (or, for the
-/// given reason, no answers) and all other rays miss.
+/// Returns whether a task is reported to miss everything if one item has these answers (or no
+/// answers, for the given reason) and all rays of the other items miss.
 fn misses_everything(
     items: &[&Item],
     one: &Item,

@@ -1,5 +1,5 @@
-//! Properties of judging, for all questions of the practice exam: the key's own answer passes, and
-//! a worse answer never earns more.
+//! Properties that judging must have for every question in the practice exam: the key's own answer
+//! passes, and a worse answer never earns more.
 
 use std::collections::BTreeSet;
 
@@ -20,7 +20,7 @@ fn any_error() -> impl Strategy<Value = Error> {
     ]
 }
 
-/// Returns distinct elements of an answer, at most one for each of these numbers.
+/// Maps these numbers to elements of an answer, without duplicates.
 fn elements(answer: &Answer, numbers: &[usize]) -> Vec<usize> {
     let mut elements: Vec<usize> = numbers.iter().map(|n| n % count(answer)).collect();
     elements.sort_unstable();
@@ -87,10 +87,10 @@ fn without_a_right_element_an_answer_earns_nothing() {
 }
 
 /// Questions of the same item are skipped: they may ask for the same thing in two sizes, so their
-/// answers may be equal in everything that the item compares. Two kinds of questions are skipped as
-/// well, because answers to questions of other items may pass. If one row answers a whole question,
-/// as with the length of a direction, a row of another question may answer it too. And the same
-/// pattern of hits and misses can occur in two questions.
+/// answers may be equal in everything that the item compares. Two more kinds of questions are
+/// skipped, because answers to other items' questions may rightly pass: if one row answers a whole
+/// question, as with the length of a direction, a row from another question may answer it too, and
+/// the same pattern of hits and misses can occur in two questions.
 #[test]
 fn answers_to_questions_of_other_items_do_not_pass() {
     let item = |question: &ExamQuestion| {

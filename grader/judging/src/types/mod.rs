@@ -50,7 +50,7 @@ pub(crate) trait FieldType {
         None
     }
 
-    /// Returns the value as multiples of its tolerance.
+    /// Returns the numbers in the value as multiples of its tolerance.
     fn in_tolerances(&self, _scale: f32) -> Vec<f32> {
         Vec::new()
     }

@@ -64,7 +64,7 @@ fn shape_text(shape: &Shape) -> String {
         }
         Shape::Sphere { center, radius, .. } => {
             let (center, radius) = (point(center), number(radius));
-            format!("sphere around {center} of radius {radius}")
+            format!("sphere of radius {radius} around {center}")
         }
     }
 }

@@ -6,7 +6,7 @@ use protocol::{Interval, Value};
 
 use super::{Tolerance, direction, in_units_of, length, of, uv};
 
-/// Generates pairs of a correct value, of any type, and an answer that may be anything.
+/// Generates pairs that consist of a correct value of any type and an arbitrary answer.
 fn pair() -> impl Strategy<Value = (Value<'static>, Value<'static>)> {
     let unit = |at: Vec3| at.try_normalize().unwrap_or(Vec3::X);
     let correct = (point(-1e3..1e3), 0.0..1e3_f32);

@@ -1,4 +1,4 @@
-//! Texture coordinates. Their u is periodic.
+//! Texture coordinates. Their u coordinate is periodic.
 
 use glam::Vec2;
 use protocol::Value;

@@ -66,7 +66,7 @@ fn draw_boxes(sheet: &mut Sheet, shapes: &[Shape], below: &[usize], node: &Reach
     let (needs, has) = (node.tight_bounds, Bounds::of_node(node.node));
     let out = |axis: usize| {
         let out = [needs.min - has.min, needs.max - has.max].map(|out| out[axis].abs());
-        // A box with a NaN is treated as infinitely wrong.
+        // A box with a NaN coordinate is treated as infinitely wrong.
         let [below, above] = out.map(|out| if out.is_nan() { f64::INFINITY } else { out });
         below.max(above)
     };
@@ -170,7 +170,10 @@ fn draw_row(
     );
     sheet.add_wanted(Symbol::Line(LineStyle::Right), "the best splitting plane");
     let counts: Vec<String> = sides.iter().map(|side| side.len().to_string()).collect();
-    let text = format!("{}, one child above, one below", counts.join(" and "));
+    let text = format!(
+        "{} primitives, one child above, the other below",
+        counts.join(" and ")
+    );
     sheet.add_got(Symbol::Area(Fill::Tint(Ink::Wrong, 1.0)), &text);
 }
 

@@ -67,7 +67,7 @@ fn draw_sweep(sheet: &mut Sheet, sweep: &UpperLevels) {
     let Some(all) = sweep.nodes.iter().find_map(count) else {
         return;
     };
-    sheet.title("with the best split at every node");
+    sheet.title("the tree with the best split at every node");
     // The exam only stores the upper levels, so the total cost is unknown.
     let total = f64::NAN;
     levels::draw(sheet, &sweep.nodes, all, total, None);
@@ -79,7 +79,7 @@ fn draw_legend(sheet: &mut Sheet, criteria: &TreeCriteria, flaw: &Flaw, symbol: 
         interior,
         "a split node; a stronger colour means a larger box",
     );
-    sheet.add_legend(leaf, "half height: a leaf; numbers: primitives");
+    sheet.add_legend(leaf, "a leaf (half height); numbers count primitives");
     if flaw.node.is_some() {
         sheet.add_legend(symbol, flaw.label());
     }
@@ -89,7 +89,10 @@ fn draw_legend(sheet: &mut Sheet, criteria: &TreeCriteria, flaw: &Flaw, symbol: 
             let text = format!("SAH cost: {own}; with the best splits: {best}");
             sheet.add_legend(Symbol::None, &text);
         }
-        None => sheet.add_legend(Symbol::None, "right: what each level adds to the SAH cost"),
+        None => sheet.add_legend(
+            Symbol::None,
+            "on the right: what each level adds to the SAH cost",
+        ),
     }
 }
 

@@ -13,9 +13,10 @@ use crate::drawing::numbers::short;
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::Window;
 
-/// Draws the sensor, the point where the ray should cross it, and the point where it actually does.
+/// Draws the sensor, the point where the ray should cross it, and the point where the ray actually
+/// crosses it.
 pub(super) fn draw(sensor: &Sensor, sample: Sample, wanted: DVec2, got: Option<Ray>) -> Drawing {
-    /// The minimum size of a distinguishable pixel, in page units.
+    /// The minimum size, in page units, at which individual pixels can be distinguished.
     const MIN_PIXEL: f64 = 9.0;
 
     let mut sheet = Sheet::default();

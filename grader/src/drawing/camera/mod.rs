@@ -1,5 +1,5 @@
-//! Draws a camera ray. The drawing shows where the ray goes through the sensor. If the ray's
-//! direction is right, the drawing instead shows the ray's origin, length and range from the side.
+//! Draws a camera ray. If the ray's direction is wrong, the drawing shows where the ray goes
+//! through the sensor. Otherwise, it shows the ray's origin, length and range from the side.
 
 mod front;
 mod side;
@@ -27,8 +27,8 @@ pub(super) fn draw(
     })
 }
 
-/// Returns the point where a direction crosses the plane z = -1, or `None` if it doesn't point
-/// forward.
+/// Returns the point where a ray from the origin in this direction crosses the plane z = -1, or
+/// `None` if the direction doesn't point forward.
 fn sensor_crossing(dir: DVec3) -> Option<DVec2> {
     let point = dir.truncate() / -dir.z;
     (dir.z < 0.0 && point.is_finite()).then_some(point)
@@ -64,7 +64,7 @@ impl Sensor {
         self.size / self.film.as_dvec2()
     }
 
-    /// Returns the lower left and the upper right corner of a pixel.
+    /// Returns the lower-left and upper-right corners of a pixel.
     fn pixel_corners(&self, pixel: UVec2) -> [DVec2; 2] {
         let pixel = pixel.as_dvec2();
         [pixel, pixel + 1.0].map(|corner| corner * self.pixel_size() - 0.5 * self.size)

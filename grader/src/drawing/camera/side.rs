@@ -93,8 +93,8 @@ fn caption(ray: &Ray, length: f64) -> String {
     }
 }
 
-/// Returns whether a value is noticeably wrong. NaN always is. This is only used to choose the
-/// caption.
+/// Returns whether a value is noticeably wrong. NaN always counts as wrong. This is only used to
+/// choose the caption.
 fn is_off(value: f64, wanted: f64) -> bool {
     let is_close = (value - wanted).abs() <= 1e-3;
     !is_close

@@ -36,11 +36,11 @@ impl HitAnswer {
 /// The field of a hit that the drawing shows: the first judged field that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::drawing) enum Focus {
-    /// The presence and the distance of the hit.
+    /// Whether there is a hit and, if so, its distance.
     Distance,
     /// The position, which may not be on the ray.
     Position,
-    /// The direction or the length of the normal.
+    /// The normal, whose direction or length may be wrong.
     Normal,
     /// The texture coordinates.
     Uv,

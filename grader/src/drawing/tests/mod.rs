@@ -1,4 +1,5 @@
-//! Tests that any answer from a submission results in a small, well-formed drawing or in none.
+//! Tests that any answer from a submission results in a small, well-formed drawing or in no drawing
+//! at all.
 
 mod captions;
 

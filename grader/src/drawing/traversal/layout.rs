@@ -36,7 +36,7 @@ impl NodeStatus {
     }
 }
 
-/// A row of the diagram. It shows one node or stands for several omitted ones.
+/// A row of the diagram, which either shows one node or stands for several omitted rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeRow {
     pub(super) node: u32,
@@ -117,8 +117,8 @@ impl Layout {
         })
     }
 
-    /// Returns the deepest row on the path to the submitted hit's leaf: the node where a correct
-    /// traversal leaves the path, or the leaf itself.
+    /// Returns the row of the deepest node on the path to the submitted hit's leaf: either the node
+    /// where a correct traversal leaves the path, or the leaf itself.
     pub(super) fn got_row(&self) -> Option<&NodeRow> {
         let on_path = self.rows.iter().filter(|row| {
             let is_node = row.status != NodeStatus::Elided;
@@ -153,8 +153,8 @@ fn node_status(is_entered: bool, span: Option<Interval>, comparison: &HitCompari
 }
 
 /// Chooses at most [`MAX_ROWS`] rows: first the nodes on the path to a relevant leaf, then the
-/// children of nodes on such a path, then the others in order. Each run of omitted rows becomes a
-/// single row.
+/// children of nodes on such a path, then the remaining nodes in order. Each run of omitted rows
+/// becomes a single row.
 fn shorten(rows: &[NodeRow], matters: impl Fn(&NodeRow) -> (bool, bool)) -> Vec<NodeRow> {
     // The end of a long path matters most.
     let rank = |index: usize| match matters(&rows[index]) {

@@ -44,7 +44,7 @@ pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) ->
     let left = dvec2(0.0, sheet.y + 12.0);
     canvas.text(left, Anchor::Start, Ink::Faint, "a correct traversal");
     let right = dvec2(WIDTH - 12.0, sheet.y + 12.0);
-    let text = "where the ray is in each box";
+    let text = "the part of the ray in each box";
     canvas.text(right, Anchor::End, Ink::Faint, text);
     sheet.advance(18.0);
     let axis = Axis::over(rows::LEFT, axis_distances(comparison, &layout));

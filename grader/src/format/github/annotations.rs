@@ -12,7 +12,8 @@ const MAX_ANNOTATIONS: usize = 10;
 const MAX_CHARS: usize = 1_000;
 
 /// Returns commands for standard output that annotate the first compiler error in each file and,
-/// for each task whose file compiles, the first item that has something to fix.
+/// for each task whose file compiles, the first item for which there is something to fix in that
+/// file.
 pub fn annotations(view: &StudentView, context: &FormatContext) -> String {
     let files = view.visible.build.not_compiled.iter();
     let files = files.map(|file| file_annotation(file, context));
@@ -53,8 +54,7 @@ fn checkout_path(file: &str, context: &FormatContext) -> String {
     }
 }
 
-/// Returns whether a verdict means that the task's own file compiles and that there is something to
-/// fix in it.
+/// Returns whether a verdict means that the task's own file compiles and contains something to fix.
 fn is_annotated(verdict: &Verdict) -> bool {
     matches!(
         verdict.kind(),
@@ -67,8 +67,8 @@ mod tests {
     use super::*;
     use crate::format::tests::sample;
 
-    /// The annotations cover a file that doesn't compile and, in each task that can be fixed
-    /// independently, one item.
+    /// There is one annotation for a file that doesn't compile, and one for each task that can be
+    /// fixed independently.
     #[test]
     fn the_first_mistake_of_each_task_is_annotated() {
         insta::assert_snapshot!(annotations(&sample::open(), &sample::context()));

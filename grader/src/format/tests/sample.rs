@@ -1,5 +1,5 @@
-//! A score that contains every kind of verdict, and views of it under some policies. The tests for
-//! the formats use them.
+//! A score that contains every kind of verdict, and views of it under several policies, for the
+//! tests of the formats.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,8 @@ use crate::score::{
 
 /// A policy that doubles the points and deducts a tenth of them for each late day.
 pub const LATE: &str = "[points]\nout_of = 56\n[late]\npercent_per_day = 10";
-/// A policy that uses each visibility for some items and full visibility for the rest.
+/// A policy that uses every level of visibility for at least one item, and full visibility for all
+/// items that it doesn't list.
 pub const RESTRICTED: &str = "[visibility]\nfinal = 'all'\n[visibility.items]\n\
     'triangle.edge' = 'feedback'\nsphere = 'points'\nbbox = 'after_due'\nbuild = 'feedback'\n\
     'build.depth' = 'after_published'\n'build.leaves' = 'hidden'\n";
@@ -40,7 +41,7 @@ build.memory|0|1|out of memory|out of memory
 build.depth|0|1|crashed|the program crashed
 build.leaves|0|1|no answer|an invalid answer
 traverse.closest_hit|0|2|blocked|depends on bbox.flat: fix that first
-traverse.any_hit|2|2|passed|wrong only because bbox.flat failed: correct with the reference's other files";
+traverse.any_hit|2|2|passed|wrong only because bbox.flat failed; passes with the reference's other files";
 
 /// Returns the item in a line of [`ITEMS`].
 fn read_item(line: &str) -> ItemScore {
@@ -158,7 +159,7 @@ pub fn perfect_score() -> Score {
     score
 }
 
-/// Returns this score as if it were for a final exam, which students don't have.
+/// Returns this score as if it were for a final exam, which students don't have access to.
 pub fn of_final_exam(mut score: Score) -> Score {
     "final".clone_into(&mut score.exam.id);
     score
@@ -183,12 +184,12 @@ pub fn late() -> StudentView {
     view(&score(), LATE, 1)
 }
 
-/// Returns the sample as a final exam with partial visibility, submitted a day late.
+/// Returns the sample as if it were for a final exam with partial visibility, submitted a day late.
 pub fn restricted() -> StudentView {
     view(&of_final_exam(score()), &format!("{LATE}\n{RESTRICTED}"), 1)
 }
 
-/// Returns facts about the submission. All methods except `build` have a line.
+/// Returns facts about the submission. The line number is known for every method except `build`.
 pub fn context() -> FormatContext {
     let tasks = RAYS.assignment.tasks.iter();
     let location = |(task, line): (&TaskInfo, u32)| {

@@ -3,8 +3,8 @@
 //!
 //! A report is only cached if it is about a student's own work, is written to the default folder
 //! and has a reproducible result: time-outs, exhausted memory, crashes and compiler failures might
-//! not happen again the next time. A cached report is never used for a different submission, exam,
-//! toolchain or grader, or after one of the report's files has changed.
+//! not recur. A cached report is never used for a different submission, exam, toolchain or grader,
+//! or after one of the report's files has changed.
 
 use std::env;
 
@@ -27,8 +27,8 @@ const RECORD: &str = "earlier.json";
 /// Hashes of everything a score depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CacheKey {
-    /// Hash of the task files and the notes about other files. It is separate because usually only
-    /// these change.
+    /// Hash of the task files and the notes about other files. It is separate because usually
+    /// nothing else changes.
     submission: String,
     /// Hash of everything else the score depends on.
     environment: String,
@@ -57,7 +57,7 @@ impl CachedReport {
         self.key.submission == submission_hash(submission)
     }
 
-    /// Returns whether the report has this key and its files are unchanged.
+    /// Returns whether the report was stored with this key and its files haven't changed since.
     pub fn is_current(&self, key: &CacheKey, files: &ReportFiles) -> bool {
         self.key == *key && self.file_hashes == content_hashes(files)
     }

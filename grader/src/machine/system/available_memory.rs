@@ -54,8 +54,8 @@ fn left_in_groups(mounts: &Path, groups: &str) -> Option<u64> {
             }
             _ => continue,
         };
-        // In a container, the path may be the host's while the mount only shows the container's own
-        // group. In that case, only the mount itself exists.
+        // In a container, the path may be that of the group on the host, while the mount only shows
+        // the container's own group. In that case, only the mount itself exists.
         let group: PathBuf = mount.join(path.trim_start_matches('/'));
         for folder in group.ancestors().take_while(|it| it.starts_with(&mount)) {
             least = smallest(least, left_in_group(folder, files));

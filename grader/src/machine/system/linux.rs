@@ -14,7 +14,7 @@ use super::{Limits, ProcessTime};
 /// which kills it.
 const CPU_GRACE_SECONDS: u64 = 1;
 
-/// Sets the limits of a process that has just started.
+/// Sets resource limits for a process that has just started.
 pub fn set_limits(child: &Child, limits: Limits) -> io::Result<()> {
     // The child has been running for a moment without limits. This is safe, because a probe does
     // nothing before its first question, which is sent later.
@@ -41,8 +41,8 @@ pub fn resources(limits: Limits) -> impl Iterator<Item = (Resource, u64)> {
 }
 
 /// Returns the soft and the hard limit. They differ only for CPU time. A process that exceeds the
-/// hard limit gets SIGKILL, which it also gets when memory runs out. At the soft limit, which is
-/// lower, it gets SIGXCPU first, so that the two causes can be distinguished.
+/// hard limit is sent SIGKILL, but so is a process that runs out of memory. At the soft limit,
+/// which is lower, the process is first sent SIGXCPU, so that the two causes can be distinguished.
 pub fn rlimit(resource: Resource, most: u64) -> Rlimit {
     let is_cpu = resource == Resource::Cpu;
     let grace = if is_cpu { CPU_GRACE_SECONDS } else { 0 };
@@ -77,7 +77,8 @@ pub fn cpu_time_with_children(child: &Child) -> Option<Duration> {
 /// field 14.
 fn cpu_time_fields(child: &Child, count: usize) -> Option<Duration> {
     let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).ok()?;
-    // The second field is a name in parentheses that may contain spaces, so count from its end.
+    // The second field is a name in parentheses that may contain spaces, so count the fields from
+    // the end of the name.
     let (_, fields) = stat.rsplit_once(')')?;
     let times = fields.split_whitespace().skip(11).take(count);
     let times: Option<Vec<u64>> = times.map(|ticks| ticks.parse().ok()).collect();

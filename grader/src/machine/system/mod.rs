@@ -1,7 +1,7 @@
-//! Functions that differ between operating systems.
+//! Functions whose implementations differ between operating systems.
 //!
-//! The functions are the same on every system. A function that a system doesn't support does
-//! nothing or returns `None` there, as documented.
+//! The functions have the same names and types on every system. A function that a system doesn't
+//! support does nothing or returns `None` there, as documented.
 
 use std::ffi::OsStr;
 use std::io;
@@ -58,7 +58,7 @@ pub struct Limits {
 pub struct ProcessTime {
     /// CPU time.
     pub cpu: Duration,
-    /// Time during which it was ready to run but other processes occupied the processors.
+    /// Time during which the process was ready to run but other processes occupied the processors.
     pub delayed: Duration,
 }
 
@@ -68,7 +68,7 @@ impl Limits {
 
     /// Lowers the memory limit to the machine's available memory, so that a process that uses too
     /// much exceeds its own limit before the system kills a process. `needed` is the memory that a
-    /// correct process may need. The limit never drops below that.
+    /// correct process may need. The limit is never lowered below `needed`.
     pub fn within_available_memory(self, needed: u64) -> Self {
         let left = available_memory().map(|bytes| bytes.saturating_sub(Self::RESERVE));
         Limits {

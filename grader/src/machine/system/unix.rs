@@ -75,7 +75,7 @@ pub fn symlink(original: &Path, path: &Path) -> io::Result<()> {
     std::os::unix::fs::symlink(original, path)
 }
 
-/// Opens a regular file that has a single hard link. Returns `None` for anything else.
+/// Opens a regular file that has only one hard link. Returns `None` for anything else.
 pub fn open_file_without_hard_links(path: &Path) -> io::Result<Option<File>> {
     let Some(file) = open_regular_file(path)? else {
         return Ok(None);
@@ -103,7 +103,7 @@ const FOLDER_FLAGS: OFlags = OFlags::RDONLY
 fn regular_file(opened: rustix::io::Result<OwnedFd>) -> io::Result<Option<File>> {
     let file = match opened {
         Ok(file) => File::from(file),
-        // A symbolic link or a socket.
+        // The path leads to a symbolic link or a socket.
         Err(Errno::LOOP | Errno::NXIO) => return Ok(None),
         Err(error) => return Err(error.into()),
     };

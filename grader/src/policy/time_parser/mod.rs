@@ -5,8 +5,8 @@ use jiff::fmt::strtime::BrokenDownTime;
 use jiff::tz::{Offset, TimeZone};
 use jiff::{SignedDuration, Timestamp};
 
-/// Formats of dates that name the month, as found in RFC 2822, Moodle's worksheets, Canvas's pages
-/// and spreadsheets. The year comes last in all of them.
+/// Formats of dates in which the month is a name, as found in RFC 2822, Moodle's worksheets,
+/// Canvas's pages and spreadsheets. The year comes last in all of them.
 const NAMED_DATES: [&str; 9] = [
     "%A, %d %B %Y",
     "%a, %d %b %Y",
@@ -25,7 +25,7 @@ const OFFSETS: [&str; 2] = ["%z", "%:z"];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TimeError {
     /// The text isn't in a known format.
-    #[error("it is not a date and time in a recognised form, such as 2026-11-20 23:59:59 +0100")]
+    #[error("it is not a date and time in a recognised format, such as 2026-11-20 23:59:59 +0100")]
     UnknownForm,
     /// The day, the month and the year cannot be distinguished.
     #[error("it could be two different dates: write it as 2026-11-20 23:59:59 +0100")]
@@ -33,7 +33,7 @@ pub enum TimeError {
     /// No course takes place in this year.
     #[error("its year is not between 2000 and 2099: correct it")]
     ImplausibleYear,
-    /// The time is so far from the due time that one of them must be wrong.
+    /// The time is so far from the due time that one of the two must be wrong.
     #[error(
         "it is more than half a year from the due time: correct either this time or `due` under \
          [late] in the policy"
@@ -84,7 +84,7 @@ pub fn are_far_apart(one: Timestamp, other: Timestamp) -> bool {
 fn normalise(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     let text = words.join(" ");
-    // The name of a time zone, as in RFC 9557, doesn't add anything to the offset before it.
+    // The name of a time zone, as in RFC 9557, adds no information to the offset before it.
     let text = match text.split_once('[') {
         Some((before, _)) if text.ends_with(']') => before,
         Some(_) | None => &text,

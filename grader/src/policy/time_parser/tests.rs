@@ -15,7 +15,7 @@ fn read(text: &str) -> Result<String, TimeError> {
 #[test]
 fn reads_the_forms_that_platforms_write() {
     for (text, expected) in [
-        // Gradescope: its metadata and its CSV.
+        // Gradescope's metadata and CSV files.
         ("2026-11-20 22:01:05.000000000 Z", "2026-11-20T22:01:05Z"),
         ("2026-11-25 10:00:00 -0800", "2026-11-25T18:00:00Z"),
         ("2026-11-25 10:00:00 +0100", "2026-11-25T09:00:00Z"),
@@ -41,7 +41,7 @@ fn reads_the_forms_that_platforms_write() {
         ("25-Nov-2026 11:00PM", "2026-11-25T22:00:00Z"),
         ("25-11-2026 10:00", "2026-11-25T09:00:00Z"),
         ("2026/11/25 10:00", "2026-11-25T09:00:00Z"),
-        // The first and the last year.
+        // The first and last plausible years.
         ("1.1.2000 1:00", "2000-01-01T00:00:00Z"),
         ("31.12.2099 1:00", "2099-12-31T00:00:00Z"),
     ] {

@@ -1,5 +1,5 @@
-//! Inserts a score's final points into a page. A course's policy can change after grading, so they
-//! are inserted into the finished page at a placeholder.
+//! Inserts a score's final points into a page. A course's policy can change after grading, so the
+//! points are inserted into the finished page at a placeholder.
 
 use std::path::Path;
 
@@ -9,8 +9,8 @@ use super::elements::plain_text;
 use crate::machine::files::{self, PathError};
 use crate::report::atomic_write;
 
-/// The placeholder marks around the text. No text from a submission can contain them, since `<` is
-/// escaped.
+/// The marks that enclose the placeholder for the text. No text from a submission can contain them,
+/// since `<` is escaped.
 const START: &str = "<!--counted-->";
 const END: &str = "<!--/counted-->";
 

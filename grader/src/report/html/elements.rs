@@ -5,8 +5,8 @@ use maud::{Markup, html};
 
 use judging::sanitize::sanitize;
 
-/// Renders untrusted text, escaped and without control characters or characters that change the
-/// direction of the text around it.
+/// Renders untrusted text. Escapes markup, control characters, and characters that would change the
+/// direction of the surrounding text.
 pub(super) fn plain_text(text: &str) -> Markup {
     html! { (sanitize(text, usize::MAX)) }
 }

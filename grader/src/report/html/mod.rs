@@ -1,7 +1,7 @@
 //! `report.html`: everything about one score, in one file that loads nothing from the network. The
 //! page depends only on the score, the exam and the answers (not on the date, for example).
 //!
-//! Nothing a submission writes can take over the page: `maud` escapes it, `plain_text` removes
+//! Nothing a submission writes can take over the page: `maud` escapes it, `plain_text` escapes
 //! control characters, and the content security policy allows only the page's own script and style,
 //! by their hashes.
 
@@ -49,7 +49,7 @@ struct Page<'a> {
     exam: &'a Exam,
     /// The submitted answers.
     answers: &'a ReportAnswers,
-    /// The commands to grade again, for readers who can run them.
+    /// The commands for grading again, for readers who can run them.
     rerun: Option<&'a RerunCommand>,
     /// The handout on the reader's machine.
     book: Option<&'a Book>,
@@ -107,7 +107,7 @@ impl Page<'_> {
                     style { (PreEscaped(STYLE)) }
                 }
                 body data-reload[reload == Reload::WhileUnfocused] {
-                    a .skip href="#next" { "Skip to what to do next" }
+                    a .skip href="#next" { "Skip to the next step" }
                     (summary::header(score))
                     main {
                         (summary::next_step(self))

@@ -69,7 +69,7 @@ fn row(task: &TaskScore) -> Markup {
 }
 
 /// Renders a bar for the points of a task. It is hidden from screen readers, since the numbers next
-/// to it say the same.
+/// to it say the same thing.
 fn bar(task: &TaskScore) -> Markup {
     let width = 100.0 * f64::from(task.points) / f64::from(task.max_points.max(1));
     html! {

@@ -1,4 +1,4 @@
-//! Renders the section of a task with its items and the section about the submitted files.
+//! Renders the section on a task, with its items, and the section on the submitted files.
 
 use judging::describe;
 use judging::exam::Item;
@@ -177,7 +177,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
         Verdict::Pending => evidence_table(
             "nothing yet",
             "no answer",
-            "a run that ends within its limits",
+            "a run that stays within its limits",
         ),
         Verdict::Pass
         | Verdict::Partial
@@ -212,7 +212,7 @@ fn look(score: &ItemScore, book: Option<&Book>) -> Markup {
     }
 }
 
-/// Renders each hint: the nudge, and the full hint in a collapsed section.
+/// Renders each hint's nudge, with the full hint in a collapsed section.
 fn hints(score: &ItemScore) -> Markup {
     html! {
         @for (index, hint) in score.hints.iter().enumerate() {
@@ -246,7 +246,8 @@ fn figure(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Ma
     html! {
         @if let Some(drawing) = drawing {
             figure .drawing {
-                // This is safe without escaping, because the drawing has already escaped its text.
+                // Escaping is unnecessary here, because the text in the drawing has already been
+                // escaped.
                 (PreEscaped(drawing.svg))
                 figcaption { (plain_text(&drawing.caption)) }
             }

@@ -59,7 +59,7 @@ fn hint_text(hints: &[Hint], detail: HintDetail, same_hint: &[&str]) -> Option<S
     (!hints.is_empty()).then(|| format!("{hint}{more}{explained}"))
 }
 
-/// Writes a label and its text, wrapped to the width, with later lines indented.
+/// Writes a label and its text, wrapped to the report's width, with continuation lines indented.
 fn write_row(out: &mut String, label: &str, text: &str) -> fmt::Result {
     const INDENT: usize = 12;
     let mut lines = wrap(&sanitize(text, usize::MAX), WIDTH - INDENT).into_iter();
@@ -68,13 +68,14 @@ fn write_row(out: &mut String, label: &str, text: &str) -> fmt::Result {
     lines.try_for_each(|line| writeln!(out, "{:INDENT$}{line}", ""))
 }
 
-/// Writes a command about the item.
+/// Writes a command to run for the item.
 pub(super) fn write_command(out: &mut String, label: &str, command: &str) -> fmt::Result {
     let command = sanitize_line(command, usize::MAX);
     writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
 }
 
-/// Writes the number of failing items that aren't shown and `how` to see them.
+/// Writes the number of failing items that aren't shown, followed by `how`, which says how to see
+/// them.
 pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
     if count == 0 {
         return Ok(());

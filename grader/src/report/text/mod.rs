@@ -1,4 +1,4 @@
-//! The terminal report, for students, 80 columns wide.
+//! The terminal report for students, which is 80 columns wide.
 
 mod item;
 mod short_table;
@@ -43,7 +43,7 @@ pub enum HintDetail {
     Full,
 }
 
-/// Results for an earlier version of the submission that a report still shows.
+/// Results that a report still shows although they are for an earlier version of the submission.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OldResults<'a> {
     /// The ids of the items that haven't been graded again.
@@ -200,7 +200,7 @@ fn write_parts(
 /// The line about a task's failing items that aren't shown.
 #[derive(Clone, Copy)]
 struct Others<'a> {
-    /// The end of a sentence that says how to see them.
+    /// The end of the line, which says how to see these items.
     how: &'a str,
     /// Whether the line comes before the items that are shown.
     come_first: bool,

@@ -15,7 +15,7 @@ use super::start::Program;
 use super::while_doing;
 
 /// The newest Landlock ABI that this code was tested with. An older kernel only restricts the
-/// access rights it knows.
+/// access rights that it knows about.
 const LANDLOCK_ABI: ABI = ABI::V6;
 
 /// Access rights for writing to a folder. They don't allow the program to create symbolic links,

@@ -25,7 +25,7 @@ const LOW_UIDS: (u32, u32) = (60_600, 500);
 /// Switches to the dedicated user, if any, and drops all capabilities for good.
 pub(super) fn drop_privileges(request: &LaunchRequest, user: Option<u32>) -> io::Result<()> {
     if let Some(user) = user {
-        let switch = || while_doing("switch to another user, for which root needs CAP_SETUID");
+        let switch = || while_doing("switch to another user (root needs CAP_SETUID for this)");
         let (uid, gid) = (Uid::from_raw(user), Gid::from_raw(user));
         if let Profile::Compiler { writable, .. } = &request.profile {
             chown(writable.as_path(), Some(uid), Some(gid)).map_err(switch())?;

@@ -2,10 +2,10 @@
 //! program. It has a single thread and is a fresh process rather than a fork of the grader, so all
 //! its state comes from its arguments.
 //!
-//! The order matters. Namespaces come first, while the launcher may still create them. Then come
-//! the switch to another user, which gives up that right, and the limits. Once Landlock is in
-//! place, no other files can be opened. The system call filter comes last, because it forbids calls
-//! that the earlier steps make.
+//! The order matters. Namespaces come first, while the launcher may still create them. Next, the
+//! launcher switches to another user, which gives up that right, and sets the limits. Once Landlock
+//! is in place, no other files can be opened. The system call filter comes last, because it forbids
+//! calls that the earlier steps make.
 
 mod descriptors;
 mod files;

@@ -101,8 +101,8 @@ fn unshare(profile: &Profile) -> io::Result<()> {
     match profile {
         // A probe cannot start processes, so none can outlive it.
         Profile::Probe => {}
-        // The compiler becomes the first process in the namespace. When it ends, all others end
-        // too.
+        // The compiler becomes the namespace's first process. When it ends, all other processes in
+        // the namespace are killed.
         Profile::Compiler { .. } => flags |= UnshareFlags::NEWPID,
     }
     if !uid.is_root() {

@@ -102,8 +102,7 @@ impl Program {
         let pid = i32::try_from(child.id()).ok().and_then(Pid::from_raw);
         let pid = pid.ok_or_else(|| io::Error::other("the compiler has no process id"))?;
         let ended = pidfd_open(pid, PidfdFlags::empty())?;
-        // The grader never writes to our standard input, and it is only closed when the grader
-        // ends.
+        // The grader never writes to our standard input, which is only closed when the grader ends.
         let grader = io::stdin();
         let mut events = [
             PollFd::new(&ended, PollFlags::IN),

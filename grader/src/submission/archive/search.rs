@@ -13,7 +13,7 @@ use crate::submission::{MAX_FILE_BYTES, SubmissionError};
 /// The maximum size of a nested archive, in bytes.
 const MAX_INNER_BYTES: u64 = 64 << 20;
 
-/// The reason some archives nested in an archive were not read.
+/// The reason why reading the archives nested in an archive was stopped early.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 enum StopReason {

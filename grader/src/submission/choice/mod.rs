@@ -1,10 +1,10 @@
 //! Chooses which folder of a submission to grade, without any I/O.
 //!
-//! People hand in more than they intend to: a copy at the top, an older version in a folder, or the
-//! entire project. The folder with the most task files is graded. Other copies are ignored, with a
-//! note, as long as they can't be what the student meant to hand in. If the task files are spread
-//! over several folders and there is only one version of each, they are graded together. Otherwise,
-//! a person has to choose.
+//! People hand in more than they intend to: a copy at the top level, an older version in a folder,
+//! or the entire project. The folder with the most task files is graded. Other copies are ignored,
+//! with a note, as long as they can't be what the student meant to hand in. If the task files are
+//! spread over several folders and there is only one version of each, they are graded together.
+//! Otherwise, a person has to choose.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,8 +14,9 @@ use super::names::{Resemblance, is_archive_name};
 use super::{MAX_NOTES, SubmissionError, TaskFileError, display_name};
 use crate::handed_out::{HandedOut, is_unwritten};
 
-/// Names of folders that never contain handed-in files: metadata of systems and tools, old versions
-/// kept by tools, and compiled files. The project's own folders are listed in the assignment.
+/// Names of folders that never contain files to grade, but only metadata of systems and tools, old
+/// versions kept by tools, or compiled files. The project's own folders are listed in the
+/// assignment.
 const SKIPPED: [&str; 24] = [
     "__MACOSX",
     "target",
@@ -94,7 +95,7 @@ pub(super) fn is_skipped(name: &str, handed_out: &HandedOut) -> bool {
 }
 
 /// Chooses the task files to grade, as described in [`choose_folder`]. Returns `None` if there are
-/// no candidates. `path` is the submission's path, for messages.
+/// no candidates. `path` is the submission's path, for use in messages.
 ///
 /// The result is an error if there is a different copy next to a chosen file, or if a chosen file
 /// is unmodified, but a changed copy of it exists under a different name. Other files that resemble
@@ -168,7 +169,7 @@ pub(super) fn choose(
         let Lookalike { path, file, .. } = copy;
         let end = if is_missing(&copy) {
             format!(
-                "is not graded because its name is not {file}, which costs {} points",
+                "is not graded because its name is not {file}; this costs {} points",
                 points(file, handed_out)
             )
         } else {
@@ -190,8 +191,8 @@ pub(super) fn choose(
     }))
 }
 
-/// Chooses the folder with the most task files that differ from the starter's, which is the first
-/// of these candidates. Returns notes about the other folders and about files with different names.
+/// Chooses the first of these candidates, which is the folder with the most task files that differ
+/// from the starter's. Returns notes about the other folders and about files with different names.
 ///
 /// A folder is ignored if the chosen folder contains all of its files too. If the files differ,
 /// there is a note. A folder that contains as many files as the chosen one, or a file that the
@@ -319,8 +320,9 @@ impl Candidate {
             .map(|(name, contents)| (*name, contents))
     }
 
-    /// Returns the files that are modified in the other folder and differ from those in this one.
-    /// Returns `None` if the other folder could be the one that the student meant to hand in.
+    /// Returns the files that are modified in the other folder and differ from this folder's
+    /// versions. Returns `None` if the other folder could be the one that the student meant to hand
+    /// in.
     fn differing_files(
         &self,
         other: &Candidate,

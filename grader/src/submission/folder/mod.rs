@@ -93,8 +93,8 @@ impl Search {
     }
 
     /// Returns the path of the last of these versions of a task file that differs from the
-    /// starter's or, if none does, of the last version. Adds a note if earlier work differs from
-    /// the version returned.
+    /// starter's. If none does, returns the path of the last version. Adds a note if earlier work
+    /// differs from the version returned.
     fn last_version<'a>(
         &mut self,
         name: &str,
@@ -182,7 +182,7 @@ impl Search {
         self.keep_error(path, found)
     }
 
-    /// Of the files with these names, reads those that may be task files.
+    /// Reads whichever of the files with these names may be task files.
     fn read_folder(
         &mut self,
         path: &str,

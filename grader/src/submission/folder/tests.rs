@@ -44,7 +44,10 @@ fn a_file_that_is_too_long_costs_only_its_own_points() {
     let submission = collected(&[("bvh.rs", &long), ("sphere.rs", b"new")]).unwrap();
     assert_eq!(*text(&submission, "bvh.rs"), Err(TaskFileError::TooLong));
     assert_eq!(texts(&submission), [("sphere.rs", "new")]);
-    assert_eq!(submission.notes, [""; 0], "nothing is noted of task files");
+    assert_eq!(
+        submission.notes, [""; 0],
+        "there are no notes about task files"
+    );
 }
 
 #[test]

@@ -9,8 +9,8 @@
 //! build = 20
 //! traverse = 20
 
-/// Sleeps at the start of each item. It recognises the start because hardly any time passes between
-/// the questions of an item.
+/// Sleeps at the start of each item. A pause since the last call means that a new item has started,
+/// because hardly any time passes between the questions of an item.
 fn attack() {
     static LAST: std::sync::Mutex<Option<std::time::Instant>> = std::sync::Mutex::new(None);
     let mut last = LAST.lock().unwrap();

@@ -12,7 +12,8 @@
 //! build = 0
 //! traverse = 0
 
-// The program with the reference's parts contains this file in the crate `submission`.
+// In the program that is built with the reference's parts, this file belongs to the crate
+// `submission`.
 const BYTES: usize = if module_path!().as_bytes()[0] == b's' {
     100 << 20
 } else {

@@ -22,12 +22,12 @@ fn kill(process: u32) {
     assert!(status.unwrap().success());
 }
 
-/// Grades a submission and, in the meantime, kills children of the grader one after the other. Each
-/// victim is specified by its name and by the minimum CPU time that it must have used.
+/// Grades a submission and, while it is being graded, kills children of the grader one after the
+/// other. Each victim is specified by its name and by the minimum CPU time that it must have used.
 fn grade_while_killing(victims: &[(&str, Duration)], submission: &Submission) -> GradeRun {
     compile_dependencies();
     let mut command = submission.command();
-    // With an isolation level, one task runs at a time, so that the victims belong to the same
+    // If an isolation level is given, tasks run one at a time, so all victims belong to the same
     // task.
     command.args(["--cpu-limit", "2", "--isolation", "none"]);
     let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -142,7 +142,7 @@ fn in_a_small_container_a_bomb_exceeds_its_own_limit() {
     };
     compile_dependencies();
     let grade = |submission: &Submission| submission.results(group.run(&submission.command()));
-    // The compiler builds these values in its memory.
+    // The compiler has to build these values in memory.
     for value in [
         "#[used]\npub static HUGE: [u8; 1_500_000_000] = [1; 1_500_000_000];",
         "#[used]\npub static LONG: &[[u64; 1000]] = &[[7; 1000]; 200_000];",

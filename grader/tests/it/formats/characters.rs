@@ -67,7 +67,8 @@ fn texts(value: &Value) -> Vec<String> {
     }
 }
 
-/// Returns everything people read about a score, each text with the name of its output.
+/// Returns everything that people can read about a score, each text paired with the name of its
+/// output.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let (exam, score) = score_with(text);
     let view = StudentView::new(&score, &Policy::default(), Lateness::NONE);

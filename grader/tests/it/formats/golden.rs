@@ -1,5 +1,5 @@
-//! Six submissions, each graded once. The output in every format is checked against its platform's
-//! model. Snapshots of one of them show the formats end to end.
+//! Six submissions, each graded once. The output in every format is checked against the model of
+//! its platform. Snapshots of one submission's outputs show the formats end to end.
 
 use insta::assert_snapshot;
 
@@ -54,7 +54,7 @@ fn renders_a_known_mistake() {
     let written = &*KNOWN_MISTAKE;
     assert_valid(written);
     snapshot_settings().bind(|| {
-        // The snapshots of a sample show each format. This snapshot shows what a real submission
+        // Other snapshots show a sample in each format. These snapshots show what a real submission
         // adds.
         assert_snapshot!(
             "junit-partial",

@@ -16,14 +16,14 @@ use crate::harness::{Submission, workspace};
 use grader::format::{FORMATS, FormatContext, FormatSpec, StudentView};
 use serde_json::Value;
 
-/// Returns all formats that students can read, which is all except the score file.
+/// Returns all formats that students can read, i.e. all except the score file.
 pub fn student_formats() -> impl Iterator<Item = &'static FormatSpec> {
     let formats = FORMATS.into_iter();
     formats.filter(|format| format.render.is_some())
 }
 
 /// Returns everything that students can read in the formats, keyed by the name of the output. The
-/// formats come from the table of all formats, so that new ones are tested too.
+/// formats come from the table of all formats, so that new formats are tested too.
 pub fn rendered(view: &StudentView, context: &FormatContext) -> FormatTexts {
     let files = student_formats().filter_map(|format| Some((format.id, format.render?)));
     let logs = FORMATS.into_iter();

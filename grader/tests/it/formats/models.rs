@@ -39,7 +39,7 @@ pub fn readable(format: &str, text: &str) -> String {
     }
 }
 
-/// Returns the page without an element that is the same on every page.
+/// Returns the page without this element, which is the same on every page.
 fn without_element(page: impl AsRef<str>, element: &str) -> String {
     let (before, rest) = page.as_ref().split_once(&format!("<{element}>")).unwrap();
     let (_, after) = rest.split_once(&format!("</{element}>")).unwrap();

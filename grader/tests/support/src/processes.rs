@@ -4,7 +4,7 @@ use std::fs;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The unit of CPU times on all common machines.
+/// The unit of CPU times in `/proc`, which is the same on all common machines.
 const TICK: Duration = Duration::from_millis(10);
 
 /// Waits until `happened` returns a value. The time limit is long, because other jobs may slow down
@@ -35,7 +35,7 @@ pub fn name(process: u32) -> Option<String> {
     stat(process).map(|(name, _)| name)
 }
 
-/// Returns whether a process hasn't ended.
+/// Returns whether a process is still running.
 pub fn is_running(process: u32) -> bool {
     stat(process).is_some_and(|(_, words)| words[0] != "Z")
 }

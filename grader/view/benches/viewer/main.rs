@@ -4,7 +4,7 @@
 //! Each round measures every quantity once, so a busy machine affects all of them. Quantities are
 //! compared within a round.
 
-#[expect(dead_code, reason = "the tests use more of it")]
+#[expect(dead_code, reason = "the tests use more of this module")]
 #[path = "../../tests/it/harness.rs"]
 mod harness;
 
@@ -81,11 +81,11 @@ fn moves_and_rays() {
     moves.sort_by(f64::total_cmp);
     let slowest = moves.last().expect("there are rounds");
     print(
-        "camera move to the first coarse picture",
+        "from a camera move to the first coarse picture",
         &format!("{:.0} ms (slowest {slowest:.0} ms)", median(moves.clone())),
     );
     let ratio = "rays per second, compared with `cargo render`";
-    for (quantity, values) in [(ratio, ratios), ("the same per second of CPU time", costs)] {
+    for (quantity, values) in [(ratio, ratios), ("the same, per second of CPU time", costs)] {
         if let Some(least) = values.iter().copied().reduce(f64::min) {
             print(
                 quantity,
@@ -140,9 +140,9 @@ fn saves() {
         shares.push(took / (1.5 * compile + 0.3));
     }
     print(
-        "save to the first coarse picture",
+        "from a save to the first coarse picture",
         &format!(
-            "{:.0} ms; {:.2} of 1.5 F + 0.3 s",
+            "{:.0} ms; {:.2} of the limit (1.5 F + 0.3 s)",
             1e3 * median(times),
             median(shares)
         ),
@@ -224,7 +224,7 @@ fn large_mesh() {
     print(
         "meshes of a million triangles",
         &format!(
-            "picture after {first:.1} s; at most {} MiB in the viewer, {} MiB in its programs, of which {} draw",
+            "picture after {first:.1} s; at most {} MiB in the viewer and {} MiB in its programs ({} of which draw)",
             mib(viewer.process()),
             programs.join(", "),
             state["programs"]

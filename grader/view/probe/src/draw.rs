@@ -14,8 +14,8 @@ use crate::open_scene::OpenScene;
 use crate::record;
 use crate::rules::{RULES, count_marks};
 
-/// The maximum number of tests to judge for a pixel. If a traversal makes more tests, the first
-/// ones already break the rules, and judging all of them would take much longer than making them.
+/// The maximum number of tests to judge for a pixel. A traversal that makes more tests has already
+/// broken the rules by then, and judging all of its tests would take much longer than making them.
 const MAX_JUDGED: u32 = 500;
 
 /// The renderers of a scene.
@@ -72,8 +72,8 @@ struct Pixels<'a> {
 }
 
 impl Pixels<'_> {
-    /// Computes the value of each pixel until the time is up. A pixel with a panic gets
-    /// `replacement`.
+    /// Computes the value of each pixel until the time is up. If the code panics for a pixel, the
+    /// pixel's value is `replacement`.
     fn each<T: Clone>(&mut self, replacement: T, mut value: impl FnMut(u32, UVec2) -> T) -> Vec<T> {
         let deadline = Instant::now() + Duration::from_millis(self.request.milliseconds.into());
         let mut values = Vec::new();
@@ -96,8 +96,8 @@ impl Pixels<'_> {
     }
 
     /// Adds a panic to the list. The messages of panics at the same location can differ from pixel
-    /// to pixel, so only the first message is kept. If there are too many locations, the rest are
-    /// counted under the last one.
+    /// to pixel, so only the first message is kept. Once the list is full, panics at other
+    /// locations are counted under the last location in the list.
     fn add_panic(&mut self, panic: Panic, index: u32) {
         let same = |(known, _): &(Panic, Vec<u32>)| known.location == panic.location;
         let known = self.panics.iter().position(same);
@@ -109,7 +109,7 @@ impl Pixels<'_> {
 }
 
 /// A deadline. Reading the time takes a tenth as long as tracing a short path, so the clock is read
-/// less often while pixels are fast.
+/// less often while pixels are drawn quickly.
 struct Clock {
     deadline: Instant,
     /// The number of pixels until the clock is read again.
@@ -143,8 +143,8 @@ impl Clock {
 }
 
 impl OpenScene<'_> {
-    /// Returns the closest hit of the ray through the centre of a pixel, the same as in the
-    /// framework's pictures of first hits.
+    /// Returns the closest hit of the ray through the centre of a pixel, which is the same hit as
+    /// in the framework's pictures of first hits.
     fn first_hit(&self, pixel: UVec2) -> Option<Trace> {
         let ray = self.world.camera.ray(pixel, Vec2::splat(0.5));
         self.world
@@ -152,7 +152,7 @@ impl OpenScene<'_> {
             .closest_hit(&self.scene.camera.placement.to_world(&ray))
     }
 
-    /// Returns the tests of the ray through the centre of a pixel.
+    /// Returns the tests made for the ray through the centre of a pixel.
     fn marked_tests(&self, pixel: UVec2) -> MarkedTests {
         let tree = self.indexed_tree();
         record::start(MAX_JUDGED, 1);

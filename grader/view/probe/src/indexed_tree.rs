@@ -123,8 +123,8 @@ impl IndexedTree {
         self.tree.nodes.get(index as usize)
     }
 
-    /// Returns the nodes with exactly this box, in depth-first order. If there are very many,
-    /// returns only the first ones.
+    /// Returns the nodes with exactly this box, in depth-first order, but at most `MAX_EQUAL` of
+    /// them.
     pub fn with_box(&self, min: Vec3, max: Vec3) -> &[u32] {
         let wanted = bits_of(min, max);
         let of = |node: &u32| bits(&self.tree.nodes[*node as usize]);
@@ -134,7 +134,7 @@ impl IndexedTree {
         &rest[..rest.partition_point(|node| of(node) == wanted)]
     }
 
-    /// Returns whether a node is reached from the root and its box is exactly this one.
+    /// Returns whether a node is reached from the root and has exactly this box.
     pub fn has_box(&self, node: u32, min: Vec3, max: Vec3) -> bool {
         let is_equal = |node: &TreeNode| bits(node) == bits_of(min, max);
         self.level(node).is_some() && self.node(node).is_some_and(is_equal)

@@ -130,7 +130,7 @@ impl Opening {
     }
 }
 
-/// The number of shapes that are tested together. They are copied into a list.
+/// The number of shapes to test at a time. These shapes are copied into a list.
 const SHAPES_AT_ONCE: usize = 1024;
 /// The maximum number of boxes to test, because a tree can have far too many nodes.
 const MAX_BOXES: usize = 1 << 20;
@@ -247,6 +247,6 @@ impl Hierarchy for List {
     }
 
     fn shape(&self, index: usize) -> u32 {
-        unreachable!("the primitives of a list are not read, so not {index}")
+        unreachable!("primitive {index} of a list is never read")
     }
 }

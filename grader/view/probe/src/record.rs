@@ -63,7 +63,7 @@ pub fn primitive_test(shape: u32, ray: &Ray, hit: Option<Trace>) -> Option<Trace
     hit
 }
 
-/// Counts a test and adds it to the current ray. A test outside any ray isn't listed.
+/// Counts a test and adds it to the current ray, if there is one.
 fn record(number: fn(&mut TestCounts) -> &mut u32, test: impl FnOnce() -> Test) {
     if !LISTING.get() {
         return;
@@ -98,7 +98,7 @@ pub(crate) fn finish() -> Vec<RecordedRay> {
     LIST.take().map_or(Vec::new(), |list| list.rays)
 }
 
-/// A tree that lists the rays that traverse it.
+/// A tree that records the rays that traverse it.
 pub(crate) struct RecordingTree(pub(crate) Box<dyn Hierarchy>);
 
 impl Aggregate for RecordingTree {

@@ -41,7 +41,7 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
     loop {
         let response = match (request, &mut stage) {
             (Request::Scene(data), stage) => {
-                // Free the old tree first, so that there are never two.
+                // Free the old tree first, so that there are never two trees in memory.
                 *stage = None;
                 opening = Some(Opening::new(*data));
                 Response::Received

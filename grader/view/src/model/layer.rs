@@ -81,8 +81,8 @@ mod tests {
     use super::*;
     use crate::model::tiles::LayerKind;
 
-    /// Draws a picture in which the digits of each pixel's value are the numbers of its samples.
-    /// Each request draws at most `most` pixels.
+    /// Draws a picture in which the digits of each pixel's value are the numbers of the pixel's
+    /// samples, in the order in which they were added. Each request draws at most `most` pixels.
     fn draw_all(film: UVec2, samples: u32, most: usize) -> Layer<u64> {
         let mut layer = Layer::new(film, samples);
         while let Some((index, draw)) = layer.tiles.take(LayerKind::Light, 1) {

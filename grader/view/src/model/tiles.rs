@@ -12,7 +12,7 @@ use view_probe::messages::{Draw, MAX_VALUES, Quantity};
 /// The side of a tile in pixels: a multiple of the largest stride.
 const TILE: u32 = 64;
 /// The maximum number of samples in a request. One sample of a tile only takes a few milliseconds,
-/// so with a single sample per request, exchanging requests would take a tenth of the time.
+/// so with a single sample per request, exchanging requests would take a tenth of the total time.
 const MAX_PASSES: u32 = 16;
 /// The strides of the first steps.
 const STRIDES: [u32; 3] = [4, 2, 1];

@@ -114,8 +114,8 @@ impl Viewpoint {
         }
     }
 
-    /// Returns the viewpoint after a movement. `height` is the height of the picture at distance
-    /// one. Movements with numbers that aren't finite are ignored.
+    /// Returns the viewpoint after a movement. `height` is the height of the picture at a distance
+    /// of 1. Movements with numbers that aren't finite are ignored.
     pub fn moved(self, movement: Movement, height: f32) -> Self {
         let Placement { position, axes } = self.placement;
         let forward = -axes.z_axis;

@@ -21,7 +21,7 @@ const CALL_LIMIT: [Duration; 2] = [Duration::from_secs(1), Duration::from_micros
 /// The CPU time limit for building the tree: a fixed amount, and an additional amount for each
 /// shape in the tree.
 const OPEN_LIMIT: [Duration; 2] = [Duration::from_secs(3), Duration::from_micros(60)];
-/// The memory that all programs together may need, in bytes. The number of programs is chosen
+/// The maximum memory for all programs together, in bytes. The number of programs is chosen
 /// accordingly.
 const MAX_MEMORY: u64 = 3 << 30;
 /// The minimum and maximum memory limits for a program, in bytes. The maximum is enough for several
@@ -159,7 +159,7 @@ impl Session {
             return None;
         }
         let layer = self.shown.view.layer();
-        // Every tree is checked, but not before something can be seen.
+        // Every tree is checked, but usually not before a coarse picture can be seen.
         let is_tree_wanted = self.is_tree_wanted || self.tiles().has_coarse_picture();
         let job = if !is_recording && is_tree_wanted && self.tree.is_none() && !self.is_tree_busy {
             self.is_tree_busy = true;

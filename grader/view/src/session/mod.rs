@@ -88,7 +88,7 @@ pub struct Session {
     explanation_number: u64,
     is_explanation_busy: bool,
     explanation_fault: Option<String>,
-    /// The times spent drawing each layer.
+    /// The time spent drawing each layer.
     timings: [Timing; 4],
     started_at: Instant,
     watched_at: Instant,

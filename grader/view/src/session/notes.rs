@@ -203,7 +203,7 @@ impl Session {
         let mut known = self.shown.panics.iter();
         match known.position(|known| known.location == panic.location) {
             Some(known) => self.shown.panics[known].count += count,
-            // The first panics are enough to start with.
+            // The panics that are already listed are enough to start with.
             None if self.shown.panics.len() == MAX_PANICS => {}
             None => self.shown.panics.push(PanicNote {
                 message: panic.message.clone(),
@@ -224,8 +224,8 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
     )
 }
 
-/// Returns the task with this id. An assignment may lack the task, because that part's code may be
-/// given to the students.
+/// Returns the task with this id, or `None` if the assignment has no such task because the part's
+/// code is given to the students.
 fn task(submission: &Submission, id: &str) -> Option<&'static TaskInfo> {
     submission.handed_out.assignment.find(id)
 }

@@ -56,7 +56,7 @@ struct CameraState {
     position: Vec3,
     /// The axes to the right, up and backward.
     axes: [[f32; 3]; 3],
-    /// Half the height of the picture at distance one.
+    /// Half the height of the picture at a distance of 1.
     half_height: f32,
     aspect_ratio: f32,
     is_own: bool,

@@ -25,7 +25,7 @@ pub enum View {
     /// The scene with its lighting.
     #[default]
     Shaded,
-    /// The scene in clay, without materials and lights.
+    /// The scene in clay, without its materials or lights.
     Clay,
     /// Normals.
     Normals,
@@ -37,7 +37,7 @@ pub enum View {
     Bvh,
     /// Test counts.
     Tests,
-    /// Steps that no correct traversal makes.
+    /// Steps that no correct traversal takes.
     Mistakes,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct TestsSummary {
 pub(super) struct TestAverages {
     /// The mean number of tests.
     mean: f64,
-    /// The share of rays with a mark.
+    /// The share of rays that break at least one rule.
     marked: f64,
     /// For each rule, the share of rays that break it.
     broken: [f64; RULES],

@@ -24,10 +24,10 @@ use crate::shared_session::SharedSession;
 const MAX_TESTS: u32 = 4_000;
 /// The CPU time limit for requests that call none of the submission's methods except constructors.
 const LIMIT: Duration = Duration::from_secs(10);
-/// The time after which the page says that `Bvh::build` is still running. Building the tree of a
-/// large scene takes several seconds, so the time limit is much longer.
+/// The time after which the page says that `Bvh::build` is still running. The time limit for this
+/// method is much longer, because building the tree of a large scene takes several seconds.
 const SLOW_BUILD: Duration = Duration::from_millis(1500);
-/// The maximum number of rays to search in a path for the one that ends the program.
+/// The maximum number of rays to try in a path when searching for the ray that ends the program.
 const MAX_SEARCHED_RAYS: u32 = 64;
 
 /// A program that is started when needed, with its current scene and camera.
@@ -41,7 +41,7 @@ pub(super) struct SceneProbe<'a> {
     size: TreeSize,
     /// The parts of the submission that haven't been written yet.
     missing: Vec<(SubmissionPart, Panic)>,
-    /// The tree, if a pixel has been explained.
+    /// The tree, if it has already been read to explain a pixel.
     tree: Option<IndexedTree>,
 }
 
@@ -54,7 +54,7 @@ fn unexpected(response: &Response) -> Stop {
     Stop::Invalid(why.to_owned())
 }
 
-/// If the program failed, adds the method that was being called.
+/// If `stop` says that the program failed, adds the method that was being called.
 fn in_part(part: SubmissionPart, stop: Stop) -> Stop {
     if let Stop::Fault(fault) = stop {
         Stop::FaultIn(part, fault)
@@ -63,7 +63,7 @@ fn in_part(part: SubmissionPart, stop: Stop) -> Stop {
     }
 }
 
-/// Returns the ray or path that a request draws, or `None` if it draws several.
+/// Returns the ray or path that a drawing request traces, or `None` if it traces more than one.
 fn single_target(draw: &Draw) -> Option<Target> {
     let (pass, pixel) = draw.pixels().next().filter(|_| draw.milliseconds == 0)?;
     Some(match draw.quantity {
@@ -93,7 +93,7 @@ impl<'a> SceneProbe<'a> {
         }
     }
 
-    /// Ensures that the program has opened the scene and set the camera that the work needs.
+    /// Ensures that the program has opened the scene and set the camera that `work` needs.
     pub(super) fn prepare(&mut self, work: &ScheduledJob) -> Result<(), Stop> {
         if self.key.program != work.key.program {
             self.probe = None;
@@ -108,7 +108,7 @@ impl<'a> SceneProbe<'a> {
         if self.aim != Some(work.aim) {
             let response = self.ask(work, &Request::Aim(work.aim), LIMIT)?;
             if response == Response::NotOpen {
-                // Building the tree failed, which has been reported.
+                // Building the tree failed, and this has already been reported.
                 return Err(Stop::Unwanted);
             }
             if response != Response::Aimed {
@@ -119,7 +119,7 @@ impl<'a> SceneProbe<'a> {
         Ok(())
     }
 
-    /// Opens the scene that the work needs. Reports a method that fails or doesn't return.
+    /// Opens the scene that `work` needs. Reports a method that fails or doesn't return.
     fn open(&mut self, work: &ScheduledJob, lists_rays: bool) -> Result<(), Stop> {
         let opened = self.open_by_parts(work, lists_rays);
         if let Err(Stop::FaultIn(part, fault)) = &opened {
@@ -130,7 +130,7 @@ impl<'a> SceneProbe<'a> {
         opened
     }
 
-    /// Opens the scene that the work needs. Each method of the submission is called in a separate
+    /// Opens the scene that `work` needs. Each method of the submission is called in a separate
     /// request, so that the viewer knows which method fails.
     fn open_by_parts(&mut self, work: &ScheduledJob, lists_rays: bool) -> Result<(), Stop> {
         if self.probe.is_none() {
@@ -228,14 +228,14 @@ impl<'a> SceneProbe<'a> {
         response
     }
 
-    /// Finds the method that ended the program while the target was being drawn or followed. In a
-    /// new program, the target's rays are traced one by one. Before each ray is traced, every
-    /// method is called with that ray, starting with the methods that the others call.
+    /// Finds the method that ended the program while the target was being drawn or followed. The
+    /// target's rays are traced one by one in a new program. Before each ray is traced, every
+    /// method is called with that ray, starting with the methods that other methods call.
     fn find_culprit(&mut self, work: &ScheduledJob, target: Target, fault: Fault) -> Stop {
         self.probe = None;
         let found = self.open(work, true);
         let found = found.and_then(|()| self.search_rays(work, target));
-        // Don't keep this program, because it lists its rays, which takes time.
+        // Don't keep using this program: it lists its rays, which takes time.
         self.probe = None;
         match found {
             Err(Stop::FaultIn(part, _)) => Stop::FaultIn(part, fault),

@@ -85,7 +85,8 @@ fn a_page_of_another_port_can_send_no_command() {
     assert!(!head.contains("set-cookie"), "{head}");
 }
 
-/// Opens connections that send this text and read nothing, until the viewer closes the oldest.
+/// Opens so many connections that the viewer closes the oldest. Each of them sends this text and
+/// reads nothing.
 fn open_silent_connections(viewer: &Viewer, sent: &str) -> Vec<TcpStream> {
     let open = |_| {
         let mut stream = TcpStream::connect(("127.0.0.1", viewer.port)).unwrap();
@@ -196,8 +197,9 @@ fn no_name_in_an_error_is_a_command_in_a_log() {
     }
 }
 
-/// The browser gets the path of a file, since any user of a machine can read the arguments of
-/// programs. The file is deleted as soon as the browser has opened the address in it.
+/// The browser is given the path of a file that contains the address, since any user of a machine
+/// can read the arguments of running programs. The file is deleted as soon as the browser has
+/// opened the address.
 #[cfg(target_os = "linux")]
 #[test]
 fn the_browser_is_opened_by_a_file_that_only_the_user_can_read() {

@@ -73,8 +73,8 @@ fn keys_alone_move_the_camera_in_every_way() {
     let right: Vec3 = serde_json::from_value(own["axes"][0].clone()).unwrap();
     let up = backward.cross(right);
 
-    // Each movement starts at the scene's camera. Returns the change in position and the backward
-    // direction.
+    // Presses a key and returns the change in position and the new backward direction. Each
+    // movement starts at the scene's camera.
     let mut movement = |key: &str, code: u32, with_shift: bool| {
         if with_shift {
             tab.press_with_shift(key, code);

@@ -72,7 +72,7 @@ impl Expected {
         }
     }
 
-    /// Returns the tests for the ray through the centre of a pixel, as texts.
+    /// Returns the tests for the ray through the centre of a pixel, as strings.
     pub fn tests(&self, pixel: UVec2) -> Vec<String> {
         let scene = self.scene.as_ref().unwrap();
         let camera = Student.camera(&scene.camera.pinhole);
@@ -81,7 +81,7 @@ impl Expected {
         tests(&self.tree, &self.shapes, &ray)
     }
 
-    /// Returns the tests for the ray of the question, as texts.
+    /// Returns the tests for the question's ray, as strings.
     pub fn tests_of_question(&self) -> Vec<String> {
         tests(&self.tree, &self.shapes, &self.ray.unwrap())
     }
@@ -129,7 +129,7 @@ impl Expected {
     }
 }
 
-/// Traverses the tree independently, in double precision, and returns the tests as texts. Both
+/// Traverses the tree independently, in double precision, and returns the tests as strings. Both
 /// children of a node are tested before the nearer one is entered.
 fn tests(tree: &Tree, shapes: &[Shape], ray: &Ray) -> Vec<String> {
     let mut tests = Vec::new();
@@ -191,8 +191,8 @@ fn entry_of_box(min: DVec3, max: DVec3, ray: &Ray) -> Option<f64> {
     (first <= last).then_some(first)
 }
 
-/// Returns the broken rules in a ray's explanation, each with the node that shouldn't have been
-/// entered.
+/// Returns the violations marked in a ray's explanation: each broken rule with the node that
+/// shouldn't have been entered.
 pub fn marks(ray: &Value) -> Vec<(String, u32)> {
     let rows = ray["rows"].as_array().unwrap().iter();
     let marks = rows.flat_map(|row| row["marks"].as_array().unwrap());
@@ -201,7 +201,7 @@ pub fn marks(ray: &Value) -> Vec<(String, u32)> {
         .collect()
 }
 
-/// Returns the tests in an explanation as texts.
+/// Returns the tests in an explanation as strings.
 pub fn listed_tests(ray: &Value) -> Vec<String> {
     let rows = ray["rows"].as_array().unwrap().iter();
     let text = |row: &Value| {

@@ -42,17 +42,17 @@ fn every_ray_of_a_path_is_listed() {
         .map(|ray| ray["kind"].as_str().unwrap())
         .collect();
     assert_eq!(kinds[0], "camera ray");
-    assert!(kinds.contains(&"shadow ray, to a light"), "{kinds:?}");
+    assert!(kinds.contains(&"shadow ray to a light"), "{kinds:?}");
     assert!(kinds.contains(&"ray after bounce 1"), "{kinds:?}");
     for ray in rays {
-        let is_shadow_ray = ray["kind"] == "shadow ray, to a light";
+        let is_shadow_ray = ray["kind"] == "shadow ray to a light";
         assert_eq!(ray["is_shadow_ray"], is_shadow_ray);
     }
     assert!(rays.iter().all(|ray| ray["boxes"].as_u64() > Some(0)));
     assert_eq!(explanation["radiance"].as_array().unwrap().len(), 3);
 }
 
-/// Returns the rules broken in some pixels of a scene.
+/// Returns the rules that a submission's traversal breaks in a sample of a scene's pixels.
 fn broken_rules(submission: &Submission) -> Vec<String> {
     let arguments = "gyroid --size 24x24 --samples 1";
     let viewer = Viewer::start(submission, arguments);

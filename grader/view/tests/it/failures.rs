@@ -7,7 +7,7 @@ use test_support::processes::{eventually, family, is_running};
 
 use crate::harness::{Submission, Viewer};
 
-/// Returns the texts and locations of a state's notes, with one note per line.
+/// Returns the text and location of each note in a state, one note per line.
 fn notes(state: &Value) -> String {
     let notes = state["notes"].as_array().unwrap().iter();
     let line = |note: &Value| {
@@ -84,7 +84,7 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
     assert_eq!(ray["boxes"], 0);
 }
 
-/// A viewer that explains a pixel after its camera has been moved.
+/// A viewer whose camera has been moved and which then explains a pixel.
 struct Explored {
     viewer: Viewer,
     state: Value,

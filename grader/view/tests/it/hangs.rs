@@ -67,7 +67,8 @@ const HANGS: [Hang; 9] = [
     Hang::in_hit("Bvh::hit", "bvh.rs", RARELY),
 ];
 
-/// Returns those notes and panics in a state that name a method, as texts with their locations.
+/// Returns the notes, the slow-build warning and the panics in a state, one per line, each with its
+/// location.
 fn messages(state: &Value) -> String {
     let notes = state["notes"].as_array().unwrap().iter();
     let notes = notes.chain([&state["slow_build"]]);
@@ -103,7 +104,7 @@ fn an_endless_loop_is_named_with_its_method_and_line() {
             "{statement}: {found}"
         );
         assert!(took < NAMED_WITHIN, "{method}, {statement}: {took:?}");
-        // This repair and the next loop are saved one after the other and built together.
+        // This fix and the next loop are saved in quick succession and built together.
         submission.write(hang.file, &correct);
     }
 }

@@ -116,7 +116,8 @@ impl Submission {
         self.replace("bvh.rs", signature, &format!("{signature} {statement}"));
     }
 
-    /// Wraps `Bvh::build`, so that `change` can change its result, `bvh`.
+    /// Wraps `Bvh::build` in a function that runs the statements in `change` before it returns the
+    /// tree. They can modify the tree through the variable `bvh`.
     pub fn change_tree(&self, change: &str) {
         self.replace("bvh.rs", "pub fn build(", "fn correct_build(");
         let wrapper = format!(
@@ -152,9 +153,9 @@ pub struct Answer {
 pub struct Viewer {
     child: Child,
     pub port: u16,
-    /// The path of the first address, with the token.
+    /// The path of the address that the viewer prints first, including the token.
     pub first: String,
-    /// Not read, but kept open like a terminal.
+    /// Not read any further, but kept open, as a terminal would be.
     _output: BufReader<ChildStdout>,
     errors: ChildStderr,
 }
@@ -220,7 +221,7 @@ impl Viewer {
         self.child.id()
     }
 
-    /// Sends a request with exactly these headers.
+    /// Sends a request with these headers and a `Content-Length`.
     pub fn request(&self, method: &str, path: &str, headers: &str, body: &str) -> Answer {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
         let length = body.len();
@@ -260,7 +261,7 @@ impl Viewer {
         assert_eq!(self.send(command), 204, "{command}");
     }
 
-    /// Waits for a state, following the news as the page does.
+    /// Waits for an expected state by requesting updates as the page does.
     #[track_caller]
     pub fn wait_for(&self, is_expected: impl Fn(&Value) -> bool) -> Value {
         let deadline = Instant::now() + TIMEOUT;

@@ -129,13 +129,13 @@ mod pipe {
             // Both frames are longer than any response and are refused before they are read.
             (frame("u32::MAX"), "at most"),
             (frame("500_000_000u32"), "at most"),
-            // A list whose stated length exceeds the number of bytes: 1 << 34 elements.
+            // A list whose stated length, 1 << 34 elements, exceeds the number of bytes sent.
             (
                 frame("8u32") + "send(&[0, 255, 255, 255, 255, 63, 0, 0]);",
                 "invalid answer",
             ),
             // The response to another request.
-            (frame("1u32") + "send(&[1]);", "does not belong"),
+            (frame("1u32") + "send(&[1]);", "does not match"),
             // Endless frames.
             (
                 format!("loop {{ {} send(&[0; 1000]); }}", frame("1000u32")),

@@ -1,5 +1,5 @@
-//! Tests the views that show tests and mistakes: checks the sums over all rays, which appear
-//! without a click, before and after a save.
+//! Tests the views that show tests and mistakes. The sums over all rays must appear without a click
+//! and be correct both before and after a save.
 
 use serde_json::{Value, json};
 use test_support::{Chromium, DESKTOP};
@@ -10,7 +10,7 @@ use crate::harness::{Submission, Viewer};
 
 const SIZE: [u32; 2] = [48, 36];
 
-/// Shows the mistakes of all rays and waits until the picture is complete.
+/// Selects the view that shows mistakes and waits until the picture is complete.
 fn wait_for_mistakes(viewer: &Viewer) -> Value {
     viewer.command(&json!({ "view": "mistakes" }));
     viewer.wait_for(|state| state["view"] == "mistakes" && state["is_picture_complete"] == true)
@@ -49,7 +49,7 @@ fn a_save_that_visits_the_farther_child_first_changes_the_sums_and_the_picture()
     let [missed, _, farther] = [0, 1, 2].map(|rule| wrong["broken"][rule].as_f64().unwrap());
     assert!(missed == 0.0 && farther > 0.1, "{wrong}");
 
-    // The coloured pixels are those with marks in their explanation.
+    // The coloured pixels are the pixels whose explanations contain marks.
     let picture = viewer.picture();
     let coloured = picture.iter().filter(|pixel| !is_grey(**pixel)).count();
     let share = coloured as f64 / f64::from(width * height);
@@ -102,7 +102,7 @@ fn a_traversal_without_box_tests_is_not_judged_and_the_page_says_so() {
     }
 ",
     );
-    // No click is needed, since the command line can choose the view.
+    // No click is needed, since the view can be chosen on the command line.
     let viewer = Viewer::start(&submission, "flat --size 16x12 --samples 1 --view mistakes");
     let state = viewer.wait_for_picture();
     assert_eq!(state["view"], "mistakes");

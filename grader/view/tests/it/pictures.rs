@@ -12,7 +12,7 @@ use serde_json::json;
 
 use crate::harness::{Submission, Viewer, workspace};
 
-/// Renders a scene like `cargo render`.
+/// Renders a scene the way `cargo render` does.
 fn rendered(scene: &str, film: UVec2, samples: u32, seed: u64, stops: f32) -> Vec<[u8; 3]> {
     let scene = Scene::load(&workspace().join("scenes").join(scene)).unwrap();
     let scene = scene.on_film(film);

@@ -68,8 +68,8 @@ fn in_a_tree_with_decoys_exactly_the_wrong_steps_of_the_slides_pseudo_code_are_m
         let marks: BTreeSet<u32> = marks.into_iter().map(|(_, node)| node).collect();
         // Below a wrong node, the traversal may look correct again. A box that the ray misses by
         // less than the margin isn't judged. In the last two questions, the slides' traversal
-        // enters such boxes: one whose sibling contains the ray's origin, and the first of two that
-        // are missed.
+        // enters such boxes: in one case, the box's sibling contains the ray's origin; in the
+        // other, the ray misses both siblings, and the traversal enters the first of them.
         let judged = wrong.iter().filter(|node| !expected.barely_misses(**node));
         let first_wrong = judged.filter(|node| {
             let parent = expected.parent(**node);
@@ -135,7 +135,7 @@ fn questions_about_shapes_boxes_and_builders_have_something_to_show() {
 #[test]
 fn someone_elses_submission_runs_in_the_sandbox() {
     let submission = Submission::reference();
-    // When the camera is used, this reads a file, which the sandbox forbids.
+    // This makes the camera read a file, which the sandbox forbids.
     let read = "assert!(std::fs::read(\"/etc/hostname\").is_err(), \"read a file\");";
     submission.insert_into_camera(read);
     let arguments = "flat --size 16x12 --samples 1";
@@ -156,7 +156,7 @@ fn someone_elses_submission_runs_in_the_sandbox() {
     };
     let state = viewer
         .wait_for(|state| state["is_picture_complete"] == true || state["notes"] != json!([]));
-    // The system call fails, or ends the program.
+    // The system call either fails or ends the program.
     let message = format!("{} {}", state["panics"], state["notes"]);
     assert!(!message.contains("read a file"), "{message}");
     drop(viewer);

@@ -1,5 +1,5 @@
 //! Trees with defects: each defect is listed with its node and shown in the picture. The stored
-//! costs of the best trees are compared with the exact sweep.
+//! costs of the best trees are compared with the costs that the exact sweep computes.
 
 use std::fs;
 
@@ -54,14 +54,14 @@ fn each_defect_of_a_tree_is_named_with_its_node() {
         (
             "let lost = bvh.nodes.iter_mut().find(|node| node.is_leaf() && node.size > 1); \
              lost.unwrap().size -= 1;",
-            "Primitives that are in no leaf, so no ray can hit them",
+            "Primitives that no ray can hit because they are in no leaf",
             1..=1,
             "primitive ",
         ),
         (
             "bvh.nodes = bvh.nodes.iter().map(|node| Node { \
              bbox: BBox::new(node.bbox.center(), node.bbox.center()), ..*node }).collect();",
-            "Boxes that do not contain everything below their nodes, so some hits are missed",
+            "Boxes that cause missed hits because they do not contain everything below their nodes",
             1000..=u64::MAX,
             "node 0: ",
         ),

@@ -19,7 +19,8 @@ const COPIED: [&str; 7] = [
     "student/framework",
     "student/protocol",
 ];
-/// The names of folders that only staff need. At any depth, folders with these names are skipped.
+/// The names of folders that only staff need. Folders with these names are skipped wherever they
+/// occur.
 const EXCLUDED_NAMES: [&str; 5] = ["tests", "snapshots", "benches", "fuzz", "target"];
 /// Files and folders about grading a class or running untrusted code, which are only for staff.
 const STAFF_PATHS: [&str; 6] = [

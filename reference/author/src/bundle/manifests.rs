@@ -63,7 +63,7 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
 }
 
 /// Declares that a crate contains no tests or benches. Otherwise, after each save, editors would
-/// try and fail to compile what is left of its tests.
+/// try to compile the remains of its tests, and fail.
 fn leave_out_tests(manifest: &mut DocumentMut) {
     let programs = manifest.get_mut("bin");
     let programs = programs.and_then(Item::as_array_of_tables_mut);
@@ -76,7 +76,7 @@ fn leave_out_tests(manifest: &mut DocumentMut) {
     lib["bench"] = value(false);
 }
 
-/// Keeps the workspace members that are in the bundle.
+/// Keeps only the workspace members that are in the bundle.
 fn keep_members(members: &mut Array, bundle: &Bundle) {
     members.retain(|member| {
         let manifest = member.as_str().map(|folder| format!("{folder}/Cargo.toml"));

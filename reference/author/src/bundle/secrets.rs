@@ -17,7 +17,7 @@ use crate::bundle::Bundle;
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
-/// The folders with given code. Solutions may repeat lines of this code.
+/// The folders with the code that students are given. Solutions may repeat lines of this code.
 const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
 /// The minimum length of a secret line, not counting white space. Shorter lines can match by
 /// coincidence.
@@ -72,13 +72,13 @@ impl Secrets {
             .map(|file| file.trim_end_matches(".rs"));
         let variants = stems.map(|stem| format!("{solutions}/variants/{stem}"));
         for folder in variants.chain([format!("{solutions}/mutants")]) {
-            // An assignment may have no other solutions.
+            // An assignment need not have any other solutions.
             if root.join(&folder).is_dir() {
                 secrets.read(root, &folder)?;
             }
         }
-        // A substitution's folder contains a source with the name of the substituted file, which
-        // replaces some of that file's functions.
+        // A substitution's folder contains a file that has the same name as the substituted file
+        // and replaces some of that file's functions.
         for substituted in handed_out.substitutions {
             let (folder, file) = (substituted.folder(), substituted.file);
             secrets.read(root, &format!("{solutions}/{folder}/{file}"))?;
@@ -155,7 +155,7 @@ fn normalize(line: &str) -> Option<String> {
 }
 
 /// Returns whether the line contains arithmetic. An arrow, a dereferenced field or the name of a
-/// handout section isn't arithmetic.
+/// handout section doesn't count as arithmetic.
 fn is_formula(line: &str) -> bool {
     if line.contains(".md#") {
         return false;
@@ -173,7 +173,7 @@ impl fmt::Display for Secrets {
 impl fmt::Display for Leak {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Leak::Line { found, source } => write!(f, "{found} is the same line as {source}"),
+            Leak::Line { found, source } => write!(f, "{found} is identical to {source}"),
             Leak::Exam { found } => write!(f, "{found} is not the practice exam"),
         }
     }

@@ -16,7 +16,7 @@ use crate::package::{self, CourseFiles, Platform, trial};
 pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> CommandResult {
     let handed_out = authoring.handed_out;
     let mut bundle = Bundle::collect(root, handed_out, args.book.as_deref())?;
-    // Compare with the full bundle, because lines of the starter aren't secret.
+    // Use the full bundle here, because lines of the starter aren't secret.
     let secrets = Secrets::gather(root, authoring, &bundle)?;
     if args.update {
         bundle = bundle.without_students_files(handed_out);

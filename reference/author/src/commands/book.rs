@@ -11,7 +11,7 @@ use crate::handout;
 /// Checks the handout's pages. Builds the book if a folder is given.
 #[allow(
     clippy::option_option,
-    reason = "absent, without a value, with a value"
+    reason = "the option can be absent, have no value, or have a value"
 )]
 pub(super) fn handout(
     root: &Path,

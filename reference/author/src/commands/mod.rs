@@ -26,7 +26,7 @@ use crate::starter;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-/// The entry in the table of long runs for a run without seeds.
+/// What the table of long runs shows in place of the seeds for a run that has none.
 const PRACTICE: &str = "practice";
 
 /// The result of a command. The caller prints the error.

@@ -22,7 +22,8 @@ use crate::proof::{self, failures, matrix};
 use crate::solutions::Solutions;
 use crate::solutions::failed_items::FailedItems;
 
-/// Writes or checks the lists of the items each mistake fails, and the table for the practice exam.
+/// Writes or checks the lists of items that each mistake fails, and the table for the practice
+/// exam.
 pub(super) fn mistakes(
     root: &Path,
     authoring: &'static Authoring,
@@ -76,7 +77,8 @@ fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -
     generate(&[table], mode, "mistakes")
 }
 
-/// Makes mutants of the reference and grades all of them or only those of some tasks.
+/// Makes mutants of the reference and grades them: all of them, a fixed sample, or only the mutants
+/// of some tasks.
 pub(super) fn mutants(
     authoring: &'static Authoring,
     fast: bool,
@@ -97,8 +99,8 @@ pub(super) fn mutants(
     report(&findings.problems(), &line)
 }
 
-/// Grades the variants with the exams for all seeds, and the mistakes with those for the first few
-/// seeds.
+/// Grades the variants with the exams for all seeds, and the mistakes with only the first few
+/// exams.
 pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandResult {
     let all = solutions(authoring)?;
     let selected = match &args.variant {

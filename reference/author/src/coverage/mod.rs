@@ -37,7 +37,7 @@ impl Coverage {
     /// Returns a one-line summary.
     pub fn summary_line(&self) -> String {
         format!(
-            "{} sentences; classes: {} tested, {} not tested for a reason, {} missing",
+            "{} sentences; classes: {} tested, {} left untested for a stated reason, {} missing",
             self.sentences,
             self.asked,
             self.excused,

@@ -1,4 +1,4 @@
-//! Draws calls so that all classes occur about equally often, and the rarely drawn ones a little
+//! Draws calls so that all classes occur about equally often, and rarely drawn classes a little
 //! more often.
 
 use std::collections::BTreeMap;
@@ -8,7 +8,7 @@ use crate::seed::Rng;
 
 /// The number of suitable calls to compare.
 const CANDIDATES: usize = 48;
-/// The maximum number of calls to draw in search of that many suitable calls.
+/// The maximum number of calls to draw while searching for that many suitable calls.
 const ATTEMPTS: usize = 1000;
 
 /// Counts how often each class has been chosen.

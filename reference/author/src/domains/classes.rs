@@ -118,7 +118,7 @@ impl Classes {
 
     /// Returns a count for each pair of classes that should be tested together.
     pub fn pairs(&self, domain: &dyn Domain) -> Vec<Pair> {
-        /// The name that a domain's reasons use for the column of pairs.
+        /// The column name that a domain's reasons use for pairs.
         const COLUMN: &str = "pairs";
         let aspects = domain.aspects();
         let mut pairs = Vec::new();

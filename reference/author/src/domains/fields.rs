@@ -72,8 +72,8 @@ pub fn size(rng: &mut Rng, class: usize) -> f64 {
 
 /// The classes of lengths, by how close they are to a power of ten.
 pub const ROUND: &[&str] = &[
-    "almost a power of ten, above",
-    "almost a power of ten, below",
+    "just above a power of ten",
+    "just below a power of ten",
     "between",
 ];
 
@@ -88,8 +88,8 @@ pub fn round_class(size: f64) -> usize {
     }
 }
 
-/// Returns the class of a number. Each class but the last includes numbers up to one of these
-/// limits.
+/// Returns the class of a number. Each class but the last contains the numbers up to and including
+/// one of these limits.
 pub fn class_up_to(limits: &[usize], number: usize) -> usize {
     limits.iter().take_while(|&&limit| number > limit).count()
 }
@@ -129,8 +129,8 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
 }
 
 /// Draws a position for a shape of this size. No coordinate of the shape exceeds the largest
-/// coordinate of a scene, and the shape is at most 5,000 times its size away from the origin. Some
-/// positions are on an axis.
+/// coordinate of a scene, and the shape's distance from the origin is at most 5,000 times its size.
+/// Some positions are on an axis.
 pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
     let furthest = (FURTHEST - size).min(5000.0 * size);
     let mut position = match rng.index(PLACES.len()) {
@@ -208,8 +208,8 @@ pub fn direction_class(dir: Vec3) -> Option<usize> {
     }
 }
 
-/// Draws a direction: along an axis, in a coordinate plane, close to one of these, or any other.
-/// Zeros can have either sign.
+/// Draws a direction: along or close to an axis, in or close to a coordinate plane, or any other
+/// direction. Zeros can have either sign.
 pub fn direction(rng: &mut Rng) -> DVec3 {
     let dir = rng.retry(|rng| {
         let dir = rng.direction();
@@ -263,8 +263,9 @@ pub fn diagonal(rng: &mut Rng) -> DVec3 {
     (signs * dir).normalize()
 }
 
-/// Returns the start and the direction of a ray toward a target at this distance. Some rays start
-/// far away or at the origin instead. Returns `None` if the ray would start outside the scene.
+/// Returns the start and the direction of a ray toward a target. Most rays start at this distance
+/// from the target, but some start far away or at the origin. Returns `None` if the ray would start
+/// outside the scene.
 pub fn ray_toward(
     rng: &mut Rng,
     target: DVec3,
@@ -293,8 +294,8 @@ pub fn is_same_line(a: &Ray, b: &Ray) -> bool {
     a.origin == b.origin && a.dir == b.dir
 }
 
-/// Returns whether two rays differ, but none of their numbers by more than a five-thousandth of its
-/// value.
+/// Returns whether two rays are different but each of their numbers differs by at most a
+/// five-thousandth of its value.
 pub fn is_almost_the_same_ray(a: &Ray, b: &Ray) -> bool {
     const MOST: f32 = 2e-4;
     let is_near = |a: Vec3, b: Vec3| (a - b).abs().cmple(MOST * a.abs()).all();
@@ -330,11 +331,11 @@ pub fn history_class(before: Option<&Ray>, ray: &Ray) -> usize {
 /// The classes of ranges.
 pub const RANGES: &[&str] = &[
     "from 0 to ∞",
-    "from 0 to an end",
-    "from later to ∞",
-    "from later to an end",
-    "from 0 to a far end",
-    "from later to a far end",
+    "from 0 to a nearby end",
+    "from a later start to ∞",
+    "from a later start to a nearby end",
+    "from 0 to a distant end",
+    "from a later start to a distant end",
 ];
 
 /// The end of a range that reaches beyond everything in a scene.
@@ -405,7 +406,8 @@ pub fn weights_inside(rng: &mut Rng, least: f64) -> [f64; 3] {
     parts.map(|part| least + (1.0 - 3.0 * least) * part)
 }
 
-/// Returns a count's base-two logarithm, rounded. The count must not be 0.
+/// Returns the base-two logarithm of a count, rounded to the nearest integer. The count must not be
+/// 0.
 pub fn powers_of_two(count: usize) -> usize {
     (count as f64).log2().round() as usize
 }

@@ -91,9 +91,9 @@ pub struct UntestedClasses {
     pub why: &'static str,
 }
 
-/// Declares that an exam need not test these classes of these aspects, and states the reason.
-/// Applies only to these columns of the coverage. An empty list stands for all aspects, classes or
-/// columns.
+/// Declares that an exam need not test these classes of these aspects, and states the reason. The
+/// declaration applies only to these columns of the coverage table. An empty list stands for all
+/// aspects, classes or columns.
 pub const fn not_asked(
     aspects: &'static [&'static str],
     classes: &'static [&'static str],
@@ -117,7 +117,8 @@ impl UntestedClasses {
     }
 }
 
-/// An aspect that applies only to the first call on a subject, if another subject comes before it.
+/// An aspect that applies only to the first call on a subject, and only if calls on another subject
+/// come before it.
 const SUBJECT_BEFORE: (&str, &[&str]) = ("first call", &["after another subject"]);
 
 /// The domain of any function.

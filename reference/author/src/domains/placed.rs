@@ -1,4 +1,4 @@
-//! Aspects that all calls on something with a size and a position have in common.
+//! Aspects shared by all calls on something that has a size and a position.
 
 use super::Aspect;
 use super::fields::{OCTANTS, PLACES, ROUND, SIZES, octant, place_class, round_class, size_class};

@@ -46,10 +46,10 @@ const PAIRS: usize = 10;
 const AGAIN: usize = 5;
 
 impl<C: Call> Generator<'_, C> {
-    /// For each of these sizes, draws a subject and pairs of calls, one a hit and one a miss, so
-    /// that each class of each aspect occurs. In some pairs, only the range makes one call a hit
-    /// and the other a miss. Some pairs are followed by a call that is almost the same as the one
-    /// before it. The last tables repeat earlier calls, each with a subject that differs from the
+    /// For each of these sizes, draws a subject and pairs of calls, so that each class of each
+    /// aspect occurs. Each pair consists of a hit and a miss, which in some pairs differ only in
+    /// their ranges. Some pairs are followed by calls that are almost the same as the call before
+    /// them. The last tables repeat earlier calls, each with a subject that differs from the
     /// previous one in a single property.
     pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<SubjectCalls<C>> {
         let FunctionDomain {
@@ -67,8 +67,8 @@ impl<C: Call> Generator<'_, C> {
         let Some(last) = tables.pop() else {
             return tables;
         };
-        // The last call hits, so that an answer kept from it becomes visible in the first call of
-        // the next table.
+        // The last call is a hit, so that a method that keeps its answer gives a wrong answer to
+        // the first call in the next table.
         let ends_with = |row: usize| {
             let (subject, mut inputs) = last.clone();
             let end = inputs.remove(row);
@@ -113,8 +113,8 @@ impl<C: Call> Generator<'_, C> {
     }
 
     /// Returns two lists of calls on a subject that differs from the previous one: a few calls for
-    /// the table, and all calls. The first call in the table repeats the previous table's last
-    /// call, which now has a different answer. The table's last call is a hit.
+    /// the table, and all suitable calls. The first call in the table repeats the previous table's
+    /// last call, which now has a different answer. The table's last call is a hit.
     fn changed(&self, rng: &mut Rng, before: &[C], change: Change<C>) -> Option<(Vec<C>, Vec<C>)> {
         const ATTEMPTS: usize = 60;
         let last = before.last()?;
@@ -146,8 +146,8 @@ impl<C: Call> Generator<'_, C> {
     ) -> Option<SubjectCalls<C>> {
         /// The maximum number of calls drawn to find one that fits a subject.
         const ATTEMPTS: usize = 20;
-        // Subjects that turn out not to fit are counted too, so that the next one is of a different
-        // kind.
+        // Subjects that turn out to be unsuitable are counted too, so that the next subject drawn
+        // is of a different kind.
         let subject = of_subject.choose(rng, |rng| {
             let subject = (self.subject)(rng, size);
             rng.attempt(ATTEMPTS, |rng| self.call(rng, &subject))
@@ -208,7 +208,7 @@ impl<C: Call> Generator<'_, C> {
         (call.is_hit() == is_hit).then_some(call)
     }
 
-    /// Returns a call that misses only because of its range, if one fits.
+    /// Returns a suitable call that misses only because of its range, if one is found.
     fn miss_by_range(&self, rng: &mut Rng, hit: &C) -> Option<C> {
         const ATTEMPTS: usize = 20;
         rng.attempt(ATTEMPTS, |rng| {

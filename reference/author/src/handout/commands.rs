@@ -19,7 +19,7 @@ const OPTIONS: [&str; 2] = [
 ];
 /// The flags of `cargo examples`. The code that parses them isn't linked here.
 const EXAMPLES_FLAGS: [&str; 1] = ["--nocapture"];
-/// Commands of other programs that the handout uses.
+/// Commands in the handout that run other programs.
 pub(super) const OTHER_COMMANDS: [&str; 10] = [
     "rustc",
     "rustup",
@@ -121,13 +121,13 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
 }
 
 /// Returns the problem with the first argument of `cargo examples` that is neither the name of a
-/// file nor a flag of the test harness. Returns `None` if every argument is one of the two.
+/// file nor a flag of the test harness. Returns `None` if there is no such argument.
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
         let file = format!("student/src/{word}.rs");
         !EXAMPLES_FLAGS.contains(word) && !sources.iter().any(|source| source.path == file)
     })?;
-    Some(format!("there is no file {unknown}.rs with examples"))
+    Some(format!("there is no examples file named {unknown}.rs"))
 }
 
 #[cfg(test)]
@@ -168,7 +168,7 @@ mod tests {
             "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres' for '--task <TASK>'",
             "a.md:4: cargo has no command gradee",
             "a.md:5: no command has the flag --views",
-            "a.md:6: there is no file tree.rs with examples",
+            "a.md:6: there is no examples file named tree.rs",
             "a.md:7: unknown command make",
             "a.md:8: `cargo handin --zip`: error: unexpected argument '--zip' found",
             "a.md:9: `cargo class a --shard 9/8`: error: invalid value '9/8'",

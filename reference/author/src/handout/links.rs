@@ -1,4 +1,5 @@
-//! Checks that every link, anchor and figure in the handout exists and that every figure is used.
+//! Checks that every link in the handout leads to an existing page, heading or figure, and that
+//! every figure is used.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -49,8 +50,8 @@ fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
 pub const SUMMARY: &str = "SUMMARY.md";
 
 /// Returns a problem for each item without a section, and for each reference from the exam or
-/// `others` to a section that doesn't exist. Each element of `others` consists of a name for the
-/// thing that refers to a section, and that section.
+/// `others` to a section that doesn't exist. Each element of `others` consists of a section and,
+/// before it, a description of what refers to that section.
 pub fn missing_sections(
     pages: &[Page],
     exam: &Exam,

@@ -1,5 +1,5 @@
-//! Writes the handout's lists of tasks, checks its links, names and commands against the code
-//! and builds it as a book.
+//! Writes the handout's lists of tasks, checks the handout's links, names and commands against the
+//! code, and builds the handout as a book.
 
 #[cfg(feature = "book")]
 pub mod book;
@@ -92,7 +92,7 @@ fn other_sections(assignment: &Assignment) -> impl Iterator<Item = (String, Sect
     let clues = assignment.tasks.iter().flat_map(|task| {
         let clues = task.clues.by_symptom.iter();
         clues.map(|clue| {
-            let whose = format!("a clue of {} ({})", task.id, clue.symptoms[0].what);
+            let whose = format!("a clue for {} ({})", task.id, clue.symptoms[0].what);
             (whose, Section::new(clue.section))
         })
     });

@@ -76,7 +76,7 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
             && !RUST_NAMES.contains(&owner)
         {
             return (!has_member(owner, member, known))
-                .then(|| format!("{owner} doesn't have a {member}"));
+                .then(|| format!("{owner} has no member {member}"));
         }
         let is_known = |word: &str| {
             let is_foreign = RUST_NAMES.contains(&word) || CPP_NAMES.contains(&word);
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(
             problems(text),
             [
-                "a.md:1: Bvh doesn't have a grow",
+                "a.md:1: Bvh has no member grow",
                 "a.md:2: unknown name max_leaf",
                 "a.md:3: the exam has no item bbox.fat",
                 "a.md:4: there is no file tree.rs",

@@ -82,7 +82,7 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
         (GRADING, task_rows),
     ] {
         let text = with_lines(&page(root, name)?, above, &lines);
-        let text = text.with_context(|| format!("{name} does not have {above:?}"))?;
+        let text = text.with_context(|| format!("{name} does not contain {above:?}"))?;
         generated.push(GeneratedFile::new(format!("{CHAPTERS}/{name}"), text));
     }
     Ok(generated)

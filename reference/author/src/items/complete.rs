@@ -13,8 +13,8 @@ use crate::seed::Seed;
 /// The maximum number of times each item is drawn again.
 const ATTEMPTS: usize = 96;
 
-/// Draws the items of a task. In a final exam, every question differs from those in the practice
-/// exam.
+/// Draws the items of a task. In a final exam, every question differs from all questions in the
+/// practice exam.
 pub(super) fn draw_items(
     seed: Seed,
     task: &AuthoredTask,
@@ -40,7 +40,7 @@ fn practice_items(task: &AuthoredTask, items: &[Declaration]) -> Arc<Vec<Declare
 }
 
 /// Draws the items of a task. While any class of the task's domain is missing, items that could
-/// test it are drawn again. A new item is kept only if fewer classes are missing with it.
+/// test it are drawn again. A new item is kept only if it reduces the number of missing classes.
 fn draw_complete(
     seed: Seed,
     task: &AuthoredTask,

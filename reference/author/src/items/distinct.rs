@@ -16,7 +16,7 @@ pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> 
         .take(MAX_ATTEMPTS)
         .map(|seed| item.draw(seed))
         .find(is_distinct)
-        .expect("some numbers differ from those of the practice exam")
+        .expect("some seed gives numbers that differ from those of the practice exam")
 }
 
 /// Returns whether the correct answer to a question of one item earns points for a question of the

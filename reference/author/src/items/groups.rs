@@ -4,11 +4,11 @@ use super::Group;
 
 /// The rays of a picture.
 pub(super) const CAMERA_RAYS: Group = Group("camera rays");
-/// Whether and at which distance a triangle is hit.
+/// Whether a triangle is hit, and at what distance.
 pub(super) const TRIANGLE_HITS: Group = Group("triangle hits");
 /// The other quantities of a hit on a triangle.
 pub(super) const TRIANGLE_SURFACE: Group = Group("triangle surface");
-/// Whether and at which distance a sphere is hit.
+/// Whether a sphere is hit, and at what distance.
 pub(super) const SPHERE_HITS: Group = Group("sphere hits");
 /// The other quantities of a hit on a sphere.
 pub(super) const SPHERE_SURFACE: Group = Group("sphere surface");

@@ -102,9 +102,9 @@ pub fn strand(rng: &mut Rng, center: DVec3, axis: usize, length: f64) -> Shape {
 }
 
 /// Returns long, thin triangles: along x in one region, along y in another, and along z in a third.
-/// Splitting along the strands' direction gains little, but within one region, it is the direction
-/// of a node's longest axis, so a builder that only splits along the longest axis builds a poor
-/// tree.
+/// Splitting along the strands' direction gains little. Within one region, however, that is the
+/// direction of a node's longest axis, so a builder that splits only along the longest axis builds
+/// a poor tree.
 pub fn strands(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let strands = (0..count).map(|i| {
         let axis = i % 3;

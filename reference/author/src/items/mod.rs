@@ -40,8 +40,8 @@ pub static TASKS: &[&AuthoredTask] = &[
     &traverse::TASK,
 ];
 
-/// The items of `rays` that are worth more than one point, with their points. The points of a
-/// task's items add up to the task's points.
+/// The items of `rays` that are worth more than one point, and how many points each of them is
+/// worth. The points for a task's items add up to the points for the task.
 const POINTS: &[(&str, u32)] = &[
     ("camera.field_of_view", 2),
     ("camera.offset", 2),
@@ -59,7 +59,7 @@ const POINTS: &[(&str, u32)] = &[
     ("traverse.skips_missed", 2),
 ];
 
-/// Returns the items of an exam, each after the items that it needs.
+/// Returns the items of an exam. Each item comes after the items that it needs.
 pub fn items(tasks: &[&AuthoredTask], seed: Seed) -> Vec<Item> {
     let all = tasks.iter().flat_map(|task| task.draw(seed));
     resolve(all.collect())
@@ -80,7 +80,7 @@ pub fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// Creates a question that asks where each ray hits a shape, without a tree.
+/// Creates a question without a tree that asks where each ray hits a shape.
 fn shape_question(
     judged: &[&str],
     shape: Shape,

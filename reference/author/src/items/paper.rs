@@ -79,7 +79,7 @@ pub(super) fn sphere(rng: &mut Rng) -> ExamQuestion {
 }
 
 /// Returns a box and rays in the directions (±1, ±2, ±2) / 3, with the axes in any order. The rays
-/// that hit the box come first, then those that miss it.
+/// that hit the box come first, followed by the rays that miss it.
 pub(super) fn bbox(rng: &mut Rng) -> (Bounds, Vec<(Ray, Interval)>) {
     let min = whole_point(rng);
     let size = [(); 3].map(|()| f64::from(rng.integer(2, 5)));
@@ -106,7 +106,8 @@ pub(super) fn tree(rng: &mut Rng) -> (Tree, Vec<Ray>) {
     let corner = whole_point(rng);
     let [along, right, up] = axes(rng);
     let at = |depth: f64, x: f64, y: f64| corner + depth * along + x * right + y * up;
-    // The edges that are parallel to an axis have even coordinates, and the rays have odd ones.
+    // The edges that are parallel to an axis have even coordinates, and the rays have odd
+    // coordinates.
     let triangles = (0..4).map(|index| {
         let depth = f64::from(3 * index + rng.integer(0, 1));
         let [x, y] = [(); 2].map(|()| -2.0 * f64::from(rng.integer(0, 1)));

@@ -3,9 +3,9 @@
 //! At an edge, correct submissions whose rays differ only in the last bit see different surfaces.
 //! The key for a position is therefore a set of surfaces: those seen at the position itself, at
 //! four neighbours, and at positions in between. The neighbours are so close that any mistake would
-//! move an edge farther than that. The surfaces at positions in between are needed because the
-//! depth changes so steeply near a sphere's silhouette that a correct depth may lie between the
-//! depths at two neighbours.
+//! move an edge by more than the distance to them. The surfaces at positions in between are needed
+//! because the depth changes so steeply near a sphere's silhouette that a correct depth may lie
+//! between the depths at two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use judging::exam::{ExamQuestion, Key, Surface};
@@ -26,8 +26,8 @@ pub fn camera_at_origin(pixels: u32) -> ExamCamera {
     camera_along(Vec3::ZERO, DVec3::NEG_Z, 1.0, pixels)
 }
 
-/// Returns a camera at `eye` that looks along `forward`, which must have length one and not be
-/// parallel to y. At distance one, the square film is 2 · `half` wide.
+/// Returns a camera at `eye` that looks along `forward`, which must be a unit vector that isn't
+/// parallel to y. At distance 1, the square film is 2 · `half` wide.
 pub fn camera_along(eye: Vec3, forward: DVec3, half: f64, pixels: u32) -> ExamCamera {
     let right = forward.cross(DVec3::Y).normalize();
     let up = right.cross(forward);

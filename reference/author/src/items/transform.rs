@@ -9,8 +9,8 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// A scale and an offset. Questions are drawn with sizes of about one, near the origin, and then
-/// transformed.
+/// A scale and an offset. Questions are first drawn near the origin, with sizes of about one, and
+/// then transformed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transform {
     scale: f64,
@@ -33,8 +33,8 @@ impl Transform {
         Transform { scale, offset }
     }
 
-    /// Returns the transform that moves the box around these shapes to this centre and scales its
-    /// longest side to twice this size.
+    /// Returns the transform that centres the box around these shapes at `center` and scales its
+    /// longest side to twice `size`.
     pub(super) fn around(shapes: &[Shape], size: f64, center: DVec3) -> Self {
         let bounds = Bounds::enclosing(shapes.iter().map(scan::bounds));
         if bounds.half_side() <= 0.0 || shapes.is_empty() {

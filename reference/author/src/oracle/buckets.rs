@@ -15,7 +15,7 @@ pub enum BucketExtent {
 /// The buckets that make up the two sides of a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SideRule {
-    /// All buckets to the left of the plane, and all to the right.
+    /// All buckets to the left of the plane, and all buckets to its right.
     AllBuckets,
     /// Only the last bucket before the plane and the first one after it: a common mistake.
     AdjacentBuckets,
@@ -39,8 +39,8 @@ pub fn cost(boxes: &[Bounds], max_leaf_size: usize, builder: BucketedBuilder) ->
     cost_with_halves(boxes, max_leaf_size, builder, &|_| false)
 }
 
-/// Returns the cost of this builder's tree if the builder instead halves some nodes by primitive
-/// count along the longest axis. `is_halved` selects these nodes by their number of primitives.
+/// Like [`cost`], but for a builder that halves some nodes by primitive count along the longest
+/// axis. `is_halved` selects these nodes by their number of primitives.
 pub fn cost_with_halves(
     boxes: &[Bounds],
     max_leaf_size: usize,

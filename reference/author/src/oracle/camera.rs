@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3, dvec3};
 use protocol::{PinholeCamera, Sample};
 
-/// Returns the direction of the ray through a position on the film. Its length is one.
+/// Returns the direction of the ray through a position on the film, as a unit vector.
 pub fn direction(camera: &PinholeCamera, sample: Sample) -> DVec3 {
     // Half of the sensor's height, from a right triangle whose base has length 1.
     let top = libm::tan(f64::from(camera.vertical_fov) * PI / 360.0);

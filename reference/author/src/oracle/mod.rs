@@ -18,7 +18,7 @@ use protocol::{Interval, Ray, Trace};
 pub struct Ray64 {
     /// The point where the ray starts.
     pub origin: DVec3,
-    /// The direction. Its length is one, up to the rounding of the question's ray.
+    /// The direction: a unit vector, except for the rounding of the question's ray.
     pub dir: DVec3,
     /// The minimum distance of a valid hit.
     pub min: f64,
@@ -70,7 +70,7 @@ pub struct Intersection {
     pub distance: f64,
     /// The point of the intersection.
     pub position: DVec3,
-    /// The surface normal, of length one.
+    /// The surface normal, a unit vector.
     pub normal: DVec3,
     /// The texture coordinates.
     pub uv: DVec2,

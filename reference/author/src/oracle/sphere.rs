@@ -22,7 +22,8 @@ pub struct LineIntersection {
     /// The smallest distance from the centre to the line, as a multiple of the radius. The line
     /// hits the sphere if this distance is below 1.
     pub closest_approach: f64,
-    /// The distances where the line enters and leaves the sphere, or NaN if it misses.
+    /// The distances at which the line enters and leaves the sphere, or NaN if it misses the
+    /// sphere.
     pub roots: [f64; 2],
 }
 

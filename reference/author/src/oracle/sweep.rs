@@ -1,4 +1,4 @@
-//! The exact surface area heuristic (SAH), which tries all partitions by a plane at each node and
+//! The exact surface area heuristic (SAH): at each node, it tries all partitions by a plane and
 //! takes the best one.
 
 use judging::drawing_data::{LevelNode, UpperLevels};
@@ -69,10 +69,10 @@ pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
     below(boxes, &mut indices, max_leaf_size)
 }
 
-/// Returns the gap between the two centres where the best partition splits along this axis. Returns
-/// `None` if the best partition is along another axis, or if a different partition is nearly as
-/// good. If there are only a few primitives, this includes partitions whose sides no plane
-/// separates.
+/// Returns the coordinates of the two centres between which the best partition splits this axis.
+/// Returns `None` if the best partition is along another axis, or if a different partition is
+/// nearly as good. If there are only a few primitives, the other partitions include those whose
+/// sides no plane separates.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let mut all: Vec<Partition> = (0..3)
@@ -99,9 +99,9 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
 /// The minimum cost of the second-best partition, relative to the best.
 const MIN_RATIO: f64 = 1.05;
 
-/// Returns whether builders agree, despite rounding, on whether a plane perpendicular to this axis
-/// also gives these sides. They agree if the sides' centres are clearly separated, clearly mixed,
-/// or all equal.
+/// Returns whether all builders agree, despite rounding, on whether a plane perpendicular to this
+/// axis also separates these sides. They agree if the sides' centres are clearly separated, clearly
+/// mixed, or all equal.
 fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) -> bool {
     /// The maximum error of a centre, relative to the largest coordinate.
     const ERROR: f64 = 5e-7;
@@ -127,11 +127,11 @@ fn given_order_is_worse(boxes: &[Bounds], cost: f64) -> bool {
     costs.into_iter().all(|other| other >= MIN_RATIO * cost)
 }
 
-/// Returns whether every way to divide the primitives costs at least `cost`, even if no plane
-/// separates the sides. Sides like these are possible because rounding may sort coinciding centres
-/// in any order. Checks nothing if there are many primitives.
+/// Returns whether every division of the primitives costs at least `cost`, including divisions into
+/// sides that no plane separates. Such divisions are possible because rounding may sort coinciding
+/// centres in any order. If there are many primitives, returns true without checking.
 fn no_sides_are_cheaper(boxes: &[Bounds], cost: f64) -> bool {
-    /// All ways are tried only if there are at most this many primitives.
+    /// The maximum number of primitives for which all divisions are checked.
     const FEW: usize = 10;
     if boxes.len() > FEW {
         return true;

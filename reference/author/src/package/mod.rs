@@ -76,7 +76,7 @@ pub fn collect(
     platform: Platform,
     course: CourseFiles,
 ) -> Result<Bundle> {
-    const NOT_SECRET: &str = "only a package for gradescope can contain a final exam";
+    const NOT_SECRET: &str = "only a package for Gradescope can contain a final exam";
     match (platform, course.exam) {
         (Platform::Gradescope, Some(exam)) => {
             gradescope::package(root, handed_out, &exam, &course.policy)

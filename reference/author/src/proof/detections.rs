@@ -106,7 +106,10 @@ impl fmt::Display for Detection {
             parts.push(format!("{wrong} of {of} trees"));
         }
         if self.picture > 0.0 {
-            parts.push(format!("{:.0} times the tolerated positions", self.picture));
+            parts.push(format!(
+                "{:.0} times the tolerated number of wrong positions",
+                self.picture
+            ));
         }
         write!(f, "{}", parts.join(", "))
     }
@@ -164,7 +167,7 @@ impl Detections {
         thin.map(|(id, _, caught)| match caught {
             None => format!("{id} passes an exam"),
             Some(caught) => format!(
-                "{id} is caught by {caught} in {}: add more questions that show it",
+                "{id} is caught only by {caught} in {}: add questions that show it",
                 caught.item
             ),
         })
@@ -178,7 +181,8 @@ impl Detections {
              Written by `cargo author mistakes`. For each mistake, the table shows how it is caught in the \
              exam that catches it least clearly, by the item that catches it best there. A mistake must get \
              at least {TABLE_ANSWERS} answers or {:.0} % of an item's tables wrong, {PICTURE_MULTIPLE} \
-             times the tolerated positions of a picture, or {TREES} trees or all of an item's trees.\n\n\
+             times the tolerated number of wrong positions in a picture, or {TREES} trees or all of an \
+             item's trees.\n\n\
              | mistake | exams | item | caught by | times the required |\n|---|--:|---|---|--:|\n",
             100.0 * TABLE_SHARE
         );
@@ -258,7 +262,7 @@ mod tests {
             detections.problems(),
             [
                 "bbox.b passes an exam",
-                "bbox.a is caught by 1 of 24 answers in bbox.thin: add more questions that show it",
+                "bbox.a is caught only by 1 of 24 answers in bbox.thin: add questions that show it",
             ]
         );
     }

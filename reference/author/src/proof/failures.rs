@@ -1,7 +1,7 @@
-//! Determines which items each mistake fails with every seed.
+//! Determines which items each mistake fails whatever the seed.
 //!
-//! Some items catch a mistake only by luck: with other random numbers, no ray would reveal it. So a
-//! mistake must fail an item with every seed only if it has failed that item with each of many
+//! Some items catch a mistake only by luck: with other random numbers, no ray would reveal it. An
+//! item is therefore listed for a mistake only if the mistake has failed it with each of many
 //! seeds.
 
 use std::collections::BTreeSet;
@@ -25,7 +25,8 @@ pub const FEW_SEEDS: SeedCounts = SeedCounts {
     all: 1,
     thinnest: 2,
 };
-/// The number of mistakes to grade with more seeds: those that are caught least clearly.
+/// How many mistakes are graded with more seeds. These are the mistakes that are caught least
+/// clearly.
 pub const THINNEST: usize = 50;
 
 /// The numbers of seeds that the mistakes are graded with. The first seed is 0.
@@ -121,7 +122,7 @@ fn detections(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Resu
     Ok(caught)
 }
 
-/// Returns the differences between the committed lists and those from a check, one line each. A
+/// Returns the differences between the committed lists and the lists from a check, one line each. A
 /// check with fewer seeds finds longer lists, so additional items aren't reported.
 pub fn problems(committed: &FailedItems, found: &FailedItems) -> Vec<String> {
     let command = "run `cargo author mistakes`";

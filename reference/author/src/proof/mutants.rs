@@ -86,7 +86,7 @@ impl Findings {
         };
         let survive = self.unexpected_survivors().count();
         format!(
-            "{} made, {} do not compile, {} caught, {} equivalent, {survive} survive",
+            "{} made, {} rejected by the compiler, {} caught, {} equivalent, {survive} surviving",
             self.outcomes.len() - count(MutantOutcome::Skipped),
             count(MutantOutcome::NotCompiled),
             count(MutantOutcome::Caught),
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn expected_survivors_are_no_problem() {
         let findings = findings(&["a", "d"]);
-        let summary = "3 made, 1 do not compile, 1 caught, 1 equivalent, 0 survive";
+        let summary = "3 made, 1 rejected by the compiler, 1 caught, 1 equivalent, 0 surviving";
         assert_eq!(findings.summary_line(), summary);
         assert_eq!(findings.problems(), [""; 0]);
     }
@@ -165,7 +165,11 @@ mod tests {
     #[test]
     fn reports_each_survivor_and_each_wrong_entry() {
         let findings = findings(&["b", "c", "e"]);
-        assert!(findings.summary_line().ends_with("0 equivalent, 1 survive"));
+        assert!(
+            findings
+                .summary_line()
+                .ends_with("0 equivalent, 1 surviving")
+        );
         let expected = [
             "`a` survives: add a question to the exam that catches it, or explain in \
              mutants/equivalent.toml why no answer can differ",

@@ -18,8 +18,8 @@ pub struct SeedResult {
     pub false_fails: BTreeMap<String, Vec<String>>,
     /// The mistakes that didn't lose the points they must lose, each with the problems found.
     pub uncaught: BTreeMap<String, Vec<String>>,
-    /// The mistakes that passed items that they fail with all seeds used for `fails.toml`, each
-    /// with those items. Other items still caught these mistakes.
+    /// The mistakes that passed items that `fails.toml` lists for them, each with the items that it
+    /// passed. Other items still caught these mistakes.
     #[serde(default)]
     pub passed: BTreeMap<String, Vec<String>>,
 }

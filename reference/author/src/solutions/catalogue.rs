@@ -39,7 +39,8 @@ pub struct Mistake {
     /// The id of the variant that contains an independent mistake.
     #[serde(default)]
     pub variant: Option<String>,
-    /// The sources where the mistake was seen, by their numbers in `reference/mistakes/README.md`.
+    /// The sources in which the mistake was seen, identified by their numbers in
+    /// `reference/mistakes/README.md`.
     #[serde(default)]
     pub seen: Vec<String>,
     /// A question for students that helps them find the mistake.
@@ -303,8 +304,9 @@ impl Mistake {
     }
 }
 
-/// Applies changes to a solution. A change that names no file applies to `own_file`. If a text to
-/// replace doesn't occur exactly once, the error contains the file and the number of occurrences.
+/// Applies changes to a solution. A change that names no file applies to `own_file`. If the text to
+/// be replaced doesn't occur exactly once, the error contains the file and the number of
+/// occurrences.
 fn apply_changes(
     base: &Sources,
     changes: &[Change],

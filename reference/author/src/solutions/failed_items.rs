@@ -1,6 +1,6 @@
-//! The items that each known mistake fails with every seed: `fails.toml` in the folder of the
-//! mistakes. The file is generated because it isn't obvious which items a mistake fails only with
-//! some seeds.
+//! For each known mistake, the items that it fails whatever the seed: `fails.toml` in the folder of
+//! the mistakes. The file is generated because it isn't obvious which items a mistake fails only
+//! with some seeds.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::solutions::read_toml;
 /// The path of the file, relative to the folder of an assignment's solutions.
 pub const FILE: &str = "mistakes/fails.toml";
 
-/// The items that each known mistake fails with every seed.
+/// For each known mistake, the items that it fails whatever the seed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FailedItems {

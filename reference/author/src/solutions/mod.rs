@@ -67,7 +67,7 @@ impl Solutions {
         Ok(solutions)
     }
 
-    /// Updates the lists of the items that each mistake fails with every seed.
+    /// Updates the list of items that each mistake fails whatever the seed.
     pub fn set_failed_items(&mut self, failed: &FailedItems) {
         for mistake in &mut self.mistakes {
             mistake.expected.fails = failed.of_mistake(&mistake.id).to_vec();
@@ -79,7 +79,7 @@ impl Solutions {
         self.mistakes.iter().find(|mistake| mistake.id == id)
     }
 
-    /// Returns whether two mistakes, given by their ids, share a hint.
+    /// Returns whether two mistakes, identified by their ids, share a hint.
     pub fn have_same_hint(&self, one: &str, other: &str) -> bool {
         let hint = |id: &str| {
             let mut mistakes = self.catalogue.iter();
@@ -98,7 +98,7 @@ impl Solutions {
     }
 
     /// Returns whether a mistake's hint is true for code with both mistakes of a pair. All mistakes
-    /// are given by their ids.
+    /// are identified by their ids.
     pub fn is_hint_true_of_pair(&self, hint: &str, pair: [&str; 2]) -> bool {
         let is_pair = |[one, other]: &[String; 2]| {
             pair == [one.as_str(), other.as_str()] || pair == [other.as_str(), one.as_str()]

@@ -101,7 +101,7 @@ impl Workbench {
             return Err(error(file_message(file, reason)).into());
         }
         let program = build.probe.clone();
-        let program = program.ok_or_else(|| error("the build has no program".to_owned()))?;
+        let program = program.ok_or_else(|| error("the build produced no program".to_owned()))?;
         Ok(BuiltSolution {
             id: id.to_owned(),
             handed_out: self.handed_out(),

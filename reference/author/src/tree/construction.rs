@@ -51,7 +51,7 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// Refits the boxes of all nodes below `tops` after the primitives in them have been moved.
+    /// Refits the boxes of all nodes below `tops` after their primitives have been moved.
     pub fn refit_below(&mut self, tops: &[usize]) {
         for &top in tops {
             // In this order, children come before their parents.

@@ -128,7 +128,7 @@ pub fn find_fork(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<PathFork> {
     })
 }
 
-/// Returns the distance where the ray enters a node's box, or `None` if it misses the box.
+/// Returns the distance at which the ray enters a node's box, or `None` if it misses the box.
 fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
     Some(tree.bounds(index).span(&ray64.ahead())?.0)
 }

@@ -4,14 +4,15 @@ use super::Tree;
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Intersection, Ray64, scan};
 
-/// The choices the contract leaves to a correct traversal, and those that depend on rounding in
-/// single precision.
+/// The choices that the contract leaves to a correct traversal, and the choices that depend on
+/// rounding in single precision.
 #[derive(Clone, Copy, Debug)]
 pub struct TraversalRule {
     /// Whether the left child goes first if the ray enters both children at nearly the same
     /// distance.
     pub left_first: bool,
-    /// Whether a node's box is tested on entering the node, rather than while visiting its parent.
+    /// Whether a node's box is tested when the node is about to be entered, rather than when its
+    /// parent is visited.
     pub tests_on_entry: bool,
     /// Whether to enter every node unless it can be skipped by a clear margin.
     pub conservative: bool,
@@ -108,7 +109,7 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// Returns the distance where the ray enters a node's box, or `None` if the node is skipped.
+    /// Returns the distance at which the ray enters a node's box, or `None` if the node is skipped.
     fn entry_distance(&self, index: usize, rule: TraversalRule) -> Option<f64> {
         let exact = self.tree.bounds(index);
         // Conservative traversal tests the whole ray. Otherwise, the closest hit limits the ray.

@@ -34,7 +34,8 @@ pub fn text(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
-/// Waits until nothing else builds solutions. Keeps others waiting until the guard is dropped.
+/// Waits until nothing else is building solutions, and then makes others wait until the guard is
+/// dropped.
 pub fn lock_builds() -> impl Drop {
     BUILDS.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -84,9 +84,9 @@ fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
     // cause.
     let _lock = lock_builds();
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
-    // Three mistakes end with a stack overflow and get the hint for another mistake, which
-    // overflows the stack with the same lists. What this hint says about the answers is also true
-    // of these three mistakes.
+    // Three mistakes end in a stack overflow and get the hint for another mistake, which overflows
+    // the stack with the same lists. What this hint says about the answers is also true of these
+    // three mistakes.
     assert_recognised(&recognition, 100, 3);
 }
 

@@ -1,6 +1,6 @@
-//! A second assignment, the toy, works although no line of the code was changed for it. The tests
-//! cover the toy's starter, its exam (with coverage, mistakes and proof), grading, a replay, a
-//! class, the bundle and a package.
+//! A second assignment, the toy, works without any change to the code. The tests cover the toy's
+//! starter, its exam (with coverage, mistakes and proof), grading, a replay, a class, the bundle
+//! and a package.
 //!
 //! `INSTA_UPDATE=always cargo test -p author --test it toy` writes the toy's generated files.
 

@@ -146,8 +146,8 @@ fn random_ball(rng: &mut Rng, center: DVec3, shape: u32) -> Shape {
     }
 }
 
-/// Returns rays from outside that hit every ball in a tree, an equal number that miss all of them,
-/// and the key. No answer depends on rounding.
+/// Returns rays and their key. All rays start outside the balls in a tree. Half of the rays hit
+/// every ball, and the other half miss every ball. No answer depends on rounding.
 fn rays_and_key(rng: &mut Rng, tree: &Tree) -> (Vec<Ray>, Key) {
     let wanted = (0..2 * OF_EACH).map(|number| number < OF_EACH);
     let rays = wanted.map(|is_hit| {

@@ -3,7 +3,7 @@
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         build_top_down(primitives, max_leaf_size, |primitives| {
-            // Even an empty bucket takes time.
+            // Even an empty bucket takes time to process, so use fewer buckets for a small node.
             if primitives.len() < 32 {
                 split::<8>(primitives)
             } else {

@@ -1,5 +1,5 @@
-// Builds the tree with up to 64 chunks of equally many primitives, sorted by centre, instead of
-// slices of equal width.
+// Builds the tree by dividing the primitives, sorted by centre, into up to 64 chunks with equal
+// numbers of primitives, instead of into slices of equal width.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {

@@ -4,8 +4,8 @@
 impl Bvh {
     pub fn build(mut primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let mut nodes: Vec<Node> = Vec::new();
-        // The primitives of each node that hasn't been created yet, and the parent that the node's
-        // index will be stored in.
+        // For each node that hasn't been created yet: its primitives and the parent, if any, in
+        // which the node's index will be stored.
         let mut open = Vec::new();
         if !primitives.is_empty() {
             open.push((0..primitives.len(), None::<usize>));

@@ -1,6 +1,6 @@
-// Builds the tree with sixteen bins over the centres, half areas, and a factor slightly below the
-// number of bins, so that no index is too large. See Wald, "On fast Construction of SAH-based
-// Bounding Volume Hierarchies", IEEE Symposium on Interactive Ray Tracing, 2007. Fused
+// Builds the tree with sixteen bins over the centres. Uses half areas, and scales by slightly less
+// than the number of bins so that no bin index is too large. See Wald, "On fast Construction of
+// SAH-based Bounding Volume Hierarchies", IEEE Symposium on Interactive Ray Tracing, 2007. Fused
 // multiply-adds compute the costs.
 
 impl Bvh {

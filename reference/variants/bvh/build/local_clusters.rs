@@ -37,9 +37,9 @@ fn merge_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {
     clusters.pop()
 }
 
-/// Returns the index of the cluster that is nearest to the one at `i`, among those within the
-/// radius. Ties go to the first pair in the list, so that there are always two clusters that choose
-/// each other.
+/// Returns the index of the cluster nearest to cluster `i`, among the clusters that are at most
+/// `RADIUS` positions away from it in the list. Ties go to the first pair in the list, so that
+/// there are always two clusters that choose each other.
 fn nearest(clusters: &[Cluster], i: usize) -> usize {
     let window = i.saturating_sub(RADIUS)..clusters.len().min(i + RADIUS + 1);
     let others = window.filter(|&other| other != i);

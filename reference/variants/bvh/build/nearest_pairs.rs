@@ -1,6 +1,6 @@
-// Builds the tree bottom-up: merges the two clusters with the smallest common box until only one is
-// left (Walter et al., "Fast Agglomerative Clustering for Rendering", 2008). The pairs are found by
-// following chains of nearest neighbours.
+// Builds the tree bottom-up: merges the two clusters with the smallest common box until only one
+// cluster is left (Walter et al., "Fast Agglomerative Clustering for Rendering", 2008). The pairs
+// are found by following chains of nearest neighbours.
 
 impl Bvh {
     /// Builds the tree bottom-up.

@@ -1,5 +1,5 @@
-// Builds the tree without buckets: for each of 32 planes perpendicular to each axis of the
-// node's box, the primitives are partitioned and both boxes are computed.
+// Builds the tree without buckets: for each of 32 planes perpendicular to each axis of the node's
+// box, the primitives are partitioned and the boxes of both sides are computed.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {

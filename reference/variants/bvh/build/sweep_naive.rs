@@ -1,5 +1,5 @@
-// Compares every partition of the sorted centres, axis by axis, and computes both boxes from
-// scratch for each. This takes quadratic time, but is as simple as possible.
+// Compares every partition of the sorted centres, axis by axis, and computes the boxes of both
+// sides from scratch for each partition. This takes quadratic time, but is as simple as possible.
 
 impl Bvh {
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {

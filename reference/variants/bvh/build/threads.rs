@@ -48,7 +48,7 @@ fn build_subtree(primitives: &mut [Primitive], start: usize, max_leaf_size: usiz
     nodes
 }
 
-/// Returns a node whose children are `by` indices later in the list.
+/// Returns the node with the indices of its children, if any, increased by `by`.
 fn shifted(node: Node, by: usize) -> Node {
     if node.is_leaf() {
         node

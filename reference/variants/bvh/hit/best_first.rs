@@ -1,5 +1,5 @@
-// Traverses the tree best first: a heap of the nodes to visit returns the one whose box the ray
-// enters first.
+// Traverses the tree best first: the nodes to visit are kept in a heap, which returns the node
+// whose box the ray enters first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -31,7 +31,8 @@ impl Bvh {
                 self.test_leaf(node, &mut rest, &mut closest);
             }
 
-            // Move to the next child: adding a one carries up past all finished levels.
+            // Move to the next child: adding 1 at the parent's bit carries up past all finished
+            // levels.
             trail = (trail & !(parent_bit - 1)) + parent_bit;
         }
         closest

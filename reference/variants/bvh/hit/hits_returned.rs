@@ -1,5 +1,5 @@
-// During traversal, each node returns its closest hit, and its parent picks the nearer of the two
-// hits.
+// During traversal, each node returns its closest hit, and a parent picks the nearer of its
+// children's hits.
 
 impl Bvh {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

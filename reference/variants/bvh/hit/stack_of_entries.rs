@@ -1,4 +1,4 @@
-// Traverses the tree with a stack of nodes, each with the distance where the ray enters it.
+// Traverses the tree with a stack of nodes, each with the distance at which the ray enters its box.
 
 impl Bvh {
     pub fn hit(&self, ray: &Ray) -> Option<Trace> {

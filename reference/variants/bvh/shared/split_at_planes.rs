@@ -1,5 +1,5 @@
-/// Partitions the primitives in place by the best of `count` planes across each axis of the node's
-/// box. Returns the size of the left side.
+/// Partitions the primitives in place at the best plane. The candidates are `count` planes
+/// perpendicular to each axis of the node's box. Returns the size of the left side.
 fn split_at_planes(primitives: &mut [Primitive], count: usize) -> usize {
     let bbox = bounds_of(primitives);
     let plane = |axis: usize, i: usize| {
@@ -27,8 +27,8 @@ fn split_at_planes(primitives: &mut [Primitive], count: usize) -> usize {
     })
 }
 
-/// Moves the primitives before the plane to the front, like C++'s `std::partition`, and returns
-/// their number.
+/// Moves the primitives before the plane to the front, like C++'s `std::partition`, and returns how
+/// many there are.
 fn partition(primitives: &mut [Primitive], axis: usize, plane: f32) -> usize {
     let mut first = 0;
     for i in 0..primitives.len() {

@@ -1,6 +1,6 @@
-/// Partitions the primitives in place by the split between buckets that has the lowest `cost`.
-/// `bucket` returns the index of a primitive's bucket along an axis, which is less than `count`.
-/// Returns the size of the left side.
+/// Partitions the primitives in place by the split between buckets that has the lowest `cost`. For
+/// a primitive and an axis, `bucket` returns the index of a bucket, which must be less than
+/// `count`. Returns the size of the left side.
 fn split_by_bucket_costs(
     primitives: &mut [Primitive],
     count: usize,

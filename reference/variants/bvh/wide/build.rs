@@ -20,7 +20,7 @@ impl Bounds {
         self.upper = self.upper.fast_max(other.upper);
     }
 
-    /// Returns the intersection of both boxes.
+    /// Returns the intersection of the two boxes.
     fn overlap(self, other: Bounds) -> Bounds {
         Bounds {
             lower: self.lower.fast_max(other.lower),
@@ -75,7 +75,7 @@ impl Bounds {
     }
 }
 
-/// The bounds of a primitive or of a piece of one, used during the build.
+/// The bounds of a primitive, or of a piece of a primitive, used during the build.
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
@@ -157,7 +157,7 @@ impl Builder {
 
 /// Partitions the items in place by the cheapest split and returns the size of the left side.
 /// Larger nodes are divided into more slices. In these nodes, evaluating the splits takes little
-/// time compared to counting the items, and the choice of the split matters most.
+/// time compared with counting the items, and the choice of split matters most.
 fn partition(items: &mut [Item], centers: Bounds) -> usize {
     match items.len() {
         0..512 => partition_in::<16>(items, centers),

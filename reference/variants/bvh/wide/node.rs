@@ -7,7 +7,7 @@ struct WideRay {
     inverse: [f32x8; 3],
     /// The inverse of the direction, slightly enlarged, for computing exit distances.
     padded_inverse: [f32x8; 3],
-    /// Whether the direction is negative, for each axis.
+    /// For each axis, whether the direction's component is negative.
     is_negative: [bool; 3],
     min: f32x8,
 }
@@ -17,8 +17,9 @@ impl WideRay {
     /// infinity times 0 is NaN. The inverse of this number is large enough to serve as infinity.
     const MIN_COMPONENT: f32 = 1e-30;
 
-    /// A factor that makes up for the rounding error of exit distances so that no box is missed.
-    /// See Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition), section 6.1.2.
+    /// A factor that compensates for the rounding error of exit distances, so that no box is
+    /// missed. See Pharr, Jakob and Humphreys, "Physically Based Rendering" (4th edition), section
+    /// 6.1.2.
     const EXIT_PADDING: f32 = 1.000_000_4;
 
     fn new(ray: &Ray) -> Self {
@@ -40,7 +41,7 @@ impl WideRay {
 #[repr(align(64))]
 struct CacheLine([f32x8; 2]);
 
-/// The bit that marks a child as a leaf, which is stored as a pack. It is set in the index of the
+/// The bit that marks a child as a leaf (a pack) rather than a node. It is set in the index of the
 /// child's first cache line.
 const LEAF: u32 = 1 << 31;
 

@@ -1,6 +1,6 @@
 // The stack of the traversal.
 
-/// A child to visit and the distance where the ray enters its box.
+/// A child to visit and the distance at which the ray enters its box.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct StackEntry(u64);
 

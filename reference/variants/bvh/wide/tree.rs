@@ -53,8 +53,8 @@ impl Bvh {
         }
     }
 
-    /// Builds the tree with the surface area heuristic (SAH), and another tree with split triangles
-    /// for traversal.
+    /// Builds the tree with the surface area heuristic (SAH), and a second tree for traversal, in
+    /// which triangles may be split.
     pub fn build(primitives: Vec<Primitive>, max_leaf_size: usize) -> Self {
         let max_leaf_size = max_leaf_size.max(1);
         let mut builder = Builder {

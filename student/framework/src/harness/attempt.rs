@@ -14,8 +14,9 @@ thread_local! {
     static ATTEMPTING: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Installs a panic hook that prints nothing for panics inside an [`attempt`], which returns their
-/// message and location instead. Other panics are bugs in the framework and are printed as before.
+/// Installs a panic hook that prints nothing for a panic inside an [`attempt`], because `attempt`
+/// returns the panic's message and location. Other panics are bugs in the framework and are printed
+/// as before.
 pub fn keep_panics_quiet() {
     let previous_hook = take_hook();
     set_hook(Box::new(move |panic| {
@@ -58,13 +59,13 @@ impl Attempts for AttemptsAtTable {
     }
 }
 
-/// Returns a panic's message, given the panic's payload.
+/// Extracts the message from a panic's payload.
 fn panic_message(payload: &(dyn Any + Send)) -> &str {
     payload
         .downcast_ref::<String>()
         .map(String::as_str)
         .or_else(|| payload.downcast_ref::<&str>().copied())
-        .unwrap_or("a panic without a message")
+        .unwrap_or("no message")
 }
 
 /// Truncates text to [`Panic::MAX_TEXT_BYTES`], at a character boundary.

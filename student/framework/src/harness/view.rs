@@ -25,8 +25,8 @@ pub enum ViewMode {
 /// allows for rounding.
 const RELATIVE_TOLERANCE: f32 = 1e-4;
 
-/// The maximum number of nodes to compare with a point. A good tree needs a few hundred. Without a
-/// limit, a tree that is a list of a million nodes would take hours.
+/// The maximum number of nodes to compare with a point. In a good tree, a few hundred are enough.
+/// Without a limit, a tree that is effectively a list of a million nodes would take hours.
 const MAX_STEPS: usize = 4096;
 
 /// Computes the colour of each pixel from its first hit. Pixels without a hit, or with a value that
@@ -68,7 +68,7 @@ pub fn picture(view: ViewMode, hits: &[Option<Trace>], tree: &Tree, extent: f32)
 
 /// Returns the unchanged value of each pixel's first hit, for files that store numbers: normals,
 /// distances, or u and v. Without a hit, the distance is infinite and other values are zero.
-/// Returns `None` for the views that don't show a value of the hit.
+/// Returns `None` for views that don't show one of the hit's fields.
 pub fn raw_values(view: ViewMode, hits: &[Option<Trace>]) -> Option<Vec<Vec3>> {
     let (miss, value): (Vec3, fn(&Trace) -> Vec3) = match view {
         ViewMode::Normals => (Vec3::ZERO, |hit| hit.normal),

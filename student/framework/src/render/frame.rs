@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 
 use crate::math::sin_cos;
 
-/// An orthonormal frame: three perpendicular axes of length one.
+/// An orthonormal frame: three perpendicular unit vectors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     x: Vec3,
@@ -15,7 +15,7 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// Creates a frame with the given z-axis, which must have length one.
+    /// Creates a frame with the given z-axis, which must be a unit vector.
     ///
     /// See Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     pub(crate) fn from_z(z: Vec3) -> Self {

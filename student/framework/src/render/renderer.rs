@@ -37,8 +37,8 @@ pub trait Renderer: Sync {
     }
 }
 
-/// An error returned if a sample's path contains an unusable hit from the submission, such as one
-/// with NaN.
+/// An error returned if a sample's path contains an unusable hit from the submission, such as a hit
+/// that contains NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct InvalidSample;
 

@@ -82,7 +82,7 @@ impl Sampler {
 /// Generators", OOPSLA 2014, with Stafford's constants ("mix13").
 ///
 /// This is a bijection. Flipping any bit of the input flips about half of the output bits. Nested
-/// calls hash one word after another. Each call takes only a few multiplications and shifts, and no
+/// calls hash one word after another. Each call needs only a few multiplications and shifts, and no
 /// tables.
 fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -25,7 +25,7 @@ pub(super) struct Surface<'a> {
     /// The direction from the surface back to `eye`.
     pub(super) out: Vec3,
     pub(super) position: Vec3,
-    /// The normal, of length one, on the side that the ray comes from.
+    /// The unit normal on the side that the ray comes from.
     pub(super) normal: Vec3,
     /// Whether the submission's normal points to the side that the ray comes from.
     pub(super) outside: bool,

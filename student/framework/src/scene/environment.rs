@@ -22,7 +22,7 @@ pub enum Environment {
 }
 
 impl Environment {
-    /// Returns the radiance that arrives from a direction of length one.
+    /// Returns the radiance that arrives from a direction, which must be a unit vector.
     pub fn radiance(&self, direction: Vec3) -> Vec3 {
         match self {
             Environment::Constant(radiance) => *radiance,
@@ -97,7 +97,7 @@ impl EnvironmentMap {
         let format = reader.format();
         if !matches!(format, Some(ImageFormat::Hdr | ImageFormat::OpenExr)) {
             let message =
-                "a map is an HDR or EXR file, because other pictures don't store radiance";
+                "a map must be an HDR or EXR file, because other pictures don't store radiance";
             return Err(in_file(message.to_owned()));
         }
         let decoded = reader.decode();
@@ -127,7 +127,7 @@ impl EnvironmentMap {
         (pixel.y * self.size.x + pixel.x) as usize
     }
 
-    /// Returns the pixel that shows a direction of length one.
+    /// Returns the pixel that shows a direction, which must be a unit vector.
     pub(crate) fn pixel_at(&self, direction: Vec3) -> UVec2 {
         let around = atan2(direction.z, direction.x) / TAU;
         let across = vec2(
@@ -139,8 +139,8 @@ impl EnvironmentMap {
         pixel.as_uvec2().min(self.size - 1)
     }
 
-    /// Returns the direction that a position in the map shows, and the sine of the angle between
-    /// the y-axis and that direction. The position is in pixels from the top left.
+    /// Returns the direction shown at a position in the map, and the sine of the angle between the
+    /// y-axis and that direction. The position is in pixels from the top left.
     pub(crate) fn direction(&self, position: Vec2) -> (Vec3, f32) {
         let part = position / self.size.as_vec2();
         let (sin_around, cos_around) = sin_cos(TAU * part.x);

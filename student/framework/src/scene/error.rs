@@ -37,7 +37,7 @@ impl SceneError {
         }
     }
 
-    /// Returns the same error with the name of the file.
+    /// Returns the same error with the path of the file added.
     #[cfg(feature = "cli")]
     pub(super) fn in_file(self, file: &Path) -> Self {
         SceneError {

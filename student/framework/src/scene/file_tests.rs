@@ -162,7 +162,7 @@ fn an_environment_map_is_read_from_an_hdr_file_and_what_is_wrong_with_it_is_name
     for (map, why) in [
         ("black.hdr", "black.hdr: the map is black"),
         ("short.hdr", "short.hdr: the file is damaged"),
-        ("sky.png", "sky.png: a map is an HDR or EXR file"),
+        ("sky.png", "sky.png: a map must be an HDR or EXR file"),
         ("none.hdr", "none.hdr: cannot read the file"),
     ] {
         let scene = folder.write("s.json", with_map(map));

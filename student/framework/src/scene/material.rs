@@ -8,12 +8,12 @@ use super::value::Value;
 /// How a surface scatters or emits light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
-    /// A matte surface, on both sides. It reflects the same radiance in all directions.
+    /// A surface that is matte on both sides and reflects the same radiance in all directions.
     Lambertian {
         /// The fraction of light that is scattered, for each colour channel.
         albedo: Vec3,
     },
-    /// A matte surface, on both sides, with a chequerboard of two albedos.
+    /// A surface that is matte on both sides, with a chequerboard of two albedos.
     Checker {
         /// The albedo of the square at u = v = 0.
         a: Vec3,
@@ -22,7 +22,7 @@ pub enum Material {
         /// The number of squares from u = 0 to u = 1, and also from v = 0 to v = 1.
         scale: f32,
     },
-    /// A perfect mirror, on both sides.
+    /// A surface that is a perfect mirror on both sides.
     Mirror {
         /// The fraction of light that is reflected, for each colour channel.
         reflectance: Vec3,

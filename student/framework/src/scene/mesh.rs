@@ -16,8 +16,8 @@ pub(super) struct Face {
     pub(super) normals: Option<[Vec3; 3]>,
 }
 
-/// The position of a mesh in the scene. It is scaled, then rotated about the x-axis, the y-axis and
-/// the z-axis, and finally translated.
+/// The position of a mesh in the scene. The mesh is scaled, then rotated about the x-axis, the
+/// y-axis and the z-axis, and finally translated.
 pub(super) struct Transform {
     pub(super) scale: f32,
     /// The angles of rotation about the x-, y- and z-axes, in degrees.
@@ -61,8 +61,8 @@ impl Transform {
     }
 }
 
-/// Returns the rotation about first the x-axis, then the y-axis and then the z-axis, by angles in
-/// degrees.
+/// Returns the rotation by these angles, in degrees, first about the x-axis, then about the y-axis
+/// and then about the z-axis.
 fn rotation(degrees: Vec3) -> Mat3 {
     let [(sx, cx), (sy, cy), (sz, cz)] = degrees.to_array().map(|a| sin_cos(a.to_radians()));
     let x = Mat3::from_cols_array_2d(&[[1.0, 0.0, 0.0], [0.0, cx, sx], [0.0, -sx, cx]]);

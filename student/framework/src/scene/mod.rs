@@ -1,4 +1,4 @@
-//! Scenes: a camera, materials, shapes and the light of the environment.
+//! Scenes: a camera, materials, shapes and the light from the environment.
 //!
 //! A scene is plain data, read from a JSON file by the module `read`. A submission converts it to
 //! its own types.
@@ -30,7 +30,7 @@ pub use material::Material;
 
 pub(crate) use material::checker;
 
-/// The maximum number of primitives in a leaf when building a tree for a picture.
+/// The maximum number of primitives in a leaf of a tree that is built for a picture.
 const MAX_LEAF_SIZE: usize = 4;
 
 /// The maximum number of pixels along one side of the film.
@@ -43,7 +43,7 @@ pub struct Scene {
     pub about: String,
     /// The camera and its position in the scene.
     pub camera: Camera,
-    /// The light of the environment, which is visible where there is no shape.
+    /// The light from the environment, which is visible where there is no shape.
     pub environment: Environment,
     /// The materials, indexed by `shape_materials`.
     pub materials: Vec<Material>,
@@ -64,7 +64,7 @@ impl Scene {
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
         let message = |what: &str| {
             format!(
-                "{what} are separate files, so only a scene that is read from a file can use one"
+                "{what} are separate files, so only a scene that is read from a file can use them"
             )
         };
         let load = read::LoadFiles {
@@ -84,7 +84,7 @@ impl Scene {
         Scene::load_with_names(path).map(|(scene, _)| scene)
     }
 
-    /// Loads a scene like [`Scene::load`], and also returns the names of its materials.
+    /// Does the same as [`Scene::load`], and also returns the names of the scene's materials.
     #[cfg(feature = "cli")]
     pub(crate) fn load_with_names(path: &Path) -> Result<(Scene, Vec<String>), SceneError> {
         let is_mesh = path.extension().is_some_and(|ending| ending == "obj");

@@ -62,7 +62,8 @@ fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
     if fan(&points).all(|cross| cross.length() <= smallest) {
         return Err("all `points` are on one line, so the polygon has no area".to_owned());
     }
-    let crosses = "the outline of `points` crosses itself: list the corners in order around it";
+    let crosses =
+        "the outline of `points` crosses itself: list the corners in order around the polygon";
     let sum: DVec3 = fan(&points).sum();
     if sum.length() <= smallest {
         return Err(crosses.to_owned());

@@ -79,7 +79,7 @@ fn read_environment(value: &Value, load: &LoadFiles) -> Result<Environment, Scen
         .map_err(|message| file.error(message))
 }
 
-/// Returns the index of the material with the name in `value`.
+/// Returns the index of the material named in `value`.
 fn material_index(value: &Value, names: &[String]) -> Result<u32, SceneError> {
     let name = value.string()?;
     let index = names.iter().position(|known| *known == name);

@@ -69,7 +69,7 @@ pub enum Question {
 }
 
 impl Question {
-    /// Returns the table, if the question is one.
+    /// Returns the table, if the question is a table.
     pub fn table(&self) -> Option<&dyn AnyTable> {
         match self {
             Question::SampleRay(table) => Some(table),
@@ -147,13 +147,13 @@ impl<T: Clone + Debug + PartialEq + Serialize + DeserializeOwned + 'static> Data
 pub struct ResultText {
     /// A record in full.
     pub record: &'static str,
-    /// A record where none is expected.
+    /// A record that is present although none was expected.
     pub present: &'static str,
     /// No record.
     pub absent: &'static str,
 }
 
-/// A value that a function returns: a record, or nothing if it is optional.
+/// A value that a function returns: a record or an optional record.
 pub trait Output: Data {
     /// The names of the record's fields.
     const NAMES: &'static [&'static str];
@@ -162,7 +162,7 @@ pub trait Output: Data {
     /// An upper bound on the size of one value on the wire, in bytes.
     const MAX_BYTES: usize;
 
-    /// Returns the record, or `None` if the function returned none.
+    /// Returns the record, or `None` if the function returned no record.
     fn record(&self) -> Option<&dyn Record>;
 
     /// Returns an answer with these rows.

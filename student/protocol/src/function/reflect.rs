@@ -17,7 +17,7 @@ pub struct Reflect;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct LocalDirection {
-    /// The direction, of length one.
+    /// The direction, as a unit vector.
     pub direction: Vec3,
 }
 

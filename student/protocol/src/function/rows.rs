@@ -27,7 +27,7 @@ pub trait View<I>: Data {
     fn input(&self, sample: Sample) -> I;
 }
 
-/// The type of picture for a function without pictures.
+/// The picture type of functions that have no pictures.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum NoView {}
 

@@ -75,8 +75,8 @@ pub trait AnyTable {
     /// If the range is out of bounds.
     fn subset(&self, rows: Range<usize>) -> Question;
 
-    /// Returns the question in which `change` has been applied to the value of every field, both in
-    /// the subject and in the rows. Returns `None` if the rows come from a picture.
+    /// Returns the question with `change` applied to the value of every field, in both the subject
+    /// and the rows. Returns `None` if the rows come from a picture.
     fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> Option<Question>;
 }
 

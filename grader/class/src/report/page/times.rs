@@ -31,7 +31,7 @@ pub(super) fn times(class: &GradedClass) -> Markup {
     let undated: Vec<String> = undated.map(|(who, _)| who).collect();
     let undated = match undated.len() {
         0..=MAX_NAMES => undated.join(", "),
-        count => format!("{count} people, who have no time in grades.csv"),
+        count => format!("{count} people (those without a time in grades.csv)"),
     };
     let is_unclear =
         |grade: &PersonGrade| matches!(grade.problem, Some(GradeProblem::UnclearTime(_)));
@@ -52,7 +52,7 @@ pub(super) fn times(class: &GradedClass) -> Markup {
             p { "Counted as on time, because the time is unknown: " (sanitized(&undated)) "." }
         }
         @if !unclear.is_empty() {
-            p { "Without final points until the following is cleared up:" }
+            p { "No final points until these problems are resolved:" }
             ul { @for (who, grade) in &unclear { li {
                 strong { (sanitized(who)) }
                 @if let Some(problem) = &grade.problem { ": " (sanitized(&problem.to_string())) }

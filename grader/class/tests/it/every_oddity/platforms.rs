@@ -158,8 +158,8 @@ impl Platform {
         }
     }
 
-    /// Returns the name of the copied gradebook and the titles of two of its columns: the one that
-    /// identifies people and the one with the points.
+    /// Returns the name of the copied gradebook, the title of the column that identifies people,
+    /// and the title of the column with the points.
     pub fn gradebook(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Platform::Gradescope => ("gradescope.csv", "Email", "Total Score"),

@@ -36,7 +36,7 @@ impl TestClass {
         class
     }
 
-    /// Creates a class of three submissions, in a folder that is named like one from Moodle.
+    /// Creates a class of three submissions, in a folder with the kind of name that Moodle uses.
     pub fn of_three() -> Self {
         TestClass::named("CG-Path tracing (2)")
             .with_reference("ann")
@@ -153,7 +153,7 @@ impl TestClass {
         preview.trim_matches('\n').to_owned()
     }
 
-    /// Writes lists next to the class. Returns the options that pass them.
+    /// Writes lists next to the class. Returns the command-line options for these lists.
     pub fn lists(&self, lists: &[(&str, &str)]) -> Vec<String> {
         let write = |(list, text): &(&str, &str)| {
             let path = self.write_beside(&format!("{list}.list"), text);
@@ -225,7 +225,7 @@ impl TestClass {
     }
 }
 
-/// Returns the cell of `grades.csv` for this submission, name and column.
+/// Returns the cell in this column of `grades.csv`, in the row with this submission and name.
 pub fn cell(class: &TestClass, submission: &str, name: &str, column: &str) -> String {
     let grades = class.read("grades.csv");
     let mut rows = table(&grades).into_iter();
@@ -267,7 +267,7 @@ pub fn refusal(output: &Output) -> String {
     error
 }
 
-/// Panics if `text` lacks one of these parts.
+/// Panics if `text` lacks any of these parts.
 #[track_caller]
 pub fn assert_contains(text: &str, parts: &[&str]) {
     for part in parts {

@@ -173,7 +173,7 @@ impl Cluster {
 
 impl Drop for Cluster {
     fn drop(&mut self) {
-        // A process may start a new process before it is killed.
+        // Before a process is killed, it may start a new process, so one round may not be enough.
         for _ in 0..100 {
             let processes = self.processes();
             if processes.is_empty() {
@@ -188,7 +188,7 @@ impl Drop for Cluster {
     }
 }
 
-/// Returns `slurm.conf` with currently free ports.
+/// Returns the text of `slurm.conf`, with ports that are currently free.
 fn configuration(folder: &Path) -> String {
     let listeners = [0; 2].map(|port| TcpListener::bind(("127.0.0.1", port)).unwrap());
     let [controller, node] = listeners.map(|listener| listener.local_addr().unwrap().port());

@@ -24,7 +24,7 @@ fn the_manifest_matches_the_published_schema() {
     }
 }
 
-/// Checks for things that the schema allows but the recipe must not do.
+/// Checks requirements that the schema doesn't enforce.
 #[test]
 fn each_completion_grades_one_shard_with_limits() {
     let job = parse_yaml(&manifest());

@@ -8,7 +8,7 @@ use super::{ITEMS, is_installed, recipe_command};
 use crate::harness::{TestClass, exit_code_and_stderr, successful_stdout};
 
 /// A replacement for the binary that is killed while grading the second shard, as many times as the
-/// variable DEATHS says.
+/// variable DEATHS specifies.
 const DYING: &str = r#"#!/bin/bash
 if [[ "$*" == *"--shard 2/2"* && $(cat "$OUT/deaths" 2>/dev/null | wc -l) -lt "$DEATHS" ]]; then
     echo died >>"$OUT/deaths"

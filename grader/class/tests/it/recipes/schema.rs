@@ -39,7 +39,7 @@ impl Schema {
         }
     }
 
-    /// Panics if the schema accepts a text after replacing `from` with `to`.
+    /// Panics if the schema accepts `text` after its first `from` is replaced with `to`.
     pub fn check_that_it_rejects(&self, text: &str, from: &str, to: &str) {
         assert!(text.contains(from), "the text no longer contains {from:?}");
         let problems = self.problems(&parse_yaml(&text.replacen(from, to, 1)));

@@ -68,7 +68,7 @@ impl SlurmClass {
         submit
     }
 
-    /// Asserts that a folder contains the same results as a single run for the whole class.
+    /// Asserts that a folder contains the same results as a single run that grades the whole class.
     fn assert_same_results(&self, out: &Path) {
         let mut files = comparable_files(out);
         let of_recipe = |path: &PathBuf| path.starts_with("shards") || path.starts_with("logs");

@@ -54,7 +54,7 @@ fn commands(job: &Value) -> String {
     commands.collect::<Vec<&str>>().join("\n")
 }
 
-/// Checks for things that the schema allows but the recipe must not do.
+/// Checks requirements that the schema doesn't enforce.
 #[test]
 fn the_recipe_grades_every_part_and_then_merges() {
     let text = source(WORKFLOWS[0]);

@@ -111,7 +111,7 @@ fn a_quantity_judged_at_too_few_positions_earns_nothing() {
     got[..24].fill(answer_of(WALL));
     let few = judge(&key(), &[], &got);
     assert_eq!(few.credit.apply(100), 0);
-    // If half of the wall is hit, depth, normal and uv are judged. Hit or miss still earns nothing.
+    // Depth, normal and uv are judged if half of the wall is hit. Hit or miss still earns nothing.
     got[..25].fill(answer_of(WALL));
     assert_eq!(judge(&key(), &[], &got).credit.apply(100), 60);
 }

@@ -30,7 +30,7 @@ pub enum TreeDefect {
         /// The index of the node.
         index: u32,
     },
-    /// The leaves list too many primitives in total, so the rest were not read.
+    /// The leaves list too many primitives in total, so not all leaves were read.
     TooManyListed {
         /// The maximum number of listed primitives.
         most: usize,
@@ -217,18 +217,20 @@ impl TreeDefect {
                 format!("each of the {primitives} primitives in one leaf")
             }
             TreeDefect::UnknownPrimitives { .. } => {
-                "a range of the tree's own primitives".to_owned()
+                "a range within the tree's list of primitives".to_owned()
             }
-            TreeDefect::Partition { .. } => "each primitive in exactly one".to_owned(),
+            TreeDefect::Partition { .. } => "each primitive in exactly one leaf".to_owned(),
             TreeDefect::BoxTooSmall(NodeBox { tight, .. })
             | TreeDefect::BoxTooLarge(NodeBox { tight, .. }) => {
                 let [min, max] = [tight.min, tight.max].map(|at| describe::point(at.as_vec3()));
                 format!("{min} to {max}")
             }
-            TreeDefect::NotSplit { .. } => "fewer than half of them in each leaf".to_owned(),
+            TreeDefect::NotSplit { .. } => {
+                "fewer than half of the primitives in each leaf".to_owned()
+            }
             TreeDefect::LeafTooLarge { most, .. } => format!("at most {most}"),
             TreeDefect::NeedlessSplit { most, .. } => {
-                format!("a leaf for at most {most} primitives")
+                format!("a leaf if there are at most {most} primitives")
             }
             TreeDefect::Cost(_) => format!(
                 "at most {FULL_MARKS_RATIO:.2} times ({HALF_MARKS_RATIO:.2} for half the points)"

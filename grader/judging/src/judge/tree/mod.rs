@@ -28,7 +28,7 @@ pub(super) const TIGHT_TOLERANCE: f64 = 1e-4;
 /// This allows for rounding only.
 pub(super) const CONTAIN_TOLERANCE: f64 = 1e-5;
 
-/// A tree and the checks on it.
+/// A submitted tree and the criteria for judging it.
 pub(super) struct TreeAnswer<'a> {
     pub(super) criteria: TreeCriteria<'a>,
     pub(super) answer: &'a ElementOutcome<Tree>,
@@ -153,7 +153,7 @@ impl TreeCriteria<'_> {
     }
 
     /// Returns the SAH cost of a tree. If the tree doesn't contain every primitive exactly once,
-    /// the cost would mean nothing, so the first defect of that kind is returned instead.
+    /// the cost would be meaningless, so the first such defect is returned instead.
     pub fn cost(&self, nodes: &[ReachedNode]) -> Result<f64, TreeDefect> {
         let mut defects = self.check_defects(TreeCheck::Partition, nodes);
         defects.next().map_or_else(|| Ok(cost(nodes)), Err)

@@ -8,7 +8,8 @@ use protocol::{Shape, Tree, TreeNode};
 use super::bounds::Bounds;
 use super::defect::TreeDefect;
 
-/// Maximum number of leaves that may list a primitive, on average. A tree with more is rejected.
+/// Maximum number of leaves that may list a primitive, on average. A tree that exceeds this number
+/// is rejected.
 const MAX_LISTINGS_PER_PRIMITIVE: usize = 64;
 
 /// A node that can be reached from the root.

@@ -29,7 +29,7 @@ fn leaf(first: u32, last: u32) -> TreeNode {
     node(first, last, last - first + 1, 0, 0)
 }
 
-/// Returns a tree over this many spheres, in order, with the first node as its root.
+/// Returns a tree over this many spheres, which it lists in order. The first node is the root.
 fn tree_of(nodes: Vec<TreeNode>, count: u32) -> Tree {
     Tree {
         nodes,
@@ -141,7 +141,7 @@ fn a_tree_may_be_deep_on_either_side() {
 
 #[test]
 fn counting_stops_when_leaves_list_too_many_primitives() {
-    // A chain of nodes. Each of them has a leaf that lists the whole of a long `order`.
+    // A chain of nodes, each with a leaf that lists all of a long `order`.
     let (links, listed) = (2_000, 200_000);
     let link = |i: u32| {
         [
@@ -159,7 +159,7 @@ fn counting_stops_when_leaves_list_too_many_primitives() {
         defect_of(tree).1,
         "leaves that hold more than 4096 primitives in all"
     );
-    // A single leaf that lists exactly the maximum is read completely.
+    // A single leaf that lists exactly the maximum number of primitives is read completely.
     let full = Tree {
         order: vec![0; 4096],
         ..tree_of(vec![node(0, 3, 4096, 0, 0)], 0)

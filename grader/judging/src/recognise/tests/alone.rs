@@ -40,7 +40,7 @@ fn a_mistake_that_gives_no_answers_needs_several_items() {
     let named = |wrong: &str, answers: &str| names_known("1|2|3|4", &[("known", wrong)], answers);
     assert!(named("stack|stack|stack|", "stack|stack|stack|4"));
     assert!(!named("stack|stack||", "stack|stack|3|4"));
-    // Few mistakes panic because of an index, so one item fewer is enough.
+    // Few mistakes cause a panic about an index, so one item fewer is enough.
     assert!(named("index|index||", "index|index|3|4"));
     assert!(!named("index|||", "index|2|3|4"));
     assert!(named("index|stack||", "index|stack|3|4"));

@@ -13,7 +13,8 @@ fn a_mistake_is_named_beside_an_unknown_one_if_it_explains_most_wrong_items() {
     assert!(named(&[("refuted", "7|7||8")], "7|7|9|4"));
 }
 
-/// A second mistake that explains the same items and every item it affects may be the real cause.
+/// A second mistake that explains the same items and every other item that it affects may be the
+/// real cause.
 #[test]
 fn a_mistake_with_a_rival_is_not_named_beside_an_unknown_one() {
     let mistakes = [("known", "7|7|7||"), ("rival", "7|7|7|7|")];

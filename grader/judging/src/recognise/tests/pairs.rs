@@ -12,14 +12,14 @@ fn two_mistakes_are_named_where_each_explains_an_item_alone() {
     // Neither mistake is named for the last item, since each explains only some of its answers.
     let named = |answers| explain_pair("1 2|3 4|5 6", "7 2||7 6", "|3 8|5 8", answers);
     assert_eq!(named("7 2|3 8|7 8"), "one|other|");
-    // An answer that neither changes must be correct.
+    // An answer that neither mistake changes must be correct.
     assert_eq!(named("7 9|3 8|7 8"), "||");
 }
 
 #[test]
 fn a_second_mistake_that_only_makes_up_for_the_first_is_not_named() {
-    // The two together can produce anything in the first item, but `other` explains no item on its
-    // own.
+    // Together, the two mistakes can produce anything in the first item, but `other` explains no
+    // item on its own.
     assert_eq!(explain_pair("1 2|3 4", "7 2|7 4", "8 2|", "9 2|7 4"), "|");
 }
 
@@ -30,8 +30,8 @@ fn each_mistake_of_a_pair_must_affect_an_item_of_its_own() {
 
 #[test]
 fn three_of_five_answers_must_be_those_of_a_mistake_in_a_pair() {
-    // Both change `open` answers, which can be anything. In addition, `one` changes `own` answers,
-    // and `other` changes three.
+    // Both mistakes change the same `open` answers, which can therefore be anything. In addition,
+    // `one` changes `own` further answers, and `other` changes three.
     let named = |open: usize, own: usize| {
         let correct = format!("1*{open}|3*{own}|4 5 6");
         let one = format!("7*{open}|7*{own}|");
@@ -47,11 +47,12 @@ fn three_of_five_answers_must_be_those_of_a_mistake_in_a_pair() {
 fn a_pair_does_not_answer_like_one_of_its_two_mistakes() {
     let named = |answers| explain_pair("1 2|3 4|5 6", "7 2|7 7|", "8 2||8 8", answers);
     assert_eq!(named("9 2|7 7|8 8"), "|one|other");
-    // Both change the first number, but the answer matches `one`, so `other` can't be present.
+    // Both mistakes change the first number, but the answer matches `one`, so `other` can't be
+    // present.
     assert!(!named("7 2|7 7|8 8").contains("other"));
 }
 
-/// Both change the first number, and all answers to that item match `one`.
+/// Both mistakes change the first number, and all answers to the first item match `one`.
 #[test]
 fn a_pair_answers_like_one_of_them_only_where_both_answer_alike() {
     let named = |other| explain_pair("1 2|3 4|5*4", "7 7|7 7|", other, "7 7|7 7|8*4");
@@ -61,7 +62,7 @@ fn a_pair_answers_like_one_of_them_only_where_both_answer_alike() {
 
 #[test]
 fn a_pair_that_leaves_most_answers_open_explains_nothing() {
-    // The last two change everything, so together they can produce anything.
+    // The last two mistakes change everything, so together they can produce any answer.
     let known = [
         ("one", "7*3|"),
         ("other", "|8*3"),

@@ -175,7 +175,7 @@ fn masked(mask: u64) -> SeccompCmpOp {
     SeccompCmpOp::MaskedEq(mask)
 }
 
-/// Returns a rule that compares the 32-bit argument with `value`.
+/// Returns a rule that compares a 32-bit argument of the call with `value`.
 fn if_argument(
     argument: u8,
     operator: SeccompCmpOp,

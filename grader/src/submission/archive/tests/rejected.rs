@@ -104,7 +104,7 @@ fn limits_how_much_an_archive_bomb_inflates() {
         assert_eq!(*text(&submission, "sphere.rs"), Ok("fine".to_owned()));
     }
     // Members of a tar are inflated even if they aren't requested. A gzip file may consist of
-    // several streams, so repeat one compressed member without the end of the tar.
+    // several streams, so this repeats one compressed member, leaving out the end of the tar.
     let header = 512;
     let part = gzip(&tar(&[("film.mp4", &zeros)])[..header + zeros.len()]);
     let too_large = ArchiveError::TooLarge(256 << 20);

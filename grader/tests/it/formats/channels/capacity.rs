@@ -15,7 +15,7 @@ use judging::recognise::MAX_MISTAKES;
 
 use super::policy;
 
-/// The verdicts that a program can choose for an item without points.
+/// The verdicts that earn no points and that a program can choose for an item.
 const WITHOUT_POINTS: [Verdict; 7] = [
     Verdict::Wrong,
     Verdict::Panicked,
@@ -26,8 +26,8 @@ const WITHOUT_POINTS: [Verdict; 7] = [
     Verdict::Protocol,
 ];
 
-/// Returns the number of results, without hints, that students can distinguish at a visibility
-/// level.
+/// Returns the number of results that students can distinguish at a visibility level, not counting
+/// hints.
 fn distinct_results(score: &Score, item: &Item, level: &str) -> usize {
     let partial = (1..item.points).map(|points| (Verdict::Partial, points));
     let failed = WITHOUT_POINTS.map(|verdict| (verdict, 0));

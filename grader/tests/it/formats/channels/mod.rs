@@ -1,6 +1,6 @@
-//! Channels out of a final exam. When a submission's program is graded, it sees the questions.
-//! These tests send 32 known bits through everything the program can influence and count how many
-//! arrive in each output that students can read.
+//! Channels that could leak a final exam. When a submission's program is graded, it sees the
+//! questions. These tests send 32 known bits through everything the program can influence and count
+//! how many arrive in each output that students can read.
 
 mod capacity;
 mod programs;
@@ -112,7 +112,8 @@ fn an_item_that_is_open_says_nothing_about_others_of_its_task() {
     assert_nothing_arrives(&policy);
 }
 
-/// Shows that the counting works: if students have the exam, they can read everything about it.
+/// Shows that the counting works: if students may see the entire exam, bits arrive through every
+/// channel.
 #[test]
 fn bits_arrive_where_students_see_everything() {
     let (exam, passed) = all_passed();

@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::formats::{FormatTexts, grade_in_all_formats, small_exam};
 use crate::harness::Submission;
 
-/// Sends bits in the message and in the line of a panic.
+/// Sends bits in the message and the line number of a panic.
 const PANICS: &str = r#"
 fn send() {
     if BITS % 2 == 0 {

@@ -17,7 +17,7 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// Returns the score after the program has sent these bits with an item.
+    /// Returns the score after the program has used an item to send these bits.
     pub fn send(&self, mut score: Score, item: &Item, bits: u32) -> Score {
         (self.write)(&mut score, item, bits);
         score.update_totals();

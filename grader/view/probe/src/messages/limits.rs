@@ -38,7 +38,7 @@ impl Request {
             }
             Request::Boxes(queries) => queries.boxes.len() * SPAN_BYTES,
         };
-        // The lists of all panics, plus some numbers.
+        // The lists of all panics, plus a few numbers.
         of_lists + MAX_PANICS * (PANIC_BYTES + 5) + 64
     }
 }

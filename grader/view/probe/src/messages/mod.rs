@@ -32,7 +32,7 @@ pub enum Request {
     Draw(Draw),
     /// Returns the tree, which has this size.
     Tree(TreeSize),
-    /// Records the tests of a ray or a path.
+    /// Records the tests made for a ray or a path.
     Follow(Follow),
     /// Calls `BBox::hit` on boxes.
     Boxes(BoxQueries),
@@ -83,12 +83,12 @@ pub enum Quantity {
         /// The index of the path in the first pass.
         sample: u32,
     },
-    /// The radiance of one sample in clay per pass.
+    /// The radiance of one sample per pass, with the scene in clay.
     Clay {
         /// The index of the sample in the first pass.
         sample: u32,
     },
-    /// The tests of the ray through the centre of the pixel. Needs the recording program.
+    /// The tests made for the ray through the centre of the pixel. Needs the recording program.
     Tests,
 }
 
@@ -147,7 +147,7 @@ pub enum Target {
         /// The index of the path.
         sample: u32,
     },
-    /// One sample in clay through this pixel.
+    /// One sample through this pixel, with the scene in clay.
     Clay {
         /// The pixel.
         pixel: UVec2,
@@ -225,7 +225,8 @@ impl SubmissionPart {
         SubmissionPart::Sphere,
         SubmissionPart::BBox,
     ];
-    /// The methods that are called with a ray, each after the methods that it calls.
+    /// The methods that are called with a ray, ordered so that each method comes after the methods
+    /// that it calls.
     pub const WITH_RAY: [SubmissionPart; 4] = [
         SubmissionPart::Triangle,
         SubmissionPart::Sphere,

@@ -1,6 +1,6 @@
 //! Rules that every correct traversal follows, checked without knowing the correct answer. The
-//! checks use the submission's own `BBox::hit` and the exam's margins: anything within 1 % of a
-//! box's diagonal isn't judged.
+//! checks use the submission's own `BBox::hit` and the exam's margin of 1 % of a box's diagonal,
+//! within which nothing is judged.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::indexed_tree::IndexedTree;
 
-/// The margin within which nothing is judged, as a share of a box's diagonal.
+/// The margin within which nothing is judged, as a fraction of a box's diagonal.
 const MARGIN: f32 = 0.01;
 
 /// The part of a ray inside a node's box, without and with the margin.

@@ -44,7 +44,7 @@ fn test(text: &str) -> Test {
     }
 }
 
-/// Returns the rules that these tests of a ray along x break, each with the node that shouldn't
+/// Returns the rules broken by these tests for a ray along x, each with the node that shouldn't
 /// have been entered.
 fn broken(tests: &str) -> Vec<(Rule, u32)> {
     let ray = RecordedRay {
@@ -77,7 +77,7 @@ fn broken(tests: &str) -> Vec<(Rule, u32)> {
 fn a_correct_traversal_breaks_no_rule() {
     assert_eq!(broken("b1 b4 p0 b2 b3 p1:3.5"), []);
     assert_eq!(broken("b1 b4 p0:1.5"), [], "pruned");
-    assert_eq!(broken("p0:-5.0 b2 p1"), [], "a hit outside of the range");
+    assert_eq!(broken("p0:-5.0 b2 p1"), [], "a hit outside the range");
 }
 
 #[test]

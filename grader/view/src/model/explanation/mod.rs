@@ -40,7 +40,7 @@ pub fn explain(
         let kind = match pixel {
             None => "ray from the exam".to_owned(),
             Some(_) if index == 0 => "camera ray".to_owned(),
-            Some(_) if is_shadow_ray => "shadow ray, to a light".to_owned(),
+            Some(_) if is_shadow_ray => "shadow ray to a light".to_owned(),
             Some(_) => {
                 bounce += 1;
                 format!("ray after bounce {bounce}")

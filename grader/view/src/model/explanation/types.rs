@@ -78,7 +78,7 @@ pub struct ExplainedTest {
     pub closest: Option<f32>,
     /// The rules that this test breaks, each with the node that shouldn't have been entered.
     pub marks: Vec<(Rule, u32)>,
-    /// Whether the primitive had been tested for this ray before.
+    /// Whether the primitive had already been tested for this ray.
     pub again: bool,
 }
 

@@ -101,7 +101,7 @@ impl TreeCheckup {
         checkup
     }
 
-    /// Counts a defect and lists it if it is one of the first.
+    /// Counts a defect, and lists it unless enough defects of its kind have already been listed.
     fn add(&mut self, title: &'static str, defect: impl FnOnce() -> ListedDefect) {
         let known = self.kinds.iter().position(|kind| kind.title == title);
         let known = known.unwrap_or_else(|| {
@@ -124,11 +124,11 @@ impl TreeCheckup {
 fn title(defect: &TreeDefect) -> &'static str {
     match defect {
         TreeDefect::Partition { leaves: 0, .. } => {
-            "Primitives that are in no leaf, so no ray can hit them"
+            "Primitives that no ray can hit because they are in no leaf"
         }
         TreeDefect::Partition { .. } => "Primitives that are in several leaves",
         TreeDefect::BoxTooSmall(_) => {
-            "Boxes that do not contain everything below their nodes, so some hits are missed"
+            "Boxes that cause missed hits because they do not contain everything below their nodes"
         }
         TreeDefect::BoxTooLarge(_) => "Boxes that are larger than necessary",
         TreeDefect::LeafTooLarge { .. } | TreeDefect::NotSplit { .. } => {

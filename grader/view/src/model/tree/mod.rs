@@ -46,7 +46,7 @@ pub struct NodeInfo {
     pub leaf: bool,
     /// The number of primitives below it.
     pub primitives: u32,
-    /// The area of its box as a share of the area of the root's box, i.e. the probability that a
+    /// The area of its box as a fraction of the area of the root's box, i.e. the probability that a
     /// ray that hits the root's box also hits this box.
     pub area: f32,
     /// The node's own contribution to the expected number of tests for a ray that hits the root's
@@ -112,7 +112,7 @@ impl TreeModel {
 
     /// Returns the nodes at this level or, if `below` is true, at this level and all levels below
     /// it. The nodes with the largest boxes come first, and at most `most` nodes are returned. Also
-    /// returns the total number of these nodes.
+    /// returns the total number of nodes at these levels.
     pub fn at_level(&self, level: u32, below: bool, most: usize) -> (Vec<NodeInfo>, usize) {
         let is_shown = |node: &&u32| match self.index.level(**node) {
             Some(of_node) if below => of_node >= level,

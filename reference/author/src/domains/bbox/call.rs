@@ -71,7 +71,7 @@ impl BoxCall {
         Ray64::from(&self.ray).within(self.times)
     }
 
-    /// Returns whether the times are from 0 to ∞.
+    /// Returns whether the times range from 0 to ∞.
     pub fn is_unlimited(&self) -> bool {
         self.times == Interval::AHEAD
     }

@@ -29,8 +29,8 @@ pub fn tables(
         differ: &|one, other| one.differs(other),
     };
     let mut tables = generator.tables(rng, sizes);
-    // If the last tables repeat the same calls, they stay unchanged, since each begins with the
-    // last call of the table before it.
+    // If the last tables repeat earlier calls, leave them unchanged, because each of them begins
+    // with the last call of the table before it.
     let alone = if tables.len() > sizes.len() {
         sizes.len() - 1
     } else {
@@ -84,7 +84,7 @@ fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     if half[axis] < THIN * size && !is_foil && rng.index(3) == 0 {
         half[(axis + 3 - other) % 3] = size * thin(rng);
     }
-    // Farther away, coordinates don't have enough digits for foil.
+    // Farther away, coordinates don't have enough digits to represent a box as thin as foil.
     let mut center = if is_foil {
         rng.point(0.9 * size)
     } else {
@@ -116,8 +116,8 @@ fn thin(rng: &mut Rng) -> f64 {
     }
 }
 
-/// Returns a centre and half sides close to these, for which the corners and the centre are exact
-/// in single precision. Sides that are too short for that are returned unchanged.
+/// Returns a centre and half sides that are close to these and make the corners and the centre
+/// exact in single precision. Half sides that are too short for that are returned unchanged.
 fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
     let step = size.log2().floor().exp2() / 256.0;
     let is_long = half.cmpge(DVec3::splat(step));
@@ -198,8 +198,8 @@ fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     match rng.index(4) {
         0 => bounds.center() + size * rng.point(2.0),
         1 => {
-            // The target is close to a face, inside or outside, at a distance that is a fraction of
-            // the box's size or of this side.
+            // The target is close to a face, inside or outside the box. Its distance from the face
+            // is a fraction of the box's size or of the side along this axis.
             let thinnest = (0..3).filter(|&axis| sides[axis] > 0.0);
             let thinnest = thinnest.min_by(|&a, &b| sides[a].total_cmp(&sides[b]));
             let axis = match thinnest {
@@ -220,8 +220,8 @@ fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     }
 }
 
-/// Draws a ray along a slab, with one direction component that is almost 0. The ray starts beside
-/// the slab or leaves it on the long way to the box.
+/// Draws a ray that is almost parallel to a slab, since one component of its direction is almost 0.
+/// The box is so far away that the ray may enter or leave the slab before it gets there.
 fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -309,7 +309,7 @@ fn from_a_plane_of_axes(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval
     is_inside.then(|| with_times(rng, origin, dir, furthest))
 }
 
-/// Draws a ray that just cuts off a corner or an edge.
+/// Draws a ray that clips a corner or an edge of the box.
 fn past_a_corner(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -372,7 +372,7 @@ fn shorter(bounds: &Bounds, axis: usize) -> Bounds {
 }
 
 /// Returns the calls in a table. If the box is thin enough, adds three calls whose rays are almost
-/// the same but clearly hit and miss the box in turn.
+/// the same but alternate between clear hits and clear misses.
 fn with_almost_the_same_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
@@ -414,8 +414,8 @@ fn with_almost_the_same_rays(
     (bounds, queries)
 }
 
-/// Returns boxes that are lines along the axes and a box that is a point, each with rays that
-/// clearly miss it.
+/// Returns degenerate boxes (a line along each axis, and a point), each with rays that clearly miss
+/// it.
 pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     /// The number of rays for each box.
     const RAYS: usize = 8;
@@ -453,9 +453,9 @@ pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     (0..4).map(table).collect()
 }
 
-/// Returns the calls in a table and three more: two whose rays are parallel to the previous ray,
-/// and one whose ray starts at the same point as the previous ray. Each of them hits if the
-/// previous ray misses, and vice versa.
+/// Returns the calls in a table, with up to three new calls added. Two of them have rays that are
+/// parallel to the ray before them, and the third has a ray that starts at the same point as the
+/// ray before it. Each new ray hits if the ray before it misses, and vice versa.
 fn with_related_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),

@@ -171,7 +171,8 @@ const FORM: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// Boxes whose length is exactly the same along two axes, but not along the third.
+/// Boxes whose sides have exactly the same length along two axes but a different length along the
+/// third.
 const SQUARE: Aspect<BoxCall> = Aspect {
     name: "square",
     classes: &["across x", "across y", "across z"],
@@ -207,7 +208,7 @@ const PAPER: f64 = 0.0009;
 /// A box is as thin as foil if its shortest side is below this fraction of its longest side.
 const FOIL: f64 = 1.8e-4;
 
-/// The number of axes along which a side of the box is at 0.
+/// The number of axes along which a face of the box is at the coordinate 0.
 const ZERO_SIDES: Aspect<BoxCall> = Aspect {
     name: "sides at 0",
     classes: &["along one axis", "along all axes"],
@@ -334,7 +335,7 @@ const OUTCOME: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The distance between a ray that hits the box and the box's centre.
+/// The distance from the box's centre to a ray that hits the box.
 const WAY: Aspect<BoxCall> = Aspect {
     name: "way past the centre",
     classes: &[
@@ -353,7 +354,7 @@ const WAY: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The least distance between the centre and a ray that passes next to a corner, as a multiple of
+/// The minimum distance from the centre to a ray that passes next to a corner, as a multiple of
 /// half the diagonal.
 const CORNER: f64 = 0.953;
 
@@ -420,11 +421,11 @@ fn times_class(times: Interval) -> Option<usize> {
 /// The classes of times.
 const TIMES_CLASSES: &[&str] = &[
     "from 0 to ∞",
-    "from 0 to an end",
-    "from later to ∞",
-    "from later to an end",
-    "from 0 to a far end",
-    "from later to a far end",
+    "from 0 to a nearby end",
+    "from a later start to ∞",
+    "from a later start to a nearby end",
+    "from 0 to a distant end",
+    "from a later start to a distant end",
     "to the largest number",
     "one point",
 ];
@@ -432,11 +433,11 @@ const TIMES_CLASSES: &[&str] = &[
 /// The classes in [`TIMES_CLASSES`], and an additional class for empty ranges.
 const RANGE_CLASSES: &[&str] = &[
     "from 0 to ∞",
-    "from 0 to an end",
-    "from later to ∞",
-    "from later to an end",
-    "from 0 to a far end",
-    "from later to a far end",
+    "from 0 to a nearby end",
+    "from a later start to ∞",
+    "from a later start to a nearby end",
+    "from 0 to a distant end",
+    "from a later start to a distant end",
     "to the largest number",
     "one point",
     "empty",

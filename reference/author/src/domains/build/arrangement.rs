@@ -17,17 +17,17 @@ pub const ARRANGEMENT: Aspect<BuildCall> = Aspect {
         "boxes flat along x",
         "boxes flat along y",
         "boxes flat along z",
-        "centres in a plane across x",
-        "centres in a plane across y",
-        "centres in a plane across z",
+        "centres in a plane perpendicular to x",
+        "centres in a plane perpendicular to y",
+        "centres in a plane perpendicular to z",
         "centres in a row along x",
         "centres in a row along y",
         "centres in a row along z",
         "all centres coincide",
         "equal primitives",
-        "one far from the others",
+        "one primitive far from the others",
         "of very different sizes",
-        "on a line along an axis",
+        "all on a line parallel to an axis",
         "some without area",
         "over 128 centres coincide",
         "equal boxes, max_leaf_size 1",
@@ -46,9 +46,9 @@ pub const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
         "centres in a row",
         "all centres coincide",
         "equal primitives",
-        "one far from the others",
+        "one primitive far from the others",
         "of very different sizes",
-        "on a line along an axis",
+        "all on a line parallel to an axis",
         "some without area",
         "over 128 centres coincide",
         "equal boxes, max_leaf_size 1",
@@ -118,7 +118,7 @@ fn is_without_area(shape: &Shape) -> bool {
     a == b || b == c || c == a
 }
 
-/// Returns whether two shapes are equal except for their numbers.
+/// Returns whether any two of the shapes are equal apart from their numbers.
 fn has_equal(shapes: &[Shape]) -> bool {
     let text = |shape: &Shape| match shape {
         Shape::Triangle { vertices, .. } => format!("{vertices:?}"),
@@ -128,7 +128,7 @@ fn has_equal(shapes: &[Shape]) -> bool {
     !without_repetition(shapes.iter().map(text))
 }
 
-/// Returns whether two shapes have the same box.
+/// Returns whether any two of the shapes have the same box.
 fn has_equal_boxes(shapes: &[Shape]) -> bool {
     let text = |shape: &Shape| format!("{:?}", scan::bounds(shape));
     !without_repetition(shapes.iter().map(text))

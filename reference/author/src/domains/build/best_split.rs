@@ -11,13 +11,13 @@ pub const BEST_AXIS: Aspect<BuildCall> = Aspect {
     name: "extent along the axis of the best split",
     classes: &[
         "the longest",
-        "above a tenth of the longest",
-        "above a hundredth",
-        "less",
-        "above a tenth, 8 or fewer primitives",
-        "less, 8 or fewer primitives",
-        "not the longest, over 1,100 primitives",
-        "below a thousandth",
+        "more than a tenth of the longest",
+        "more than a hundredth",
+        "less than a hundredth",
+        "more than a tenth, with 8 or fewer primitives",
+        "less than a tenth, with 8 or fewer primitives",
+        "not the longest, with over 1,100 primitives",
+        "less than a thousandth",
     ],
     class: |call| {
         let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
@@ -56,7 +56,7 @@ pub const SMALLER_SIDE: Aspect<BuildCall> = Aspect {
     name: "smaller side of the best split",
     classes: &["less than a sixteenth", "more"],
     class: |call| {
-        /// The sides are distinguished only if there are at least this many primitives.
+        /// The aspect applies only if there are at least this many primitives.
         const LEAST: usize = 17;
         let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
         if boxes.len() < LEAST || boxes.len() <= call.max_leaf_size as usize {

@@ -146,7 +146,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         ),
         not_asked(
             &["arrangement along any axis"],
-            &["on a line along an axis"],
+            &["all on a line parallel to an axis"],
             &["split", "cost"],
             "Every box has area 0, so no partition is better than any other.",
         ),
@@ -400,9 +400,9 @@ mod tests {
         assert_eq!(of([1.0, 2.0, 1.0], [a, a, a]), Some("equal primitives"));
         assert_eq!(of([1.0, 2.0, 3.0], [a, a, a]), Some("all centres coincide"));
         let plane = of([1.0; 3], [a, b, c]);
-        assert_eq!(plane, Some("centres in a plane across z"));
+        assert_eq!(plane, Some("centres in a plane perpendicular to z"));
         let far = of([1.0; 3], [a, [3.0, 1.0, 2.0], [90.0, 80.0, 70.0]]);
-        assert_eq!(far, Some("one far from the others"));
+        assert_eq!(far, Some("one primitive far from the others"));
         let sizes = of([0.01, 2.0, 1.0], [a, b, [1.0, 2.0, 3.0]]);
         assert_eq!(sizes, Some("of very different sizes"));
     }

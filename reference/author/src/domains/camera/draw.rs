@@ -37,9 +37,9 @@ pub fn side(rng: &mut Rng, class: usize) -> u32 {
     }
 }
 
-/// Draws cameras with all angles of view, sensors and films. Most differ from the previous camera
-/// in a single field and get the same samples, so that a method that keeps state between calls
-/// fails.
+/// Draws cameras with all classes of angles of view, sensors and films. Most differ from the
+/// previous camera in a single field and get the same samples, so that a method that keeps state
+/// between calls fails.
 pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let (classes, forms) = (
         rng.shuffled((0..SIDES.len()).collect()),
@@ -49,8 +49,8 @@ pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let mut cameras = Vec::new();
     for (pair, classes) in classes.chunks(2).enumerate() {
         let [first, second, third] = [0, 1, 2].map(|it| forms[(pair + it) % forms.len()]);
-        // The first sensor is at both ends, so that nothing but the film changes when the film is
-        // rotated.
+        // The first sensor comes both first and last, so that nothing but the film changes when the
+        // film is rotated.
         let ends = [first, second, second, third, third, first];
         let film = uvec2(side(rng, classes[0]), side(rng, classes[classes.len() - 1]));
         let mut camera = PinholeCamera {
@@ -73,7 +73,7 @@ pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
                 }
                 *times += 1;
                 cameras.push((camera, samples.clone()));
-                // The last sample for a camera is also the first one for the next camera.
+                // The last sample for a camera is also the first sample for the next camera.
                 samples.reverse();
             }
             camera.film = uvec2(film.y, film.x);
@@ -110,7 +110,7 @@ pub fn almost_equal_cameras(
     let columns = (f64::from(rows) * OLD).round() as u32;
     add(&|camera| camera.film.x = columns);
     add(&|camera| camera.aspect_ratio = OLD as f32);
-    // All films contain the same pixels.
+    // Use only pixels that exist on all of the films.
     let film = cameras.iter().map(|camera| camera.film);
     let film = film.reduce(UVec2::min).unwrap_or(first.film);
     let mut samples: Vec<Sample> = (0..8).map(|_| sample(rng, film)).collect();
@@ -121,14 +121,14 @@ pub fn almost_equal_cameras(
     let mut all = Vec::new();
     for camera in cameras {
         all.push((camera, samples.clone()));
-        // The last sample for a camera is also the first one for the next camera.
+        // The last sample for a camera is also the first sample for the next camera.
         samples.reverse();
     }
     all
 }
 
-/// Draws cameras whose field of view is almost a round angle and whose aspect ratio is almost a
-/// usual one. Some films are strips.
+/// Draws cameras whose field of view is close to a round number of degrees and whose aspect ratio
+/// is close to a common aspect ratio. Some films are strips.
 pub fn almost_usual_cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let almost = |rng: &mut Rng, number: f64, difference: f64| {
         (number + rng.sign() * rng.uniform(0.75, 0.98) * difference) as f32
@@ -148,8 +148,8 @@ pub fn almost_usual_cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> 
     all
 }
 
-/// Draws samples at the edges of narrow views on wide sensors, in the middle of a large film with a
-/// usual view, and in a single pixel with a wide view.
+/// Draws samples at the edges of narrow views on wide sensors, in the middle of a large film with
+/// an ordinary view, and in a single pixel with a wide view.
 pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let mut all = Vec::new();
     for (from, to, ratio) in [(3.5, 4.95, 7.0), (7.5, 9.9, 9.0), (10.0, 15.0, 7.0)] {
@@ -200,7 +200,7 @@ fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
     samples
 }
 
-/// Draws a pixel of a film, often one at an edge, and a position in this pixel.
+/// Draws a pixel of a film, often at an edge, and a position in this pixel.
 pub fn sample(rng: &mut Rng, film: UVec2) -> Sample {
     let mut position = |count: u32| match rng.index(5) {
         0 => 0,

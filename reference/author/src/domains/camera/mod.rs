@@ -55,7 +55,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         ],
         &[],
         OTHER_QUANTITIES,
-        "These change the direction only.",
+        "These aspects change only the direction.",
     )],
 };
 
@@ -69,7 +69,7 @@ pub struct CameraCall {
     sample: Sample,
 }
 
-/// Intervals of the vertical fields of view that the contract allows, in degrees.
+/// The vertical fields of view that the contract allows, as intervals in degrees.
 pub const FIELDS_OF_VIEW: [(f64, f64); 8] = [
     (1.0, 1.0),
     (1.0, 10.0),
@@ -89,7 +89,7 @@ const FIELD_OF_VIEW: Aspect<CameraCall> = Aspect {
     class: |call| part(&FIELDS_OF_VIEW, call.camera.vertical_fov.into()),
 };
 
-/// Intervals of the aspect ratios that the contract allows.
+/// The aspect ratios that the contract allows, as intervals.
 pub const ASPECT_RATIOS: [(f64, f64); 7] = [
     (0.1, 0.1),
     (0.1, 0.3),
@@ -293,7 +293,7 @@ const USUAL_RATIO: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// Other usual aspect ratios of sensors.
+/// Other common aspect ratios of sensors.
 const USUAL_RATIOS: [f64; 8] = [1.0, 1.25, 1.5, 1.6, 1.85, 2.0, 7.0 / 3.0, 2.39];
 
 /// The aspect ratio of most films.
@@ -328,12 +328,12 @@ const VIEW: Aspect<CameraCall> = Aspect {
     name: "view",
     classes: &[
         "a single wide pixel",
-        "a square film at 90° with another sensor",
-        "an edge of a 1° to 5° view on a wide sensor",
-        "an edge of a 10° to 15° view on a wide sensor",
-        "the middle of the widest view",
-        "an edge of a 5° to 10° view on a wide sensor",
-        "the middle of a 60° to 100° view on a wide sensor and a large film",
+        "a field of view of 90° with a square film, but a sensor that is not square",
+        "an edge of the image, for a 1° to 5° field of view and a wide sensor",
+        "an edge of the image, for a 10° to 15° field of view and a wide sensor",
+        "the centre of the image, for the widest field of view",
+        "an edge of the image, for a 5° to 10° field of view and a wide sensor",
+        "the centre of the image, for a 60° to 100° field of view, a wide sensor and a large film",
     ],
     class: |call| {
         let PinholeCamera {

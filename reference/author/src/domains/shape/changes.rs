@@ -54,7 +54,8 @@ impl ShapeCall {
         call
     }
 
-    /// Returns a vector along an axis that is either short or long, compared to the shape's size.
+    /// Returns a vector along an axis. Compared to the shape's size, the vector is either short or
+    /// long.
     pub fn offset_along(&self, axis: usize, random: DVec3) -> Vec3 {
         let part = if random[(axis + 1) % 3] > 0.0 {
             0.5

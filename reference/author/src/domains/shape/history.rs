@@ -67,8 +67,8 @@ pub const FOLLOW: &[Follow<ShapeCall>] = &[
     },
 ];
 
-/// Returns two calls with the same ray. One has a range that ends or begins just before a hit, and
-/// the other a range that ends or begins just behind it. Either can come first.
+/// Returns two calls whose rays differ only in their ranges. One range ends or begins just before a
+/// hit, and the other ends or begins just behind it. The two calls can come in either order.
 fn with_ranges_beside_a_hit(rng: &mut Rng, before: &ShapeCall) -> Option<Vec<ShapeCall>> {
     let whole = before.ray.within(0.0, f32::INFINITY);
     let distance = scan::intersect(&Ray64::from(&whole), &before.shape)?.distance;

@@ -105,8 +105,8 @@ pub const HISTORY: Aspect<ShapeCall> = Aspect {
         "almost the same direction",
         "almost the same start",
         "the opposite direction",
-        "the axes in another order",
-        "a ray that hits almost where this one starts",
+        "the same ray with its axes in another order",
+        "a ray that hits almost where this ray starts",
     ],
     class: |call| Some(history::class_of(call)),
 };

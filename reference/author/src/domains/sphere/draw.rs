@@ -43,7 +43,7 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let mut center = fields::place(rng, size).as_vec3();
     let axis = rng.index(3);
     match rng.index(8) {
-        // The highest point is level with the origin, as on a sphere used as the ground.
+        // The highest point is level with the origin, as it is when a sphere serves as the ground.
         0 => center.y = -radius,
         1 if radius >= 100.0 => center.y = -radius,
         1 => center[axis] = radius * rng.sign() as f32,

@@ -44,7 +44,7 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
         not_asked(&["latitude"], &[], &["`None`"], "A miss has no latitude."),
         not_asked(
             &["call before"],
-            &["the axes in another order"],
+            &["the same ray with its axes in another order"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
             "A ray like this hits only shapes near the origin, so an exam may test only the \
              distance of the hit.",

@@ -54,22 +54,22 @@ pub(super) fn calls(question: &Question) -> Vec<TraverseCall> {
     calls.collect()
 }
 
-/// The leaf of a second hit that is hardly farther away than the closest hit.
+/// The leaf of a second hit that is only slightly farther away than the closest hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SecondLeaf {
     /// The second hit is in the same leaf at almost the same distance, and its primitive comes
     /// before the primitive of the closest hit.
     Same,
-    /// The second hit is in a leaf whose box the ray starts in. Relative to the size of the tree,
-    /// both hits are close to the start.
+    /// The second hit is in a leaf whose box contains the start of the ray. Relative to the size of
+    /// the tree, both hits are close to the start.
     Other,
     /// The second hit is in a leaf whose box the ray enters earlier, at almost the same distance.
     Earlier,
 }
 
 impl TraverseCall {
-    /// Returns the leaf of a second hit close behind the closest hit, if there is a second hit like
-    /// this.
+    /// Returns the leaf of a second hit close behind the closest hit, if there is such a second
+    /// hit.
     pub(super) fn layer(&self) -> Option<SecondLeaf> {
         /// The largest relative difference between the distances, and the largest distance from the
         /// start as a fraction of the tree's diagonal.

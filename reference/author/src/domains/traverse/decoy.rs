@@ -21,8 +21,8 @@ pub(super) struct Decoy {
     pub(super) level: usize,
     /// The number of axes along which the box of the decoy's leaf is flat.
     pub(super) flat_axes: u32,
-    /// Whether the decoy's leaf and that leaf's sibling each have four or more primitives, and all
-    /// of these are next to each other in the list.
+    /// Whether the decoy's leaf and that leaf's sibling each have four or more primitives, all of
+    /// which are contiguous in the list.
     pub(super) is_beside_a_large_leaf: bool,
     /// Whether the ray starts in the box of the leaf's sibling and hits something there.
     pub(super) is_from_siblings_box: bool,
@@ -98,8 +98,8 @@ fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
     })
 }
 
-/// Returns whether a leaf and its sibling each have four or more primitives, and those of the left
-/// leaf come directly before those of the right leaf.
+/// Returns whether a leaf and its sibling each have four or more primitives, and the left leaf's
+/// primitives come directly before the right leaf's.
 fn is_beside_a_large_leaf(tree: &Tree, leaf: usize) -> bool {
     const LARGE: usize = 4;
     let path = tree.path(leaf);

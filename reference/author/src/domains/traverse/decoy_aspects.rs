@@ -9,10 +9,10 @@ pub(super) const REASON: Aspect<TraverseCall> = Aspect {
     name: "decoy",
     classes: &[
         "its box is missed",
-        "its box and its sibling's are missed",
+        "its box and its sibling's box are missed",
         "its box begins beyond the hit",
-        "its box and then its sibling's begin beyond the hit",
-        "its sibling's box and then its own begin beyond the hit",
+        "the hit comes before its box, and its sibling's box is farther still",
+        "the hit comes before its sibling's box, and its own box is farther still",
     ],
     class: |call| Some(call.decoy?.reason),
 };
@@ -73,7 +73,7 @@ pub(super) const SIBLING: Aspect<TraverseCall> = Aspect {
 /// The start of the ray toward the decoy.
 pub(super) const START: Aspect<TraverseCall> = Aspect {
     name: "start before a decoy",
-    classes: &["anywhere", "in the sibling's box, which holds the hit"],
+    classes: &["anywhere", "in the sibling's box, which contains the hit"],
     class: |call| Some(usize::from(call.decoy?.is_from_siblings_box)),
 };
 
@@ -82,8 +82,8 @@ pub(super) const HISTORY: Aspect<TraverseCall> = Aspect {
     name: "decoy's history",
     classes: &[
         "any",
-        "after a hit in its leaf",
-        "after a parallel ray that enters its box before its sibling's",
+        "after a hit in the decoy's leaf",
+        "after a parallel ray that enters the decoy's box before the sibling's box",
     ],
     class: |call| Some(call.decoy?.history),
 };

@@ -8,8 +8,8 @@ use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::Tree;
 
-/// Draws a ray toward a point in a tree. The ray starts nearby, far away or inside, but its
-/// distance from each shape is at most 30 times the shape's size.
+/// Draws a ray toward a point in a tree. The ray starts near the tree, far away from it or inside
+/// it, but its distance from each shape is at most 30 times the shape's size.
 pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
     /// The distance of the farthest start, as a multiple of the smallest shape's size.
     const FARTHEST: f64 = 27.0;
@@ -30,8 +30,8 @@ pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
     Ray::new(start.as_vec3(), dir.as_vec3())
 }
 
-/// Draws a ray that starts where another ray hits. The new ray's range begins after its start.
-/// Returns `None` if the other ray hits nothing.
+/// Draws a ray that starts where another ray hits a surface. The new ray's range begins a short
+/// distance from its start. Returns `None` if the other ray hits nothing.
 pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let hit = tree.expected_hit(&Ray64::from(&ray(rng, tree)))?;
     let later = 0.02 * tree.bounds(tree.root).diagonal();

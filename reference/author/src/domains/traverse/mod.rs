@@ -85,10 +85,10 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         ),
         not_asked(
             &[
-                "distance, in coordinates of the start",
-                "start in a box of the hit",
-                "start on what is hit",
-                "place of the hit in its leaf",
+                "distance relative to the coordinates of the start",
+                "start relative to the boxes around the hit",
+                "start on the shape that is hit",
+                "place of the hit primitive in its leaf",
                 "another hit close behind",
                 "nodes waiting",
             ],
@@ -98,9 +98,9 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         ),
         not_asked(
             &["start before a decoy"],
-            &["in the sibling's box, which holds the hit"],
+            &["in the sibling's box, which contains the hit"],
             &["`None`"],
-            "If a ray hits nothing, no box holds its hit.",
+            "If a ray hits nothing, no box contains a hit.",
         ),
         not_asked(
             &["decoy's box"],
@@ -113,15 +113,15 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             &["decoy"],
             &[
                 "its box begins beyond the hit",
-                "its box and then its sibling's begin beyond the hit",
-                "its sibling's box and then its own begin beyond the hit",
+                "the hit comes before its box, and its sibling's box is farther still",
+                "the hit comes before its sibling's box, and its own box is farther still",
             ],
             &["`None`"],
             "Nothing is beyond the closest hit of a ray that hits nothing.",
         ),
         not_asked(
             &["decoy's history"],
-            &["after a parallel ray that enters its box before its sibling's"],
+            &["after a parallel ray that enters the decoy's box before the sibling's box"],
             &["`None`", "pairs"],
             "The order of two boxes matters only where the second begins beyond a hit in the first.",
         ),
@@ -309,7 +309,7 @@ const HISTORY: Aspect<TraverseCall> = Aspect {
 
 /// The distance to the hit as a fraction of the largest coordinate of the ray's start.
 const NEARNESS: Aspect<TraverseCall> = Aspect {
-    name: "distance, in coordinates of the start",
+    name: "distance relative to the coordinates of the start",
     classes: &["below 1e-5", "1e-5", "1e-3 or more"],
     class: |call| {
         let largest = f64::from(call.ray.origin.abs().max_element());
@@ -323,9 +323,9 @@ const NEARNESS: Aspect<TraverseCall> = Aspect {
 
 /// The start of the ray relative to the boxes around the hit.
 const IN_BOX: Aspect<TraverseCall> = Aspect {
-    name: "start in a box of the hit",
+    name: "start relative to the boxes around the hit",
     classes: &[
-        "before all boxes of the hit",
+        "before all boxes around the hit",
         "before the middle of a box",
         "beyond the middle of a box",
         "more than half a side beyond the middle",
@@ -352,7 +352,7 @@ const IN_BOX: Aspect<TraverseCall> = Aspect {
 
 /// Whether the ray starts on the sphere that it hits.
 const ON_SPHERE: Aspect<TraverseCall> = Aspect {
-    name: "start on what is hit",
+    name: "start on the shape that is hit",
     classes: &["elsewhere", "on the sphere that is hit again"],
     class: |call| {
         let hit = call.hit?;
@@ -366,7 +366,7 @@ const ON_SPHERE: Aspect<TraverseCall> = Aspect {
     },
 };
 
-/// The number of primitives whose boxes the ray enters before it hits or ends.
+/// The number of primitives whose boxes the ray enters before it hits something or ends.
 const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
     name: "boxes of primitives on the way",
     classes: &["up to 2,048", "2,049 to 5,000"],
@@ -384,7 +384,7 @@ const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
 
 /// The index of the hit primitive in its leaf.
 const PLACE_OF_HIT: Aspect<TraverseCall> = Aspect {
-    name: "place of the hit in its leaf",
+    name: "place of the hit primitive in its leaf",
     classes: &[
         "up to the 16th",
         "up to the 512th",
@@ -471,7 +471,7 @@ mod tests {
             Some("from 0 to ∞"),
             Some("first call of a tree"),
             Some("1e-3 or more"),
-            Some("before all boxes of the hit"),
+            Some("before all boxes around the hit"),
             Some("elsewhere"),
             Some("up to 2,048"),
         ];
@@ -479,7 +479,7 @@ mod tests {
         let history = "after the same ray with another range";
         assert_eq!(
             names[1][12..14],
-            [Some("from later to an end"), Some(history)]
+            [Some("from a later start to a nearby end"), Some(history)]
         );
     }
 

@@ -167,7 +167,7 @@ fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3
     (altitude > 0.3 * longest && is_inside).then_some(moved)
 }
 
-/// Draws normals that point more or less to one side, and texture coordinates.
+/// Draws texture coordinates, and normals that all point roughly to one side.
 fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3] {
     let common = (side + 0.7 * rng.direction()).normalize();
     let spread = match rng.index(6) {
@@ -193,9 +193,11 @@ fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3
         let uv = DVec2::select(BVec2::new(same_u, same_v), tile, uv);
         Vertex::new(corner, normal.as_vec3(), uv.as_vec2())
     });
-    // Often, two corners have the same normal, or one has very different texture coordinates.
+    // Often, two corners have the same normal or the same texture coordinates, or one corner has
+    // very different texture coordinates.
     let [from, to, any] = [rng.index(3), rng.index(3), rng.index(3)];
-    // Next to an angle that is almost a right angle, such coordinates make wrong weights visible.
+    // At a corner whose angle is almost a right angle, very different texture coordinates make
+    // wrong weights visible.
     let right = almost_right_corner(corners.map(|corner| corner.as_dvec3()));
     let right = right.filter(|_| rng.coin());
     let (far, kind) = right.map_or_else(|| (any, rng.index(6)), |corner| (corner, 2));

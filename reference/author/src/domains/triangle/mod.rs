@@ -92,7 +92,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         ),
         not_asked(
             &["call before"],
-            &["the axes in another order"],
+            &["the same ray with its axes in another order"],
             &["normal", "origin", "position", "shape", "uv"],
             "A ray like this hits only shapes near the origin, so an exam may test only the \
              distance of the hit.",
@@ -193,7 +193,7 @@ const PLANE: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The direction that the triangle faces.
+/// The direction in which the triangle faces.
 const FACING: Aspect<ShapeCall> = Aspect {
     name: "facing",
     classes: &[
@@ -219,7 +219,7 @@ const FACING: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The diagonal that the triangle faces along.
+/// The diagonal direction in which the triangle faces.
 const FACING_DIAGONAL: Aspect<ShapeCall> = Aspect {
     name: "facing along a diagonal",
     classes: DIAGONALS,
@@ -408,7 +408,7 @@ fn all_equal(values: [f32; 3]) -> bool {
     values.iter().all(|value| *value == values[0])
 }
 
-/// Returns the index in [`EQUAL`] of the two equal values, if the third one differs.
+/// Returns the index in [`EQUAL`] of the two equal values, if the third value differs.
 fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
     match (a == b, b == c, c == a) {
         (true, false, _) => Some(0),
@@ -418,7 +418,7 @@ fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
     }
 }
 
-/// The names of the two corners with the same value.
+/// The names of the classes, each of which says which two corners have the same value.
 const EQUAL: &[&str] = &["at p0 and p1", "at p1 and p2", "at p2 and p0"];
 
 /// The two corners with the same texture coordinates.
@@ -440,7 +440,7 @@ const EQUAL_NORMALS: Aspect<ShapeCall> = Aspect {
     class: |call| equal_two(corner_normals(&call.shape)?),
 };
 
-/// The side that the corners' normals point to.
+/// The side of the triangle to which the corners' normals point.
 const NORMALS: Aspect<ShapeCall> = Aspect {
     name: "normals of the corners",
     classes: &["to the front", "to the back"],
@@ -564,7 +564,7 @@ const SMALL_WEIGHTS: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The edge that a ray narrowly passes, named after the opposite corner.
+/// The edge that a ray narrowly misses, named after the opposite corner.
 const NARROWLY_OUTSIDE: Aspect<ShapeCall> = Aspect {
     name: "narrowly outside",
     classes: &["opposite p0", "opposite p1", "opposite p2"],

@@ -1,4 +1,5 @@
-//! Builds the handout as a book. Its pages need no network and no scripts except the book's own.
+//! Builds the handout as a book. Its pages work without a network and need no scripts other than
+//! the book's own.
 
 mod formulas;
 mod pages;
@@ -79,7 +80,7 @@ mod tests {
 
     use super::*;
 
-    /// Returns the names of the book files that mention the chapter about Gradescope.
+    /// Returns the names of the book's files that mention the chapter about Gradescope.
     fn mentions(book: &Path) -> Vec<String> {
         let files = files::read_dir(book).unwrap().into_iter();
         let files = files.filter(|path| path.is_file());
@@ -108,7 +109,7 @@ mod tests {
         assert_eq!(mentions(students.path()), [""; 0]);
         assert!(students.path().join("sphere.html").is_file());
         assert!(!students.path().join("gradescope.html").exists());
-        // With the book, the bundle contains everything students read.
+        // The bundle accepts this book, because it has no chapters for instructors.
         Bundle::collect(&root, &RAYS, Some(students.path())).unwrap();
     }
 }

@@ -26,7 +26,7 @@ fn page_problems(chapter: &Page, html: &str) -> Vec<String> {
     let missing = chapter
         .anchors()
         .filter(|anchor| !html.contains(&format!("id=\"{anchor}\"")))
-        .map(|anchor| format!("{}: the page doesn't have a #{anchor}", chapter.name));
+        .map(|anchor| format!("{}: the page has no anchor #{anchor}", chapter.name));
     // Links to other sites are allowed, but nothing may be loaded from them.
     let fetched = ["src=\"http", "src=\"//", "url(http", "@import"]
         .into_iter()
@@ -74,7 +74,7 @@ mod tests {
         assert_eq!(
             page_problems(&chapter, bad),
             [
-                "a.md: the page doesn't have a #two",
+                "a.md: the page has no anchor #two",
                 "a.md: the page loads a resource from the network: src=\"http"
             ]
         );

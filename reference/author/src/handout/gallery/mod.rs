@@ -1,5 +1,5 @@
-//! The gallery of pictures: each chapter shows a right picture beside the pictures of known
-//! mistakes.
+//! The gallery of pictures: each chapter shows a correct picture beside the pictures that known
+//! mistakes produce.
 
 mod pictures;
 
@@ -41,7 +41,7 @@ struct Chapter {
     scene: String,
     /// The view to draw, such as `normals`.
     view: String,
-    /// A description of the right picture.
+    /// A description of the correct picture.
     shows: String,
     /// The known mistakes, in the order of their pictures.
     mistakes: Vec<String>,
@@ -88,7 +88,7 @@ fn gallery(root: &Path, authoring: &Authoring) -> Result<Gallery> {
     read_toml(&root.join(authoring.handed_out.solutions()).join(LIST))
 }
 
-/// Returns the chapters with the text about their pictures generated anew.
+/// Returns the chapters with the text about their pictures regenerated.
 pub fn with_pictures(
     root: &Path,
     authoring: &Authoring,

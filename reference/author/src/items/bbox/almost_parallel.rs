@@ -59,8 +59,8 @@ fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hi
         bounds.max[across]
     };
     if !is_hit {
-        // A ray that enters the slab there has already left the box, and a ray that leaves the slab
-        // there hasn't reached the box yet.
+        // A ray that enters the slab at this point has already left the box, and a ray that leaves
+        // the slab at this point hasn't reached the box yet.
         let beyond = rng.uniform(0.8, 1.2) * size[along];
         let forward = if enters { 1.0 } else { -1.0 };
         point[along] = bounds.center()[along] + forward * dir[along].signum() * beyond;

@@ -146,8 +146,8 @@ fn highest_correct_cost(question: &ExamQuestion) -> f64 {
     costs.fold(0.0, f64::max)
 }
 
-/// Returns the lowest relative cost among builders that mistake the two buckets next to a plane for
-/// its two sides. For some meshes, such builders find good planes by luck.
+/// Returns the lowest relative cost among builders that take the two buckets next to a plane to be
+/// the plane's two sides. For some meshes, such builders find good planes by luck.
 fn lowest_adjacent_cost(question: &ExamQuestion) -> f64 {
     let (extent, sides) = (BucketExtent::Centers, SideRule::AdjacentBuckets);
     let costs = [8, 12, 16, 24, 32].map(|count| {

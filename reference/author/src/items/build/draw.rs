@@ -58,7 +58,7 @@ pub(super) fn questions(
         let BuildCall {
             shapes,
             max_leaf_size,
-        } = chosen.expect("some call belongs to the idea");
+        } = chosen.expect("at least one of the drawn calls is accepted");
         let numbers = fields::numbers(rng, shapes.len());
         let shapes = meshes::with_numbers(shapes, numbers);
         ExamQuestion::tree(shapes, max_leaf_size, checks, None)
@@ -191,7 +191,8 @@ fn arranged(
     rng.shuffled(shapes)
 }
 
-/// Returns a primitive around a point: a triangle, a flat triangle, a sphere, or any of these.
+/// Returns a primitive around a point: a triangle, a flat triangle, a sphere, or a random choice
+/// among these three kinds.
 pub(super) fn primitive(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shape {
     match kind {
         0 => meshes::random_triangle(rng, center, size),

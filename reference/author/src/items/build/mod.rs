@@ -48,8 +48,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
     finish: |seed, items| {
         let control = control(seed);
         for item in items {
-            // Large questions come last, so that the first wrong answer is about numbers that
-            // people can follow.
+            // Large questions come last, so that the first wrong answer is about a tree that is
+            // small enough for people to follow.
             item.questions().sort_by_key(is_large);
             item.questions().push(control.clone());
         }

@@ -51,8 +51,8 @@ const ALIGNMENTS: [Alignment; 4] = [
 
 const SMALL: f64 = 0.05;
 
-/// Three clumps, two of them near each other. A builder that forgets the outermost bucket ignores
-/// the clump at that end, so it may prefer to split between the two near clumps.
+/// Three clumps, two of which are close together. A builder that forgets the outermost bucket
+/// ignores the clump at that end, so it may prefer to split between the two close clumps.
 const CLUMPS: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)],
     first_size: SMALL,
@@ -73,8 +73,8 @@ const GAP: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps, the first of which is the largest. A builder whose counts come from different buckets
-/// than its boxes misses this clump and splits at the other gap.
+/// Three clumps. The first is the largest, but a builder whose counts come from different buckets
+/// than its boxes overlooks it and splits at the other gap.
 const HEAVY_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
     first_size: SMALL,
@@ -82,8 +82,8 @@ const HEAVY_END: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Clumps, the first of which consists of large primitives, so that it is best to split off this
-/// clump. The other gap is wider, and a builder that treats primitives as points splits there.
+/// Three clumps. The first consists of large primitives, so it is best to split off this clump. The
+/// other gap is wider, and a builder that treats primitives as points splits there.
 const LARGE_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)],
     first_size: 1.2,
@@ -93,7 +93,7 @@ const LARGE_END: Layout<'static> = Layout {
 
 pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
-    title: "the best split of a few primitives in a row is found",
+    title: "for a few primitives arranged in a row, the best split is found",
     look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
            areas and the counts of its sides: does your code try it, does it compute that cost, \
            and does your root have these two sides?",
@@ -144,7 +144,7 @@ impl UnplacedQuestion {
     }
 }
 
-/// Draws primitives with one best split.
+/// Draws primitives for which one split is by far the best.
 type Draw = Box<dyn Fn(&mut Rng) -> UnplacedQuestion>;
 
 fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -234,8 +234,8 @@ fn of_many() -> Vec<Draw> {
     counts.map(draw).collect()
 }
 
-/// Returns functions that draw a cluster and, far from it, less than a sixteenth as many
-/// primitives.
+/// Returns functions that draw a cluster and, far from it, a few outliers. The cluster has more
+/// than sixteen times as many primitives.
 fn of_outliers() -> Vec<Draw> {
     let counts = [(18, 60), (100, 180)].into_iter();
     let draw = |(least, most): (u32, u32)| -> Draw {
@@ -320,8 +320,8 @@ fn few(
     row(rng, &layout, axis, is_mirrored)
 }
 
-/// Returns two clusters. The smaller one is denser. The first cluster along the axis consists of
-/// whole chunks.
+/// Returns two clusters. The smaller cluster is denser. The first cluster along the axis consists
+/// of whole chunks.
 fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     let chunk = chunk_size(count);
     let whole = |tenths: usize| tenths * count / 10 / chunk * chunk;
@@ -461,7 +461,7 @@ const STACKS: [(usize, f64); 11] = [
 /// The extent of the strips' centres in the direction of the strips.
 const SPREAD: f64 = 2.6;
 
-/// Returns strips along an axis whose centres have these heights along another axis.
+/// Returns strips that run along one axis and whose centres have these heights along another axis.
 fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape> {
     let [along, across] = [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
     let start = rng.point(3.0);

@@ -30,8 +30,8 @@ const ARRANGEMENTS: &[Arrangement] = &[
     Outlier,
 ];
 
-/// Returns these questions, followed by others about primitives in these arrangements. The others
-/// are drawn from the domain.
+/// Returns these questions, followed by questions about primitives in these arrangements. The
+/// additional questions are drawn from the domain.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -257,7 +257,8 @@ pub(super) const STOPS: Declaration = Declaration {
         let mut questions = soup_questions(rng, &[Stops], &[(160, 8)]);
         questions.push(large(rng, &[Stops]));
         // The same primitives again, with a different maximum leaf size. The root is a node like
-        // any other: one question has as many primitives as fit into a leaf, and one has one more.
+        // any other: one question has exactly as many primitives as fit into a leaf, and another
+        // has one more.
         let small = rng.integer(5, 10) as usize;
         for (count, most) in [(small, 130), (1000, 2)] {
             let balls = (0..count).map(|_| meshes::sphere(rng.point(3.0), 0.1));

@@ -15,9 +15,9 @@ use crate::seed::Rng;
 /// All properties of a tree except its cost.
 const ALL: &[TreeCheck] = &[Partition, Contains, Tight, LeafSize, Stops];
 
-/// Returns these questions, followed by others about primitives in these arrangements. The others
-/// are drawn from the domain. They check how the primitives are split, using [`Split`] if a
-/// different item tests the exact size of leaves.
+/// Returns these questions, followed by questions about primitives in these arrangements. The
+/// additional questions are drawn from the domain. They check how the primitives are split, using
+/// [`Split`] if a different item tests the exact size of leaves.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -91,8 +91,8 @@ pub(super) const COINCIDENT: Declaration = Declaration {
         let center = rng.point(2.0);
         let same = meshes::random_flat_triangle(rng, center, 0.5);
         let all = vec![same; 20];
-        // More than half of the primitives coincide, so a leaf that holds all of those is
-        // considered unsplit.
+        // More than half of the primitives coincide, so a leaf that holds all the coincident
+        // primitives is considered unsplit.
         let mut some = meshes::soup(rng, 17, 3.0, 0.4);
         some.extend(vec![same; 30]);
         let ball = meshes::sphere((8.0 * center).round() / 8.0, 0.5);

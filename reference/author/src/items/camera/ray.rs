@@ -28,7 +28,7 @@ pub(super) const OFFSET: Declaration = Declaration {
                     pixel: random_below(rng, length) * along[0],
                     offset: offset(rng) * x + 0.5 * y,
                 };
-                // Some samples are followed by an almost identical one.
+                // Some samples are followed by an almost identical sample.
                 let away = rng.uniform(0.015, 0.03) as f32;
                 let away = if first.offset.dot(x) < 0.5 {
                     away

@@ -7,8 +7,8 @@ use crate::domains::fields::{EVERY_SIZE, TINY, USUAL};
 use crate::domains::sphere::Line;
 use crate::items::{Declaration, groups, paper};
 
-/// Returns whether the ray starts outside the sphere and has no end, and the sphere isn't behind
-/// it.
+/// Returns whether the ray has no end, and its line either misses the sphere or enters it ahead of
+/// the ray's start.
 fn is_ahead(line: &Line) -> bool {
     line.is_unlimited() && (line.misses() || line.roots[0] > 0.0)
 }

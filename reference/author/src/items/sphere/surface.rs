@@ -11,7 +11,7 @@ use crate::seed::Rng;
 
 pub(super) const POSITION: Declaration = Declaration {
     id: "sphere.position",
-    title: "position is the point of the hit, in world space",
+    title: "position is the point where the ray hits the sphere, in world space",
     look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
            is in world space, and as far from the centre as the radius.",
     look_fits: &[Symptom::of("position")],
@@ -76,7 +76,7 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "sphere.picture",
-    title: "a picture of spheres is correct in hits, depth, normals and uv",
+    title: "a picture of spheres has the correct hits, depth, normals and uv",
     look: "Some spheres are seen from outside, and one from inside. If one sphere is wrong all \
            over, how does it differ from the others: does it have a different radius or centre, or is the \
            camera inside it?",

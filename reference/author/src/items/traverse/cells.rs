@@ -37,13 +37,13 @@ pub(super) enum CellSkipReason {
     MissedWithSibling,
     /// The decoy's leaf begins beyond the closest hit.
     Beyond,
-    /// The decoy's leaf begins beyond the closest hit, and the previous ray is parallel and enters
-    /// this leaf before its sibling.
+    /// The decoy's leaf begins beyond the closest hit. The previous ray is parallel, but it enters
+    /// this leaf before the leaf's sibling.
     BeyondAfterParallel,
-    /// The decoy's leaf and the sibling after it begin beyond the closest hit. Their parent
+    /// The decoy's leaf and the sibling after it begin beyond the closest hit, but their parent
     /// doesn't.
     NearerOfTwoBeyond,
-    /// The decoy's leaf and the sibling before it begin beyond the closest hit. Their parent
+    /// The decoy's leaf and the sibling before it begin beyond the closest hit, but their parent
     /// doesn't.
     FartherOfTwoBeyond,
 }
@@ -61,10 +61,10 @@ pub(super) struct Decoys<'a> {
 
 /// The number of decoys for each reason.
 const DECOYS: usize = 12;
-/// The number of trees in the chain. The deepest leaf is two levels below the last of them.
+/// The number of trees in the chain. The deepest leaf is two levels below the root of the last
+/// tree.
 const CHAIN: usize = 58;
-/// For each class of decoy levels, in order, the links of the chain whose decoys have a level in
-/// that class.
+/// The links of the chain whose decoys belong to each class of levels, in the order of the classes.
 const LINKS: [std::ops::Range<usize>; 4] = [0..9, 10..21, 22..37, 38..CHAIN];
 
 /// Creates a question about a chain of cells.
@@ -116,8 +116,8 @@ fn tests_no_sphere(tree: &Tree, ray: &Ray) -> bool {
     })
 }
 
-/// Returns a chain of cells, with a leaf at each link without a cell. At each node, the rest of the
-/// chain can be the left or the right child.
+/// Returns a chain of cells. Links without a cell have a leaf instead. At each node, the rest of
+/// the chain can be the left or the right child.
 fn chain(rng: &mut Rng, links: Vec<Option<Cell>>, axes: [DVec3; 3], places: &[usize]) -> Tree {
     let mut tree = Tree::default();
     let mut below = None;
@@ -184,8 +184,8 @@ struct Plan {
 }
 
 impl Plan {
-    /// Returns one of `DECOYS` plans. Each class of each property occurs among these plans. Most
-    /// occur even among the first four, including a ray that hits nothing.
+    /// Returns one of `DECOYS` plans. Together, these plans cover every class of every property.
+    /// Even the first four cover most classes, including a ray that hits nothing.
     fn new(reason: CellSkipReason, is_left: bool, index: usize, start: usize) -> Self {
         let (group, in_group) = (index / 4, index % 4);
         let size = (in_group + start) % 4;
@@ -206,8 +206,8 @@ impl Plan {
         let is_after_parallel = reason == CellSkipReason::BeyondAfterParallel;
         let is_after_a_hit_in_its_leaf =
             !is_after_parallel && leaf_size > 2 && !is_line && group < 2;
-        // If the decoy is tested for the previous ray, it isn't a sphere, so that only triangles
-        // and boxes matter.
+        // A decoy that is tested for the previous ray isn't a sphere, so that only triangles and
+        // boxes matter.
         let is_tested_before = is_after_parallel || is_after_a_hit_in_its_leaf;
         Plan {
             reason,
@@ -308,7 +308,7 @@ fn with_number(shape: Shape, number: u32) -> Shape {
 #[derive(Clone, Debug)]
 struct Cell {
     tree: Tree,
-    /// The ray toward the decoy, in some cells preceded by another ray.
+    /// The ray toward the decoy. In some cells, another ray comes before it.
     rays: Vec<Ray>,
 }
 
@@ -383,7 +383,7 @@ impl Draft {
         self.number - 1
     }
 
-    /// Adds the leaves of a cell without crossing boxes, and returns the ray.
+    /// Adds the leaves of a cell in which no boxes cross. Returns the ray.
     fn add_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
         let (up, side) = (rng.uniform(0.45, 0.55), rng.uniform(-0.04, 0.04));
         let start = dvec3(rng.uniform(-0.4, 0.0), 0.0, 0.0);
@@ -477,7 +477,7 @@ impl Draft {
         (ray, None)
     }
 
-    /// Adds the decoy's leaf and its sibling, the left one first, and the node above both.
+    /// Adds the decoy's leaf and its sibling, starting with the left child, and then their parent.
     fn add_siblings(
         &mut self,
         rng: &mut Rng,
@@ -504,8 +504,8 @@ impl Draft {
         with_number(shape, self.next_number())
     }
 
-    /// Adds two leaves whose boxes form a cross. Returns the ray and a parallel one that enters the
-    /// boxes in the opposite order.
+    /// Adds two leaves whose boxes form a cross. Returns the ray, and a parallel ray that enters
+    /// the boxes in the opposite order.
     fn add_crossing_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
         let dir = dvec3(1.0, -1.0, rng.uniform(-0.03, 0.03)).normalize();
         let shift = dvec3(3.0, 0.0, 0.0);
@@ -555,7 +555,7 @@ impl Draft {
     }
 
     /// Adds the leaf with the decoy. The decoy is on the ray. A flat box is flattened along `flat`,
-    /// to the side where the ray enters.
+    /// onto the face where the ray enters.
     fn add_leaf_of_decoy(&mut self, rng: &mut Rng, decoy: &LeafOfDecoy, ray: &Ray) -> usize {
         let LeafOfDecoy {
             corners: [min, mut max],

@@ -1,5 +1,5 @@
 //! Pairs of triangles, one close behind the other. A correct traversal returns the hit on the front
-//! triangle, no matter how close the other triangle is and which of the two is found first.
+//! triangle, no matter how close the other triangle is or which of the two is found first.
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
@@ -15,16 +15,16 @@ use crate::tree::{Tree, decoy};
 const PAIRS: usize = 18;
 /// The size of the triangles.
 const SIZE: f64 = 0.2;
-/// The extent of the pairs' positions. It is so large that, for a ray that starts near a pair, both
-/// distances are tiny even compared to the coordinates of the start.
+/// The extent of the pairs' positions. It is so large that, for a ray that starts near a pair, the
+/// distances to both triangles are tiny even compared to the coordinates of the start.
 const SPREAD: f64 = 52.0;
 /// The distance between the two triangles of a pair.
 const SPACE: f64 = 0.0175;
 
 /// Creates a question about pairs of triangles. The triangles are so small that the question isn't
-/// moved to other places. A third of the rays start so close to a pair that both distances are tiny
-/// compared to the size of the tree. The others start so far away that both triangles, which are in
-/// one leaf or in two, are at almost the same distance.
+/// moved to other places. A third of the rays start so close to a pair that the distances to both
+/// triangles are tiny compared to the size of the tree. The other rays start so far away that both
+/// triangles, which are in the same leaf or in different leaves, are at almost the same distance.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
     rng.retry(|rng| {
         let mut tree = Tree::default();
@@ -82,9 +82,9 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
 /// Two triangles perpendicular to an axis.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
-    /// The middle of the triangle in front.
+    /// The middle of the front triangle.
     place: DVec3,
-    /// The direction from the front triangle to the other.
+    /// The direction from the front triangle to the rear triangle.
     normal: DVec3,
     /// The axes along which the triangles extend.
     across: [DVec3; 2],
@@ -93,7 +93,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// Returns a triangle at these distances behind and beside the front one.
+    /// Returns a triangle at these distances behind and beside the front triangle.
     fn triangle(&self, behind: f64, aside: f64, number: u32) -> Shape {
         let [x, y] = self.across;
         let middle = self.place + behind * self.normal + aside * x;
@@ -102,7 +102,8 @@ impl Pair {
         meshes::flat_triangle(corners, self.number + number)
     }
 
-    /// Returns two rays from this distance: one toward the front triangle and one past it.
+    /// Returns two rays that start at this distance: one hits the front triangle, and the other
+    /// passes beside it.
     fn rays(&self, rng: &mut Rng, distance: f64) -> (Ray, Ray) {
         let [x, y] = self.across;
         let slant = rng.uniform(-0.15, 0.15) * x + rng.uniform(-0.15, 0.15) * y;

@@ -67,13 +67,14 @@ pub static TASK: AuthoredTask = AuthoredTask {
     ..AuthoredTask::NEW
 };
 
-/// The default fields of an item about traversal, which also fails if triangles or boxes are wrong.
+/// The default fields of an item about traversal. Such an item also fails if triangles or boxes are
+/// wrong.
 const TRAVERSAL: Declaration = Declaration {
     needs: &[groups::TRIANGLE_HITS, groups::BOXES],
     ..Declaration::ALONE
 };
 
-/// The number of the first unreferenced primitive. The numbers of primitives in leaves start at 0.
+/// The number of the first unreferenced primitive. Primitives in leaves are numbered from 0.
 const FIRST_UNREFERENCED: u32 = 10_000;
 
 /// Creates a question that asks for the closest hits of the rays in the tree. Only distances are
@@ -115,8 +116,8 @@ fn unambiguous_rays(
     rng.shuffled(rays)
 }
 
-/// Adds an unreferenced primitive in front of the correct hit of every third ray, as well as one
-/// that is almost as large as the tree.
+/// Adds an unreferenced primitive in front of the correct hit of every third ray. Also adds an
+/// unreferenced primitive that is almost as large as the tree.
 fn add_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: &[Ray]) {
     for (number, ray) in (FIRST_UNREFERENCED..).zip(rays.iter().step_by(3)) {
         let hit = tree.expected_hit(&Ray64::from(ray));
@@ -152,11 +153,12 @@ fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
 }
 
 /// Returns the rays, followed by up to three groups of additional rays. In each group, consecutive
-/// rays are almost the same but hit at clearly different distances.
+/// rays are almost the same, but their hits are at clearly different distances.
 fn with_almost_the_same_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
     /// The maximum number of attempts to draw the two rays of a group.
     const ATTEMPTS: usize = 2000;
-    /// The minimum difference between the distances.
+    /// The minimum difference between the distances of the two hits, relative to the larger
+    /// distance.
     const LEAST: f64 = 7e-4;
     for _ in 0..3 {
         let found = rng.attempt(ATTEMPTS, |rng| {
@@ -189,7 +191,7 @@ fn question_without_decoys(
 /// Adds unreferenced primitives to a tree and creates a question about it.
 fn with_unreferenced(rng: &mut Rng, tree: &mut Tree, rays: Vec<Ray>) -> ExamQuestion {
     add_unreferenced(rng, tree, &rays);
-    // A tree with a single node stays that way.
+    // A tree with a single node doesn't get any more nodes.
     if tree.nodes.len() > 1 {
         *tree = tree.with_roots_at_both_ends(rng);
     }

@@ -30,8 +30,8 @@ impl Mover {
         Mover { rng, count }
     }
 
-    /// Moves all questions of an item that are about lists of rays. A question that begins with the
-    /// last ray of the previous question stays together with that question.
+    /// Moves all of an item's questions about lists of rays. A question that begins with the last
+    /// ray of the previous question stays together with that question.
     pub(super) fn move_all(&mut self, questions: &mut [ExamQuestion]) {
         let together = |a: &ExamQuestion, b: &ExamQuestion| {
             let (a, b) = (rays(a), rays(b));
@@ -200,8 +200,7 @@ pub(super) fn are_clear_of_faces(tree: &Tree, rays: &[Ray], margin: f64) -> bool
     })
 }
 
-/// Returns whether a ray is so clear of all faces that it stays clear of them when the tree is
-/// moved.
+/// Returns whether a ray is far enough from all faces to stay clear of them when the tree is moved.
 pub(super) fn is_clear_of_faces(tree: &Tree, ray: &Ray) -> bool {
     are_clear_of_faces(tree, &[*ray], 3.0 * FACE_MARGIN)
 }
@@ -211,7 +210,7 @@ pub(super) fn is_clear_of_faces(tree: &Tree, ray: &Ray) -> bool {
 const FACE_MARGIN: f64 = 1e-4;
 
 /// Returns whether all correct formulas compute every quantity of a hit well within its tolerance,
-/// both here and as far from the origin as most trees are moved.
+/// both here and as far from the origin as most trees are after they have been moved.
 pub(super) fn is_exact_elsewhere(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
     let transform = Transform::around(&[], 1.0, DVec3::splat(50.0));
     let (shapes, ray) = (transform.shapes(shapes), transform.ray(ray));
@@ -225,7 +224,7 @@ fn is_exact(shapes: &[Shape], ray: &Ray, hit: &Intersection) -> bool {
     let mut shapes = shapes.iter();
     let shape = *shapes
         .find(|shape| shape.number() == hit.shape)
-        .expect("the shape that is hit is one of the tree's");
+        .expect("the shape that is hit belongs to the tree");
     if let Some(line) = Line::of(&ShapeCall::new(shape, *ray)) {
         let judged = ["distance", "position", "normal", "uv"];
         return judged.iter().all(|quantity| line.is_exact(quantity));

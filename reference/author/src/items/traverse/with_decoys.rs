@@ -105,12 +105,12 @@ pub(super) enum SlidesAnswer {
     Wrong,
 }
 
-/// Returns a filter for the leaves that, for this reason, no correct traversal enters.
+/// Returns a filter for the leaves that every correct traversal skips for this reason.
 fn skipped_for(reason: SkipReason) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| decoy::skip_reason(tree, leaf, ray64) == Some(reason)
 }
 
-/// Returns a filter for the leaves that are this child of their parent and whose box the ray
+/// Returns a filter for the leaves that are the given child of their parent and whose boxes the ray
 /// misses, although it hits the sibling's box.
 fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
@@ -119,8 +119,8 @@ fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     }
 }
 
-/// Returns a filter for the leaves that are this child of their parent, where the ray misses both
-/// the leaf's box and its sibling's.
+/// Returns a filter for the leaves that are the given child of their parent, if the ray misses the
+/// boxes of both the leaf and its sibling.
 fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
         decoy::is_missed_child(tree, leaf, ray64, child) && decoy::misses_sibling(tree, leaf, ray64)
@@ -137,8 +137,8 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
     tests: &["Do not enter a node whose box the…"],
     questions: |rng| {
         let fits = skipped_for(SkipReason::Missed);
-        // The slides' pseudo-code enters the left child if both are missed, and may enter it if
-        // only the right one is hit: see `both_sides`.
+        // The slides' pseudo-code enters the left child if both children are missed, and may enter
+        // it if only the right child is hit: see `both_sides`.
         let after_nothing = |tree: &Tree, leaf: usize, ray64: &Ray64| {
             missed_alone(|node| node.r)(tree, leaf, ray64)
                 && !decoy::hits_below_sibling(tree, leaf, ray64)
@@ -209,7 +209,7 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
         fork.is_some_and(|fork| fork.toward_leaf == leaf && fork.exits_hit_side_last(tree, ray64))
             && fits(tree, leaf, ray64)
     };
-    // The box that the ray enters last has the nearer centre.
+    // The box that the ray enters second has the nearer centre.
     let nearer_center = |tree: &Tree, leaf: usize, ray64: &Ray64| {
         let fork = decoy::find_fork(tree, leaf, ray64);
         let distance = |index: usize| tree.bounds(index).center().distance(ray64.origin);

@@ -109,9 +109,9 @@ fn mirrored_in_their_boxes(rng: &mut Rng, tree: &Tree) -> Tree {
     other
 }
 
-/// Returns a tree with the same nodes but with primitives in different positions. Primitives at the
-/// faces of the third level's boxes stay in place, so that the boxes of the first three levels are
-/// the same.
+/// Returns a tree with the same nodes but with primitives in different positions. Primitives that
+/// touch the faces of the third level's boxes stay in place, so that the boxes of the first three
+/// levels are the same.
 fn with_other_contents(rng: &mut Rng, tree: &Tree) -> Tree {
     const LEVELS: usize = 3;
     let mut other = tree.clone();
@@ -335,8 +335,8 @@ fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     tree
 }
 
-/// Returns a function that draws rays. In turn, the closest of several hits in a leaf is on the
-/// first primitive, on the last one, or on any of them. Some rays hit nothing.
+/// Returns a function that draws rays. The closest of several hits in a leaf is on the leaf's first
+/// primitive, its last primitive or any of its primitives, in turn. Some rays hit nothing.
 fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {
@@ -400,7 +400,7 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
     for node in &mut mirrored.nodes {
         std::mem::swap(&mut node.l, &mut node.r);
     }
-    // Some rays go along the chain from either end, and others across it.
+    // Some rays go along the chain from either end, and others go across it.
     let kind = |rng: &mut Rng, _: &Tree| {
         let target = DVec3::X * rng.uniform(0.0, 30.0) + rng.point(0.4);
         let away = match rng.index(3) {

@@ -1,4 +1,4 @@
-//! Items about whether a ray hits a triangle, and at which distance.
+//! Items about whether a ray hits a triangle, and at what distance.
 
 use glam::{Vec2, Vec3, vec3};
 use judging::exam::ExamQuestion;
@@ -23,7 +23,7 @@ fn is_through(plane: &Plane) -> bool {
 
 pub(super) const INSIDE: Declaration = Declaration {
     id: "triangle.inside",
-    title: "a ray through the inside hits the triangle at distance t",
+    title: "a ray through the interior of the triangle hits it at distance t",
     look: "Work out u, v and t by hand for the ray shown, and compare them with the values in your code. It \
         is a hit if u, v and 1 − u − v are all at least 0 and t is in ray.range, and \
            then t is the distance.",

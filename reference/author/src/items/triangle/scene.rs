@@ -8,7 +8,7 @@ use crate::seed::Rng;
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "triangle.picture",
-    title: "a picture of triangles is correct in hits, depth, normals and uv",
+    title: "a picture of triangles has the correct hits, depth, normals and uv",
     look: "It shows a smooth hill, a square made of two triangles, triangles seen from behind and \
            some tiny ones. See where it is wrong: along edges, on one side, or in the tiny \
            triangles?",

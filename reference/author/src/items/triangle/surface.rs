@@ -20,7 +20,7 @@ fn is_from_either_side(plane: &Plane) -> bool {
 pub(super) const POSITION: Declaration = Declaration {
     id: "triangle.position",
     title: "position is the point where the ray hits the triangle",
-    look: "It is the ray's point at t, or the weighted sum of the corners, which is the same point.",
+    look: "It is the point on the ray at t, or the weighted sum of the corners, which is the same point.",
     look_fits: &[Symptom::of("position")],
     section: "triangle.md#what-to-return",
     tests: &["`distance` is the…"],

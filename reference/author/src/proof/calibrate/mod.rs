@@ -1,8 +1,8 @@
 //! Measures the exam's margins: how far its thresholds are from correct and from wrong answers.
 //!
 //! Every variant is correct, so all of its answers must be well within the thresholds. Every
-//! mistake must be well beyond a threshold in at least one of the items it must fail. The
-//! deviations are those the judge computes for grading.
+//! mistake must be well beyond a threshold in at least one of the items it must fail. The judge
+//! computes the deviations in the same way as for grading.
 
 mod deviations;
 pub mod margins;

@@ -31,7 +31,8 @@ struct ReportedMistake {
     /// If the mistake gets no true hint, the items where its answers differ from those of the same
     /// mistake in the reference.
     unlike: Vec<String>,
-    /// Messages if the code loses no points in its task or loses points in another task.
+    /// The problems found: the code loses no points in its task, or it loses points in another
+    /// task.
     problems: Vec<String>,
 }
 
@@ -70,7 +71,7 @@ fn report(
 }
 
 /// Grades every independent mistake, and every solution that gives the same answers as a known
-/// mistake for another reason. Determines the hints that they get.
+/// mistake, but for a different reason. Determines the hints that they get.
 pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     let all = [independent_mistakes(solutions)?, other_causes(solutions)?].concat();
     let rows = report(solutions, &all, exam)?;
@@ -92,7 +93,7 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
             format!("{id}: recognised")
         } else {
             let unlike = row.unlike.join(", ");
-            format!("{id}: no hint; unlike in the reference: {unlike}")
+            format!("{id}: no hint; differs from the same mistake in the reference in: {unlike}")
         });
         recognition.problems.extend(row.problems);
     }

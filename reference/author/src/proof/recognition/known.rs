@@ -108,7 +108,7 @@ fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
     let with_false_hint = with_false_hint.map(|row| {
         let hints = list(&row.if_unknown);
         format!(
-            "{} gets the false hint {hints} if its own is left out",
+            "{} gets the false hint {hints} if its own hint is left out",
             row.id
         )
     });

@@ -45,7 +45,7 @@ pub(super) fn changes(file: &str) -> syn::Result<Vec<Change>> {
         let key = |change: &Change| (change.bytes.start, change.bytes.end);
         (key(a), &a.what, &a.now).cmp(&(key(b), &b.what, &b.now))
     });
-    // A name that is both a field and its value is visited twice.
+    // A name that stands for both a field and its value is visited twice.
     found.dedup();
     Ok(found)
 }
@@ -113,7 +113,7 @@ impl<'a> Visitor<'a> {
         self.function = outer;
     }
 
-    /// Adds changes that replace a function's body or keep state between its calls.
+    /// Adds changes that replace a function's body or keep state between calls to it.
     pub(super) fn change_function(&mut self, signature: &Signature, block: &Block) {
         let (Some(first), Some(last)) = (block.stmts.first(), block.stmts.last()) else {
             return;
@@ -123,7 +123,7 @@ impl<'a> Visitor<'a> {
             ReturnType::Default => "()".to_owned(),
             ReturnType::Type(_, returned) => self.text(returned).split_whitespace().collect(),
         };
-        // No default value would be simpler than a constructor.
+        // Constructors keep their bodies, because no default value would be simpler.
         if signature.ident != "new" {
             for now in default_values(&returns) {
                 self.add_anywhere(format!("body: {now}"), body.clone(), now);
@@ -185,12 +185,12 @@ impl<'a> Visitor<'a> {
     /// Ends a loop after its first iteration.
     pub(super) fn end_loop(&mut self, body: &Block) {
         let at = body.brace_token.span.close().byte_range().start;
-        let what = "condition: a loop ends after its first round";
+        let what = "condition: a loop ends after its first iteration";
         self.add(what.to_owned(), at..at, " break; ");
     }
 }
 
-/// Returns values that a function with this return type can always return.
+/// Returns values that any function with this return type can return.
 fn default_values(of_type: &str) -> &[&str] {
     match of_type {
         "()" => &["()"],

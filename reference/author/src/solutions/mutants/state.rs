@@ -1,4 +1,4 @@
-//! Changes that keep state between calls of a method.
+//! Changes that keep state between calls to a method.
 
 use std::ops::Range;
 
@@ -34,7 +34,7 @@ pub(super) fn changes(
     changes
 }
 
-/// Replaces an argument with its value in an earlier call, e.g. the first or the previous one.
+/// Replaces an argument with its value from an earlier call, e.g. the first or the previous one.
 fn kept_argument(name: &str, of_type: &str) -> Vec<(String, String)> {
     let value_type = of_type.trim_start_matches('&');
     if !COPIED.contains(&value_type) {
@@ -49,7 +49,7 @@ fn kept_argument(name: &str, of_type: &str) -> Vec<(String, String)> {
         ("of the first call", "before"),
         ("of the call before", "now"),
         (
-            "of the last call but every 16th",
+            "of an earlier call, updated on every 16th call",
             "if count % 16 == 0 { now } else { before }",
         ),
     ];

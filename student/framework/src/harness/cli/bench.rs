@@ -28,7 +28,7 @@ pub(super) struct Measurement {
 }
 
 /// Traces one path per pixel in each run. Runs that measure the whole picture alternate with runs
-/// that also measure each call of `Bvh::hit`, which makes them slower.
+/// that also time each call to `Bvh::hit`, which makes them slower.
 pub(super) fn measure(job: &Job, renderer: &dyn Renderer) -> Result<Measurement, RenderError> {
     let mut best = Measurement {
         rays: 0,
@@ -74,8 +74,8 @@ impl Measurement {
         self.rays as f64 * 1e-6 / self.time.as_secs_f64().max(1e-9)
     }
 
-    /// Compares this measurement with the one stored in `file`, if any, and then stores this one
-    /// instead. Returns the lines to print.
+    /// Compares this measurement with the measurement stored in `file`, if any, and then replaces
+    /// the stored measurement. Returns the lines to print.
     pub(super) fn compare(&self, file: &Path) -> Result<String, RenderError> {
         let speed = self.speed();
         let mut text = format!(

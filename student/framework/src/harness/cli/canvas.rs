@@ -10,7 +10,7 @@ use glam::{UVec2, Vec3};
 use super::image_file;
 use crate::render::film::{Film, Tone};
 
-/// The time between two writes of the unfinished picture.
+/// How often the unfinished picture is written.
 const INTERVAL: Duration = Duration::from_secs(1);
 /// The conventional exit code of a program ended by Ctrl-C.
 pub(super) const INTERRUPTED: i32 = 130;
@@ -62,7 +62,7 @@ impl Canvas {
         row.unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    /// Returns the picture so far and the number of samples that every pixel has.
+    /// Returns the picture so far and the minimum number of samples per pixel.
     pub(super) fn film(&self) -> (Film, u32) {
         let rows: Vec<Row> = (0..self.size.y).map(|y| self.row(y)).collect();
         let samples = rows.iter().map(|row| row.samples).min().unwrap_or(0);

@@ -33,7 +33,7 @@ pub(super) fn call<T>(pixel: Option<UVec2>, code: impl FnOnce() -> T) -> Result<
 }
 
 impl RenderError {
-    /// Creates an error for threads that cannot be started.
+    /// Creates the error to report if threads cannot be started.
     pub(super) fn threads(error: impl fmt::Display) -> Self {
         RenderError::Other(format!("cannot start threads: {error}"))
     }

@@ -1,5 +1,5 @@
 //! The command that runs the worked examples in the task files. They are tests, so that an editor
-//! can run them too. With `cargo test`, however, a name that matches no test would be a success.
+//! can run them too. However, `cargo test` succeeds even if no test matches the given name.
 
 use std::collections::BTreeSet;
 use std::env;
@@ -12,7 +12,7 @@ use clap::Parser;
 use crate::harness::cli::progress::Notice;
 use crate::suggestion::suggestion;
 
-/// The time after which a student should know that an example has not finished.
+/// The time after which a student should be told that an example is still running.
 const LONG: Duration = Duration::from_secs(5);
 
 /// Runs the worked examples in your task files
@@ -73,8 +73,8 @@ fn run(arguments: &Arguments) -> io::Result<ExitCode> {
     Ok(exit_code(status.code()))
 }
 
-/// Returns the command up to the arguments of the test harness. It uses the release profile, so
-/// that it shares compiled dependencies with `cargo render`.
+/// Returns the cargo command, to which arguments for the test harness can be appended. The command
+/// uses the release profile, so that it shares compiled dependencies with `cargo render`.
 fn cargo_test() -> Command {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);

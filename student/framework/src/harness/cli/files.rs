@@ -10,11 +10,11 @@ use super::options::Options;
 use super::parallel::RenderPool;
 use crate::suggestion::suggestion;
 
-/// The name of the scenes' folder. Its parent folder is assumed to be the workspace's root.
+/// The name of the folder of scenes. Its parent folder is assumed to be the workspace's root.
 const SCENES: &str = "scenes";
 
-/// Finds the file of a scene. The path is tried relative to the current folder, the workspace's
-/// root and its folder of scenes. `.json` can be omitted.
+/// Finds a scene file. The path is tried relative to the current folder, the workspace's root and
+/// the folder of scenes. `.json` can be omitted.
 pub(super) fn find_scene(scene: &Path) -> Result<PathBuf, RenderError> {
     let here = env::current_dir().unwrap_or_default();
     let root = workspace_root(&here);

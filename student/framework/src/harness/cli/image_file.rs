@@ -8,7 +8,7 @@ use super::error::RenderError;
 use crate::render::film::{Film, Tone};
 
 /// Writes a picture to a file atomically, so that a reader never sees an incomplete file. An EXR
-/// file stores linear floats. Other formats store bytes that are converted for a screen.
+/// file stores linear floats. Other formats store bytes, converted for display on a screen.
 pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderError> {
     let (width, height) = film.size.into();
     let part = path.with_added_extension("part");
@@ -31,9 +31,9 @@ pub(super) fn write(film: &Film, tone: Tone, path: &Path) -> Result<(), RenderEr
     written.map_err(|error| RenderError::Other(format!("cannot write {}: {error}", path.display())))
 }
 
-/// Returns whether a file's format stores numbers of any size, rather than colours for a screen.
+/// Returns whether a file's format stores arbitrary numbers, rather than colours for a screen.
 pub(super) fn holds_numbers(path: &Path) -> bool {
     matches!(ImageFormat::from_path(path), Ok(ImageFormat::OpenExr))
 }
 
-const FITS: &str = "a film has as many pixels as its size says";
+const FITS: &str = "a film has as many pixels as its size specifies";

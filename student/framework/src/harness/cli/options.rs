@@ -1,4 +1,4 @@
-//! The options of the command line.
+//! The command-line options.
 
 use std::path::PathBuf;
 
@@ -109,7 +109,7 @@ fn size(text: &str) -> Result<UVec2, String> {
 
 fn stops(text: &str) -> Result<f32, String> {
     let stops = text.parse().ok().filter(|stops: &f32| stops.abs() <= 100.0);
-    stops.ok_or_else(|| "expected an exposure in stops, such as 1.5, from -100 to 100".to_owned())
+    stops.ok_or_else(|| "expected an exposure from -100 to 100 stops, such as 1.5".to_owned())
 }
 
 fn pixel(text: &str) -> Result<UVec2, String> {

@@ -10,7 +10,7 @@ use super::progress::Progress;
 use crate::harness::probe::STACK_BYTES;
 use crate::render::renderer::RenderStats;
 
-/// The name of the threads, which appears in the message about a stack overflow.
+/// The name given to the threads, which appears in the message about a stack overflow.
 const THREAD_NAME: &str = "a ray, in Camera::sample_ray, Bvh::hit, BBox::hit, Triangle::hit or \
                            Sphere::hit";
 

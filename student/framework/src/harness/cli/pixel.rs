@@ -1,5 +1,5 @@
-//! Prints one pixel: the shape that is hit at its centre and, if the view shows light, its
-//! radiance.
+//! Prints information about one pixel: the shape that is hit at the pixel's centre and, if the view
+//! shows light, the pixel's radiance.
 
 use std::fmt::Write;
 
@@ -48,7 +48,7 @@ pub(super) fn print(
     Ok(())
 }
 
-/// Returns the lines about the hit at a pixel's centre.
+/// Returns the lines that describe the hit at a pixel's centre.
 fn description(pixel: UVec2, scene: &Scene, names: &[String], hit: Option<&Trace>) -> String {
     let mut text = format!("pixel {pixel}, at its centre:\n");
     let Some(hit) = hit else {

@@ -1,4 +1,4 @@
-//! Shows a progress bar while rendering and a summary afterwards, and messages if something takes a
+//! Shows a progress bar during rendering, a summary afterwards, and a message if something takes a
 //! long time.
 
 use std::path::Path;
@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::render::renderer::RenderStats;
 
-/// How long rendering without a progress bar stays silent before it says that it is still running.
+/// How long to wait, if there is no progress bar, before printing that rendering is still running.
 const LONG: Duration = Duration::from_secs(10);
 
 /// A progress bar with the remaining time and the rays per second. It is only shown if standard

@@ -12,8 +12,8 @@ const MANY_PRIMITIVES: usize = 200;
 /// A leaf is slow if it exceeds the maximum size by more than this factor.
 const LARGE_LEAF_FACTOR: usize = 10;
 
-/// Returns a note if a ray may be tested with many primitives, because part of task 3 isn't written
-/// or doesn't work yet.
+/// Returns a note if a ray may be tested against many primitives, because part of task 3 isn't
+/// written or doesn't work yet.
 pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> Option<String> {
     let count = scene.shapes.len();
     let shape = scene.shapes.first()?;
@@ -25,7 +25,7 @@ pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> O
         let why = "traverse: `Bvh::hit` doesn't use the boxes of the tree yet";
         (why, format!("all {count}"))
     } else if largest > LARGE_LEAF_FACTOR * scene.max_leaf_size {
-        ("build: a leaf is large", largest.to_string())
+        ("build: a leaf is too large", largest.to_string())
     } else {
         return None;
     };
@@ -84,7 +84,7 @@ mod tests {
             assert!(note.starts_with(start), "{note}");
         };
         starts(&CORRECT, &Tree::default(), "note: task 3, build: no tree");
-        // This submission tests every primitive in any tree.
+        // This submission tests every primitive, whatever the tree.
         starts(&CORRECT, &leaf(1), "note: task 3, traverse: `Bvh::hit`");
         // If a primitive can't be tested at all, another message says so.
         let panicking = SphereSubmission {
@@ -94,7 +94,7 @@ mod tests {
         starts(
             &panicking,
             &leaf(99),
-            "note: task 3, build: a leaf is large",
+            "note: task 3, build: a leaf is too large",
         );
         assert_eq!(note(&panicking, scene, &leaf(4)), None);
     }

@@ -1,6 +1,7 @@
 //! The steps before the first pixel. Each step prints what it is doing, since an infinite loop
-//! would otherwise look like a large scene. Each runs on a thread named after the task, since the
-//! message about a stack overflow contains only the thread's name.
+//! would otherwise look like a large scene. A step that calls the submission's code runs on a
+//! thread named after the task, since the message about a stack overflow contains only the thread's
+//! name.
 
 use std::thread;
 use std::time::Duration;
@@ -16,7 +17,7 @@ use crate::harness::probe::STACK_BYTES;
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 
-/// How long a step stays silent before it says that it is still running.
+/// How long to wait before printing that a step is still running.
 const LONG: Duration = Duration::from_secs(5);
 
 /// Runs a step and shows its name: immediately if standard error is a terminal, otherwise only if

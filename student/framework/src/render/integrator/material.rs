@@ -1,9 +1,9 @@
 //! How surfaces scatter light: matte surfaces, mirrors and glass.
 //!
-//! All directions have length one, lead away from the surface and are in the surface's frame, where
-//! +z is the normal. The normal of glass points out of the glass. Any other normal is on the side
-//! that `out` leads to. `out` leads to where the path comes from, and `incoming` to where the light
-//! comes from.
+//! All directions are unit vectors that lead away from the surface. They are in the surface's
+//! frame, where +z is the normal. The normal of glass points out of the glass. Any other normal is
+//! on the side that `out` leads to. `out` leads to where the path comes from, and `incoming` to
+//! where the light comes from.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -14,9 +14,10 @@ use crate::render::frame::sample_cosine_hemisphere;
 /// A sampled continuation of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scattered {
-    /// The direction that the path continues in.
+    /// The direction in which the path continues.
     pub(super) direction: Vec3,
-    /// The factor applied to the light from there: `evaluate` divided by the probability density.
+    /// The factor applied to the light from this direction: `evaluate` divided by the probability
+    /// density.
     pub(super) attenuation: Vec3,
     /// The probability density of the direction, per solid angle, or `None` for mirrors and glass,
     /// which have no other direction to choose.

@@ -139,8 +139,8 @@ impl Integrator<'_> {
         offset::along_ray(shape, from, on_light, sample.direction)
     }
 
-    /// Returns the weight of light that a path reaches by chance, from 0 to 1. The rest was added by
-    /// [`Integrator::direct_light`].
+    /// Returns the weight, from 0 to 1, of light that a path reaches by chance. The rest of that
+    /// light was added by [`Integrator::direct_light`].
     fn weight(
         &self,
         from: Option<(Vec3, f32)>,
@@ -164,7 +164,7 @@ fn matte(material: &Material, surface: &Surface) -> Option<Lambertian> {
     Some(Lambertian { albedo })
 }
 
-/// Returns the frame of a surface, as the materials expect it.
+/// Returns the frame of a surface, oriented as its material expects.
 fn frame(material: &Material, surface: &Surface) -> Frame {
     let is_inside_glass = matches!(material, Material::Glass { .. }) && !surface.outside;
     Frame::from_z(if is_inside_glass {
@@ -174,7 +174,8 @@ fn frame(material: &Material, surface: &Surface) -> Frame {
     })
 }
 
-/// Samples the continuation of a path in the surface's frame. Returns `None` if the path ends there.
+/// Samples the continuation of a path, in the surface's frame. Returns `None` if the path ends at
+/// the surface.
 fn scatter(
     material: &Material,
     matte: Option<Lambertian>,

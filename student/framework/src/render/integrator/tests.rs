@@ -26,7 +26,7 @@ fn render(
     renderer::render(&integrator, scene.camera.pinhole.film, samples)
 }
 
-/// Asserts that a value equals the expected value up to this relative error.
+/// Asserts that a value equals the expected value to within this relative error.
 fn assert_near(got: f32, expected: f32, error: f32) {
     assert!(
         (got / expected - 1.0).abs() < error,

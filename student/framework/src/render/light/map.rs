@@ -12,7 +12,7 @@ use crate::scene::EnvironmentMap;
 /// "Physically Based Rendering", 4th edition, section 12.5.2.
 pub(super) struct MapSampler {
     map: EnvironmentMap,
-    /// For each pixel, row by row, the total weight of this pixel and all before it.
+    /// For each pixel, row by row, the total weight of this pixel and all earlier pixels.
     cumulative: Vec<f64>,
 }
 
@@ -25,7 +25,7 @@ impl MapSampler {
         let mut total = 0.0;
         let cumulative = map.pixels().iter().enumerate().map(|(index, pixel)| {
             let row = index / width as usize;
-            // The rows near the poles stand for small solid angles.
+            // Rows near the poles cover smaller solid angles.
             let (sine, _) = sin_cos(PI * (row as f32 + 0.5) / height as f32);
             total += f64::from(pixel.dot(LUMINANCE) * sine);
             total
@@ -36,8 +36,8 @@ impl MapSampler {
         }
     }
 
-    /// Samples a direction. Of the random numbers in `[0, 1)`, `choice` picks the pixel, and
-    /// `position` a point in it. Also returns the radiance from that direction.
+    /// Samples a direction. The random numbers `choice` and `position`, in `[0, 1)`, pick the pixel
+    /// and the point within it. Also returns the radiance from that direction.
     pub(super) fn sample(&self, choice: f32, position: Vec2) -> (Vec3, Vec3) {
         let target = f64::from(choice) * self.total();
         let picked = self.cumulative.partition_point(|&sum| sum <= target);
@@ -49,7 +49,7 @@ impl MapSampler {
     }
 
     /// Returns the probability density, per solid angle, with which [`MapSampler::sample`] returns
-    /// this direction of length one.
+    /// this direction, which must be a unit vector.
     pub(super) fn pdf(&self, direction: Vec3) -> f32 {
         let index = self.map.index(self.map.pixel_at(direction));
         let before = match index {

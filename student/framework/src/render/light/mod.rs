@@ -19,7 +19,7 @@ use crate::scene::{Environment, Scene};
 pub struct Lights {
     /// In the order of the scene's shapes.
     lights: Vec<AreaLight>,
-    /// For each light, the total power of this light and all before it.
+    /// For each light, the total power of this light and all earlier lights.
     cumulative_power: Vec<f32>,
     map: Option<MapSampler>,
 }
@@ -39,7 +39,7 @@ pub enum LightSource {
 pub struct LightSample {
     /// The light in that direction.
     pub source: LightSource,
-    /// The direction to the light, of length one.
+    /// The direction to the light, as a unit vector.
     pub direction: Vec3,
     /// The distance to the light, which is infinite for the environment.
     pub distance: f32,
@@ -47,7 +47,7 @@ pub struct LightSample {
     pub radiance: Vec3,
 }
 
-/// The luminance of linear red, green and blue. See ITU-R Recommendation BT.709.
+/// The contributions of linear red, green and blue to luminance. See ITU-R Recommendation BT.709.
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 struct AreaLight {
@@ -114,8 +114,9 @@ impl Lights {
     }
 
     /// Returns the probability density, per solid angle, with which [`Lights::sample`] picks this
-    /// light and this direction, which leads to the light and has length one. It is 0 for shapes that
-    /// don't emit light, and for a constant environment. `distance` is the distance to the light.
+    /// light and this direction, which must be a unit vector toward the light. The density is 0 for
+    /// shapes that don't emit light, and for a constant environment. `distance` is the distance to
+    /// the light.
     pub fn pdf(&self, source: LightSource, from: Vec3, direction: Vec3, distance: f32) -> f32 {
         let share = if self.map.is_some() && !self.lights.is_empty() {
             0.5

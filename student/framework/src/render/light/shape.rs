@@ -87,7 +87,7 @@ impl LightShape {
     }
 
     /// Returns the probability density, per solid angle, with which [`LightShape::sample`] returns
-    /// this direction, which leads to the light and has length one. `distance` is the distance to
+    /// this direction, which must be a unit vector toward the light. `distance` is the distance to
     /// the light.
     pub(super) fn pdf(&self, from: Vec3, direction: Vec3, distance: f32) -> f32 {
         match *self {

@@ -73,7 +73,8 @@ struct CheckedFace {
     has_normal: bool,
 }
 
-/// Checks the numbers and the faces. Returns only these, in the form that `tobj` parses.
+/// Checks the numbers and the faces. Returns the statements that contain them, in the form that
+/// `tobj` parses, and the checked faces.
 fn check(statements: &[(usize, Vec<&str>)]) -> Result<(String, Vec<CheckedFace>), ObjError> {
     let kinds = || statements.iter().filter_map(|(_, words)| words.first());
     let totals = INDEXED.map(|(kind, _)| kinds().filter(|other| **other == kind).count());
@@ -99,9 +100,9 @@ fn check(statements: &[(usize, Vec<&str>)]) -> Result<(String, Vec<CheckedFace>)
     Ok((text, faces))
 }
 
-/// Returns the numbers that the mesh uses from a statement, if all numbers in the statement are
-/// finite. `v` may be followed by a weight or a colour, and the second number of `vt` may be
-/// missing.
+/// Returns those numbers in a statement that the mesh uses, provided that all of the statement's
+/// numbers are finite. `v` may be followed by a weight or a colour, and the second number of `vt`
+/// may be missing.
 fn check_numbers<'a>(
     (kind, name): (&str, &str),
     words: &[&'a str],
@@ -208,7 +209,7 @@ fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
         let points = corners.map(|&i| positions[i as usize].as_dvec3());
         let triangles = triangulate(&points.collect::<Vec<DVec3>>()).ok_or_else(|| {
             let message = "the outline of this face crosses itself: list the corners in order \
-                           around it, or export the mesh as triangles";
+                           around the face, or export the mesh as triangles";
             (Some(face.line), message.to_owned())
         })?;
         for triangle in triangles {

@@ -1,6 +1,6 @@
-//! Measures what the sandbox costs: starts a probe (up to its first answer) and compiles a
-//! submission, each with and without the sandbox. The two kinds of runs alternate, so that a busy
-//! machine affects both.
+//! Measures the cost of the sandbox by starting a probe (up to its first answer) and compiling a
+//! submission, each with and without the sandbox. Runs with and without it alternate, so that a
+//! busy machine affects both.
 //!
 //! `cargo bench -p grader --bench sandbox` prints CPU time and wall time at the best available
 //! isolation level.

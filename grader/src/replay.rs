@@ -112,7 +112,8 @@ impl ExamRun {
     }
 
     /// Returns the indices of the first question that was answered wrongly and of the wrong element
-    /// in it, or of the question and the element that crash or hang the program.
+    /// in it. If the program crashed or hung, returns the indices of the question and the element
+    /// that caused this, or zeros if they aren't known.
     fn first_wrong(&self, item: &Item) -> Option<(usize, usize)> {
         let Ok(answers) = &self.answers else {
             return Some(self.culprit.unwrap_or((0, 0)));

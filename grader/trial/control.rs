@@ -1,5 +1,5 @@
-//! The control program. If the system kills a submission's program but then runs this one to the
-//! end, the machine isn't to blame.
+//! The control program. If the system kills a submission's program but then runs the control
+//! program to the end, the machine isn't to blame.
 
 /// The most memory a program may use and still be considered small.
 const BYTES: usize = 256 << 20;

@@ -13,8 +13,8 @@ use protocol::{Geometry, Question, Ray, Shape, Vertex, wire};
 
 const ROUNDS: usize = 7;
 const RAYS: usize = 100_000;
-/// How many more times the questions are answered in one process. The time for these repetitions
-/// doesn't include reading the questions.
+/// The number of times that the in-process program answers the questions again. The time for these
+/// repetitions doesn't include reading the questions.
 const REPETITIONS: u32 = 20;
 const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(60));
 

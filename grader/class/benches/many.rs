@@ -74,7 +74,7 @@ fn main() {
     println!("median {of_baseline:28.2}  {of_most:24.2}");
 }
 
-/// Grades the class into a new folder. Returns the cost.
+/// Grades the class, with a new output folder. Returns the cost.
 fn grade(class: &Path) -> Cost {
     let out = TempDir::new().expect("a temporary folder can be created");
     let mut command = Command::new(env!("CARGO_BIN_EXE_class"));

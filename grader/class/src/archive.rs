@@ -24,8 +24,8 @@ impl Default for ArchiveWriter {
 }
 
 impl ArchiveWriter {
-    /// Adds a file. If the name is taken, a number is added to it. The file gets no modification
-    /// time, so that the archive depends only on the files' contents.
+    /// Adds a file. If the name is taken, a number is appended to its stem. The file gets no
+    /// modification time, so that the archive depends only on the files' contents.
     pub fn add(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
         let numbered = (2..).map(|number| format!("{stem}-{number}.{end}"));

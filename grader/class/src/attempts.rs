@@ -117,8 +117,8 @@ fn choose(
     }
 }
 
-/// Returns the candidate with the latest time or the highest number. If two candidates share it,
-/// returns `None`, since neither is the last.
+/// Returns the candidate with the latest time or the highest number. If two candidates are tied,
+/// returns `None`.
 fn only_last<T: Ord>(candidates: &[usize], keys: &[T]) -> Option<usize> {
     let latest = keys.iter().max()?;
     let all = candidates.iter().zip(keys);
@@ -135,7 +135,7 @@ mod tests {
     use crate::entry::Person;
     use crate::graded_class::tests::{fault, graded, nothing, person, policy, result};
 
-    /// Returns a row for each submission, which is described by its id, outcome and time.
+    /// Returns a row for each submission, given its id, outcome and time.
     fn rows(policy: &Policy, submissions: &[(&str, EntryOutcome, Option<&str>)]) -> Vec<ClassRow> {
         let row = |(id, outcome, time): &(&str, EntryOutcome, Option<&str>)| {
             let mut result = result(id, &["Ann"], outcome.clone());

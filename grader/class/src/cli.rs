@@ -146,7 +146,7 @@ pub struct Lists {
     #[arg(skip)]
     pub policy: Option<PathBuf>,
 
-    /// The list of people that the platform's download contains in addition to the submissions.
+    /// The list of people included in the platform's download along with the submissions.
     #[arg(skip)]
     pub downloaded: Option<PathBuf>,
 

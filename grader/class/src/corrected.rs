@@ -1,5 +1,5 @@
-//! Corrected hand-ins, whose files replace those of submissions that could not be graded. Such a
-//! submission keeps its students and its submission time.
+//! Corrected hand-ins. Their files replace the files of submissions that could not be graded, while
+//! the students and the submission times stay the same.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,11 +1,11 @@
-//! The distribution of points over a class.
+//! The distribution of a class's points.
 
 use serde::Serialize;
 
 /// The number of bins in a distribution.
 pub const BINS: usize = 10;
 
-/// The distribution of points over a class, for the exam or a task.
+/// The distribution of a class's points for the exam or a task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Distribution {
     /// The maximum number of points for the exam or task.
@@ -22,7 +22,8 @@ pub struct Distribution {
     pub most: u32,
     /// The mean, rounded to one decimal place.
     pub mean: f64,
-    /// The number of submissions in each tenth of `of`. Full points fall into the last tenth.
+    /// The number of submissions in each tenth of the range from 0 to `of`. Submissions with full
+    /// points are counted in the last tenth.
     pub bins: [usize; BINS],
 }
 

@@ -45,8 +45,8 @@ pub struct EntryInfo {
     /// Why it is unclear who handed in the submission, if it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unclear_person: Option<String>,
-    /// Whether staff provided lists, but none of the people is on them. `false` if it is unclear
-    /// who the people are.
+    /// Whether none of the people is on the lists that staff provided. `false` if there are no
+    /// lists or if it is unclear who the people are.
     #[serde(default, skip_serializing_if = "Not::not")]
     pub is_unlisted: bool,
     /// The number of this attempt among the attempts by the same people, if the platform counts
@@ -131,7 +131,7 @@ pub struct Person {
 }
 
 impl Entry {
-    /// Returns an entry without files, which only staff can correct.
+    /// Returns an entry without files, for a submission with a problem that only staff can correct.
     pub fn left_to_staff(name: &str, why: impl Into<String>) -> Self {
         let source = Source::Missing(why.into());
         let mut entry = Entry::new(name, Person::named_by_file(name), name, source);
@@ -139,7 +139,7 @@ impl Entry {
         entry
     }
 
-    /// Marks the entry as one without files, which only staff can correct.
+    /// Marks the entry as having no files because of a problem that only staff can correct.
     pub fn leave_to_staff(&mut self, why: impl Into<String>) {
         self.source = Source::Missing(why.into());
         self.info.needs_staff = true;
@@ -211,8 +211,9 @@ impl Person {
         if self.is_listed { &self.number } else { "" }
     }
 
-    /// Returns whether the person has the number and a name similar to `name`, both from the same
-    /// row of a list. In a list without names, `name` is text such as `Participant 51`.
+    /// Returns whether the person has this number and, if both names are known, a name similar to
+    /// `name`. `number` and `name` come from the same record, such as a row of a list. In a list
+    /// without names, `name` is text such as `Participant 51`.
     pub fn has_number(&self, number: &str, name: &str) -> bool {
         let numbered = format!("{}{}", self.name, self.number);
         let pairs = [(&*self.name, name), (name, &self.name), (&numbered, name)];
@@ -269,9 +270,9 @@ impl Person {
         }
     }
 
-    /// Returns whether both records describe the same person. Only unique identifiers are compared.
-    /// A name on its own is never enough, since two people may share one. A number isn't enough
-    /// either.
+    /// Returns whether both records describe the same person. They must share a unique identifier,
+    /// or they must have the same number and, if both names are known, similar names. A name on its
+    /// own is never enough, since two people may have the same name.
     pub fn matches(&self, other: &Person) -> bool {
         let pairs = self.own_identifiers().into_iter();
         let mut pairs = pairs.zip(other.own_identifiers());

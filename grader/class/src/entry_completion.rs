@@ -32,7 +32,7 @@ pub struct ListFindings {
     people: Vec<Person>,
     /// The number of entries.
     entries: usize,
-    /// The names of the entries whose people are on no list. Empty if there are no lists.
+    /// The names of the entries in which nobody is on a list. Empty if there are no lists.
     unlisted: Vec<String>,
 }
 
@@ -119,8 +119,8 @@ fn fill_in(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     roster::fill_in(rows, &mut people.collect::<Vec<_>>());
 }
 
-/// Returns whether somebody in the entry is on a list, or staff provided no lists. Canvas's test
-/// student is never on a list.
+/// Returns whether somebody in the entry is on a list. Also returns `true` if staff provided no
+/// lists, and for Canvas's test student, who is never on a list.
 fn is_listed(rows: &[Member], info: &EntryInfo) -> bool {
     let mut people = info.people.iter();
     // The list in the download always belongs to this class.

@@ -154,8 +154,8 @@ impl FinalGrades {
         }
     }
 
-    /// Returns a sentence about an earlier grade that is missing here, although its submission is
-    /// present.
+    /// Returns a sentence about an earlier grade that is missing from this run although its
+    /// submission is still present.
     fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
         (was.counts.is_some() && self.find(was).is_none()).then(|| {

@@ -9,9 +9,10 @@ use crate::list_kind::ListKind;
 use crate::names::{are_same_name, can_become, fold, joined};
 use crate::roster::Member;
 
-/// If an entry is named after a group and matches nobody, assigns it to the group's members. They
-/// come from the roster or, if the group isn't in it, from another list. If several groups could be
-/// meant, it isn't assigned to any of them. Returns whether any members were found.
+/// If an entry is named after a group and matches nobody, assigns it to the group's members. The
+/// members come from the roster or, if the group isn't in the roster, from another list. An entry
+/// whose name could refer to several groups isn't assigned to any of them. Returns whether any
+/// members were found.
 pub fn resolve_teams(rows: &[Member], entries: &mut [&mut EntryInfo]) -> bool {
     let mut has_teams = false;
     for info in entries {

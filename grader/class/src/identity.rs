@@ -10,8 +10,8 @@ use crate::names::{are_equal, are_same_name, fold};
 /// One person's part in a submission: the index of the row, and the person's index in that row.
 pub type Attempt = (usize, usize);
 
-/// Returns the attempts of each person. Only unique identifiers are compared, unless only a name is
-/// known.
+/// Returns the attempts of each person. People are compared by their unique identifiers, or by name
+/// if nothing else is known about them.
 pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<Vec<Attempt>> {
     let (mut attempts, mut people) = (Vec::new(), Vec::new());
     for (row, own) in rows.enumerate() {

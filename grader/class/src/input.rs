@@ -18,7 +18,7 @@ use crate::outcome::EntryOutcome;
 use crate::roster::Member;
 use crate::unpack::{CLASS_FOLDER, unpack};
 
-/// The maximum length of a reason that lists names, in characters.
+/// The maximum length, in characters, of a reason that lists names.
 const MAX_CHARS: usize = 600;
 
 /// The submissions of a class, before their files are read. If they were unpacked from an archive,

@@ -22,12 +22,12 @@ use crate::names::are_equal;
 pub struct UnclearTime {
     /// The reason, followed by what to do about it.
     pub why: String,
-    /// Whether the student hasn't submitted the files, according to Moodle.
+    /// Whether, according to Moodle, the files are a draft that the student hasn't submitted.
     pub is_draft: bool,
 }
 
-/// The reason for an unclear time if the platform only says that the submission is late and the
-/// person has an extension.
+/// The reason reported if the platform says only that the submission is late, but the person has an
+/// extension.
 pub const ONLY_A_FLAG: &str = "the platform says that the submission is late, but an extension can \
     be applied only if the submission time and the due time are known: add a `datetime` column to \
     the roster, and `due` to the policy";
@@ -213,8 +213,8 @@ fn extension_problems<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<(&'a st
     policy.late.extensions.keys().filter_map(problem).collect()
 }
 
-/// Returns whether the policy sets a due time, but the submission has neither a time nor a late
-/// flag. Such a submission is treated as on time.
+/// Returns whether the submission has neither a time nor a late flag, although the policy sets a
+/// due time. Such a submission is treated as on time.
 pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
     policy.late.due.is_some() && !info.is_late() && info.submitted().is_none()
 }

@@ -48,7 +48,7 @@ pub struct LayoutChoice {
 }
 
 impl LayoutChoice {
-    /// Returns this choice. Missing parts are taken from the last run's choice.
+    /// Returns this choice, with missing parts taken from the last run's choice.
     #[must_use]
     pub fn or(&self, last: &LayoutChoice) -> Self {
         LayoutChoice {

@@ -217,7 +217,7 @@ impl ManualPoints {
         })
     }
 
-    /// If nobody has exactly the name in the row, but it differs from one person's name only in
+    /// If no person's name is identical to the row's, but exactly one differs from it only in
     /// punctuation, returns the points with that person's name. Otherwise, returns the points
     /// unchanged.
     fn with_name_of(mut self, entries: &[&mut EntryInfo]) -> Self {

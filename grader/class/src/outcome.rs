@@ -91,7 +91,7 @@ pub struct FileNotes {
 pub struct UncompiledFile {
     /// The file's name, such as `sphere.rs`.
     pub file: String,
-    /// Whether the submission doesn't contain the file.
+    /// Whether the file is missing from the submission.
     #[serde(default, rename = "missing")]
     pub is_missing: bool,
 }
@@ -192,7 +192,7 @@ pub struct Stamp {
 }
 
 impl ScoreSummary {
-    /// Parses a score file. The file may come from another machine, so it is an error if it
+    /// Parses a score file. Since the file may come from another machine, it is rejected if it
     /// contains more points than an exam can have.
     pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
         /// The maximum number of points in a score file. No exam has more, and the sum over a class

@@ -34,7 +34,7 @@ pub enum Completion {
     Incomplete,
 }
 
-/// Everything that a class's files are made from, other than the results of its submissions.
+/// Everything that is needed to write a class's files, other than the results of its submissions.
 pub struct ClassContext<'a> {
     /// The output folder.
     pub store: &'a Store,

@@ -14,7 +14,7 @@ use crate::shard::Shard;
 pub struct Run {
     /// The format version of `run.json`.
     pub schema: u32,
-    /// The round, counted from 1. `--regrade` starts the next round.
+    /// The number of the round, counting from 1. `--regrade` starts the next round.
     pub round: u32,
     /// The state of the round.
     pub state: RoundState,
@@ -106,7 +106,8 @@ impl Run {
         }
     }
 
-    /// Returns the run with the state that it has once it is resumed.
+    /// Returns the resumed run. If the round was finished, its state becomes
+    /// [`RoundState::Resumed`]. Otherwise, the state doesn't change.
     #[must_use]
     pub fn resume(self) -> Self {
         let state = if self.was_finished() {

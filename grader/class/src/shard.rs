@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// A part of a class that is divided into `of` parts. `part` is its number, starting at 1.
+/// One of the `of` parts that a class is divided into. `part` is its number, counting from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     part: usize,

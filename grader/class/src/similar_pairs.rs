@@ -1,5 +1,6 @@
-//! Reads which submissions a similarity checker found similar. The checker compared the numbered
-//! files that `--similarity-input` wrote, and the key next to their folder says whose they are.
+//! Reads the pairs of files that a similarity checker found similar. The checker compared the
+//! numbered files that `--similarity-input` wrote, and the key next to the folder of these files
+//! says whose they are.
 
 use std::collections::HashMap;
 use std::ffi::OsStr;
@@ -37,8 +38,8 @@ pub struct ComparedFile {
     pub lines: String,
 }
 
-/// The titles of the columns with both names and the similarity, first in Dolos's `pairs.csv`, then
-/// in the `results.csv` that JPlag's `--csv-export` writes.
+/// The titles of the columns that contain the two names and the similarity: first those in Dolos's
+/// `pairs.csv`, then those in the `results.csv` that JPlag's `--csv-export` writes.
 const COLUMNS: [[&str; 3]; 2] = [
     ["leftFilePath", "rightFilePath", "similarity"],
     ["submissionName1", "submissionName2", "averageSimilarity"],
@@ -129,8 +130,8 @@ fn read_archive(results: &Path) -> Result<Vec<ResultRow>, Error> {
     Ok((1..).zip(rows).collect())
 }
 
-/// Reads a file with results, but not the students' lines. Leaves out pairs of files from different
-/// tasks.
+/// Reads the pairs in a file of results, but not yet the students' lines. Leaves out pairs of files
+/// from different tasks.
 fn read_results(folder: &Path, results: &Path) -> Result<Vec<SimilarPair>, Error> {
     let (key, shown) = (read_key(folder)?, results.display());
     let extension = results.extension().and_then(OsStr::to_str);

@@ -104,8 +104,8 @@ impl SubmissionGrader for Grader<'_> {
     }
 }
 
-/// Returns the options that scores depend on, as text. Options stored as separate settings and
-/// options that `cargo class` doesn't have are left out.
+/// Returns the options that scores depend on, as text. Leaves out options that are stored as
+/// separate settings or that `cargo class` doesn't have.
 fn options_of_scores(options: &GradeOptions) -> String {
     // Don't use `..` here, so that adding an option is a compile error until this function handles
     // it.

@@ -1,4 +1,4 @@
-//! The summary of a class in numbers, written to `class.json`.
+//! A numerical summary of a class, written to `class.json`.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -48,7 +48,7 @@ pub struct ClassSummary {
     /// The number of submissions that aren't used because another submission by the same person
     /// counts.
     pub superseded: usize,
-    /// The number of submissions the teacher has yet to choose or reject.
+    /// The number of submissions that the teacher has yet to choose or reject.
     pub undecided: usize,
     /// The distribution of the total points, or `None` if there are no scores.
     pub points: Option<Distribution>,
@@ -107,7 +107,7 @@ pub struct Outlier {
     pub id: String,
     /// The names of its people.
     pub names: String,
-    /// The reasons that the submission needs attention, as text.
+    /// The reasons why the submission needs attention, as text.
     pub why: String,
     /// Whether the submission has a report.
     #[serde(skip)]
@@ -117,7 +117,7 @@ pub struct Outlier {
     pub reasons: Vec<Reason>,
 }
 
-/// A reason that submissions need attention, and advice.
+/// A reason why submissions need attention, with advice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reason {
     /// The cause, which several submissions can share.
@@ -290,8 +290,8 @@ fn causes(scores: &[&ScoreSummary]) -> Vec<Cause> {
     causes
 }
 
-/// Returns the causes of a task's lost points. Each comes with the item that shows it, unless it
-/// concerns the entire task.
+/// Returns the causes of the points lost in a task. Each cause comes with the item that shows it,
+/// unless it concerns the entire task.
 fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
     let is_cause = |item: &&ItemScore| item.points < item.max_points && item.blocked_by.is_none();
     let failed = task.items.iter().filter(is_cause);

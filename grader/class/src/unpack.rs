@@ -22,9 +22,9 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// The maximum size of a source file, in bytes. For a longer file, one more byte is unpacked, so
 /// that it is recognised as too long.
 const MAX_TEXT_BYTES: u64 = 1 << 20;
-/// The maximum total size of the unpacked files, in bytes, to which [`MAX_EXPANSION`] times the
-/// archive's size is added. The sum is enough, since students' archives are already compressed and
-/// their source files are short.
+/// The fixed part of the maximum total size of the unpacked files, in bytes. [`MAX_EXPANSION`]
+/// times the archive's size is added to it. The sum is large enough, since students' archives are
+/// already compressed and their source files are short.
 const MAX_TOTAL_BYTES: u64 = 1 << 30;
 /// The number of bytes that each byte of the archive adds to [`MAX_TOTAL_BYTES`].
 const MAX_EXPANSION: u64 = 4;
@@ -121,7 +121,7 @@ fn unpack_files(
 }
 
 /// The archive members to read (and how many bytes of each), and the members to create as empty
-/// files. If an empty file's contents would be needed, the string is the reason for not reading
+/// files. If the contents of an empty file are needed, its string is the reason for not reading
 /// them.
 type Selection<'a> = (Vec<(&'a Member, u64)>, Vec<(&'a Member, Option<String>)>);
 
@@ -165,8 +165,8 @@ fn is_wanted(path: &str) -> bool {
     !path.split('/').any(is_skipped_name)
 }
 
-/// Returns the maximum number of bytes of a file that are needed later. This is 0 for most files,
-/// since only their names matter.
+/// Returns how many bytes of a file can be needed later. This is 0 for most files, since only their
+/// names matter.
 fn max_bytes(path: &str, handed_out: &HandedOut) -> u64 {
     let name = path.rsplit('/').next().unwrap_or(path);
     match name {

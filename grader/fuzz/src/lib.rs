@@ -1,9 +1,9 @@
 //! Fuzz targets for all parsers of untrusted input. No input may make a parser panic, hang, or use
 //! memory out of proportion to the input's size.
 //!
-//! Each target is a function that takes bytes. `cargo test -p fuzz` runs it on the corpus, changes
-//! to the corpus and noise, on any machine. `cargo fuzz run` (see README.md) runs it for as long as
-//! needed.
+//! Each target is a function that takes bytes. `cargo test -p fuzz` runs it on the corpus, on
+//! changed copies of the corpus and on noise. This works on any machine. `cargo fuzz run` (see
+//! README.md) runs it for as long as needed.
 
 mod answers;
 mod exam;

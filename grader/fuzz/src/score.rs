@@ -10,8 +10,9 @@ use class::run::{Run, Settings};
 use class::summary::ClassSummary;
 use grader::policy::Policy;
 
-/// Reads the bytes as a score, and also as each of the other files of an entry or a run. If the
-/// bytes are a valid score, it must be possible to write all of a class's files from that score.
+/// Reads the bytes as a score, and also as every other kind of file that belongs to an entry or a
+/// run. If the bytes are a valid score, it must be possible to write all of a class's files from
+/// that score.
 pub fn read(bytes: &[u8]) {
     let json = String::from_utf8_lossy(bytes);
     let stamp: Result<Stamp, _> = serde_json::from_str(&json);

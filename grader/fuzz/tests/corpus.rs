@@ -1,4 +1,5 @@
-//! Runs the fuzz targets as ordinary tests, on the corpus, changes to it and noise.
+//! Runs the fuzz targets as ordinary tests: on the inputs in the corpus, on changed inputs and on
+//! noise.
 
 use std::fs::File;
 use std::io::Read as _;

@@ -15,7 +15,7 @@ impl ContentHash {
         self.0.update(part);
     }
 
-    /// Returns the hash with one more part.
+    /// Returns this hash with another part added.
     pub fn with(mut self, part: &[u8]) -> Self {
         self.add(part);
         self

@@ -33,7 +33,7 @@ pub struct TraversalStep {
     /// Whether the node is entered, i.e. whether its children are visited or its primitives are
     /// tested.
     pub is_entered: bool,
-    /// Interval where the ray is inside the node's box, ignoring the ray's range.
+    /// Interval during which the ray is inside the node's box, ignoring the ray's range.
     pub span: Option<Interval>,
 }
 

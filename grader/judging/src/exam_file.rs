@@ -238,7 +238,7 @@ fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
     .then(|| "its signatures refer to mistakes or elements that do not exist".to_owned())
 }
 
-/// Returns whether the key fits the question, and the number of elements in the key.
+/// Returns whether the key fits the question. Also returns the number of elements in the key.
 fn match_key(question: &Question, key: &Key) -> (bool, usize) {
     match (key, question) {
         (Key::Table { judged, rows, .. }, question) => {

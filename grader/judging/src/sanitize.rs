@@ -55,8 +55,8 @@ fn is_invisible(c: char) -> bool {
     )
 }
 
-/// Returns whether this is the zero width joiner or non-joiner. They are needed in Persian, in
-/// Indian and other scripts, and in emoji.
+/// Returns whether the character is the zero width joiner or non-joiner. These are needed in
+/// Persian, in Indic and other scripts, and in emoji.
 fn is_joiner(c: char) -> bool {
     matches!(c, '\u{200c}' | '\u{200d}')
 }

@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 /// The name of the quantity that says whether there is an answer at all, such as a hit.
 pub const PRESENCE: &str = "hit or miss";
 
-/// A wrong quantity, and the side on which it is wrong. As part of an assignment's or an item's
-/// data, a symptom without a side stands for both sides.
+/// A wrong quantity, and the side on which it is wrong. In the data of an assignment or an item, a
+/// symptom without a side stands for both sides.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Symptom {
     /// The quantity, such as `distance`, `hit or miss` or `box too small`.
     pub what: Cow<'static, str>,
-    /// The side, if the quantity has two.
+    /// The side, for a quantity that has two sides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
 }
@@ -60,8 +60,8 @@ impl Symptom {
         }
     }
 
-    /// Returns whether this symptom from an assignment's or an item's data covers the observed
-    /// symptom.
+    /// Returns whether this symptom, which comes from an assignment's or an item's data, covers the
+    /// observed symptom.
     pub fn includes(&self, observed: &Symptom) -> bool {
         self.what == observed.what && (self.side.is_none() || self.side == observed.side)
     }

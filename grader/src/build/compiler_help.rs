@@ -15,7 +15,7 @@ const MOVES: &str = "cpp.md#slices-and-partitions";
 const BORROWS: &str = "cpp.md#recursion-that-fills-a-vector";
 
 /// Triples of an error code, words in the compiler's text, and the section that explains errors
-/// with both. Syntax errors have no code. The first match is used.
+/// that match both. Syntax errors have no code. The first match is used.
 const SECTIONS: [(&str, &str, &str); 41] = [
     ("", "expected `;`", BLOCKS),
     ("", "expected one of `.`, `;`", BLOCKS),

@@ -83,8 +83,8 @@ impl Rustc {
         }
     }
 
-    /// Returns bytes that identify everything other than the sources that the compiler's output
-    /// depends on.
+    /// Returns bytes that identify everything that the compiler's output depends on, apart from the
+    /// sources.
     pub fn identity(&self) -> &[u8] {
         // The folder's name is a hash of the compiler and the dependencies' sources.
         self.dependencies.folder.as_os_str().as_encoded_bytes()

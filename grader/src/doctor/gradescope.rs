@@ -1,4 +1,4 @@
-//! Checks the package for Gradescope, which is a zip.
+//! Checks the package for Gradescope, which is a zip file.
 
 use std::path::Path;
 

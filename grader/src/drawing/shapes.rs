@@ -1,4 +1,4 @@
-//! Draws a ray and the relevant one of several shapes.
+//! Draws a ray and whichever of the shapes is relevant to it.
 
 use glam::DVec3;
 use protocol::Shape;

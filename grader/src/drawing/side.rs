@@ -52,7 +52,7 @@ impl SideView<'_> {
         dvec2(aside.dot(self.dir.cross(self.up)), aside.dot(self.up))
     }
 
-    /// Returns the points of the expected and the submitted hit in the plane.
+    /// Returns the points of the expected and the submitted hit, projected onto the plane.
     fn hits(&self) -> [Option<DVec2>; 2] {
         let wanted = self.comparison.wanted.map(|hit| hit.position.as_dvec3());
         [wanted, self.comparison.got_point()].map(|point| Some(self.project(point?)))

@@ -1,5 +1,5 @@
-//! Draws a ray and a sphere in the plane through the ray and the sphere's centre, where the sphere
-//! is a circle.
+//! Draws a ray and a sphere in the plane through the ray and the sphere's centre, in which the
+//! sphere appears as a circle.
 
 use glam::{DVec2, DVec3, dvec2};
 

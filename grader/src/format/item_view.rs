@@ -12,7 +12,7 @@ pub struct ItemView {
     pub task: Task,
     /// The item, without the parts that the policy hides.
     pub item: ItemScore,
-    /// When students may see the item.
+    /// How much of the item students may see, and when.
     pub visibility: Visibility,
 }
 

@@ -34,8 +34,8 @@ struct Output {
 
 impl Outputs {
     /// Resolves the path of each requested output. A path in the request takes precedence over the
-    /// platform's path. If there is neither, the output goes to a file in `folder`. Fails if the
-    /// environment lacks a variable that a format needs.
+    /// platform's path. If neither path is given, the output goes to a file in `folder`. Fails if
+    /// the environment lacks a variable that a format needs.
     pub fn new(
         specs: &[OutputSpec],
         folder: &Path,

@@ -136,8 +136,8 @@ mod tests {
     use super::*;
     use crate::format::tests::sample;
 
-    /// Returns the students' view of the sample as if it were for a final exam. `items` lists the
-    /// exceptions to full visibility.
+    /// Returns the students' view of the sample, treated as the score of a final exam. `items`
+    /// lists the exceptions to full visibility.
     fn view(items: &str) -> StudentView {
         let policy = format!("[visibility]\nfinal = 'all'\n[visibility.items]\n{items}");
         sample::view(&sample::of_final_exam(sample::score()), &policy, 0)

@@ -43,7 +43,7 @@ impl<'a> PreparedSubmission<'a> {
         })
     }
 
-    /// Returns the builder, which doesn't have a sandbox yet. The first call prepares the builder.
+    /// Returns the builder, preparing it on the first call. It doesn't have a sandbox yet.
     pub fn builder(&mut self) -> Result<&Builder, Error> {
         let builder = match self.builder.take() {
             Some(builder) => builder,
@@ -82,7 +82,7 @@ pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf
         .join(safe_folder_name(&submission.name))
 }
 
-/// Returns the builder. It uses the reference's parts if they exist and the options allow it.
+/// Prepares a builder that uses the reference's parts if they exist and the options allow it.
 pub(super) fn builder(options: &GradeOptions, workspace: &Workspace) -> Result<Builder, Error> {
     let builder = Builder::prepare(workspace)?;
     match workspace.reference(options.handed_out) {

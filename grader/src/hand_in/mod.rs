@@ -21,7 +21,7 @@ use crate::workspace::Workspace;
 
 pub use archive::archive_bytes;
 
-/// The name of the archive, in the workspace's root.
+/// The name of the archive, which is written to the workspace's root by default.
 const ARCHIVE: &str = "handin.zip";
 
 /// Packs the archive to hand in, checks it the way the grader will, and lists its contents
@@ -43,7 +43,7 @@ pub struct HandInArguments {
     pub assignment: Option<&'static HandedOut>,
 }
 
-/// An archive that was made and checked.
+/// An archive that has been made and checked.
 #[derive(Debug)]
 pub struct HandIn {
     /// The path of the archive.

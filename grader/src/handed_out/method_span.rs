@@ -22,7 +22,7 @@ pub struct MethodSpan<'a> {
     pub name: &'a str,
     /// The index of the name's first byte in the text.
     pub name_start: usize,
-    /// The method's bytes in the text, from its documentation to its closing brace.
+    /// The range of the method's bytes in the text, from its documentation to its closing brace.
     pub bytes: Range<usize>,
 }
 

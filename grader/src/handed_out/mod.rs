@@ -118,8 +118,9 @@ impl HandedOut {
         self.reference.trim_end_matches("/src")
     }
 
-    /// Returns the names of the reference's files that make up the parts for a substituted file:
-    /// all files except the crate's root and the files that are compiled with the submission.
+    /// Returns the names of the reference files that are used as the parts when a file is
+    /// substituted: all files except the crate's root and the files that are compiled with the
+    /// submission.
     pub fn parts(&self, substituted: &SubstitutedFile) -> impl Iterator<Item = &'static str> {
         let given = self.given.iter().skip(1).map(|file| file.name);
         let all = self.file_names().chain(given);
@@ -166,8 +167,8 @@ impl HandedOut {
         folders.filter(has_task_file)
     }
 
-    /// Returns the given methods in a task file whose versions in `text` differ from the starter's.
-    /// A note in the report lists these methods.
+    /// Returns the given methods of a task file that are missing from `text` or differ there from
+    /// the starter's versions. A note in the report lists these methods.
     pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<ChangedMethod> {
         let text = tokens(text);
         let is_to_write = |task: &TaskInfo, name| task.file == file.name && task.method == name;

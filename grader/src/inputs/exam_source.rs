@@ -21,7 +21,7 @@ pub const PRACTICE_ID: &str = "practice";
 /// The name of the practice exam's file, for error messages.
 const PRACTICE_FILE: &str = "practice.json";
 
-/// The action that error messages name if the exam cannot be read.
+/// The action named in error messages if the exam cannot be read.
 const ACTION: &str = "read the exam";
 
 /// The source of an exam.

@@ -1,7 +1,7 @@
 //! Suggestions for misspelt names.
 
-/// Returns the known name that is nearest to a misspelt one, or `None` if even the nearest name
-/// differs by more than one edit per three characters, so that a typo is implausible.
+/// Returns the known name that is nearest to a misspelt name. Returns `None` if even the nearest
+/// name differs by more than one edit per three characters, which is too many for a typo.
 pub fn nearest_name<'a>(
     misspelt: &str,
     known: impl IntoIterator<Item = &'a str>,

@@ -11,7 +11,7 @@ pub enum TaskSelection {
     /// All tasks.
     #[default]
     All,
-    /// Some of the tasks. Their points don't make up a score.
+    /// Only some of the tasks. Their points alone don't make up a score.
     Only(Vec<Task>),
 }
 
@@ -52,7 +52,7 @@ pub enum TaskOrFile {
     /// The task with this id.
     Task(Task),
     /// The file with this name, which stands for all tasks in that file. In a list of files to
-    /// reset, a given file is also allowed.
+    /// reset, it may also be a given file.
     File(&'static str),
 }
 

@@ -24,7 +24,8 @@ pub struct PathError {
 
 /// Adds a path to the error of a system call.
 pub trait AtPath<T> {
-    /// Adds the path, and `action` as the words between "cannot" and the path.
+    /// Adds the path to the error, whose message begins with "cannot", the words in `action` and
+    /// the path.
     fn at(self, action: &'static str, path: impl AsRef<Path>) -> Result<T, PathError>;
 }
 

@@ -17,7 +17,7 @@ pub struct TaskPoints<'a> {
     pub max_points: u32,
     /// The points that staff added or deducted manually.
     pub manual: i32,
-    /// The items. Each one comes after the items that it depends on.
+    /// The items, each listed after the items that it depends on.
     pub items: Vec<ItemPoints<'a>>,
 }
 

@@ -18,7 +18,8 @@ pub struct FinalPoints {
     pub earned_of: u32,
     /// The points that staff added or deducted manually.
     pub manual: i32,
-    /// Sentences, without full stops, about items and tasks whose points differ from the exam's.
+    /// Sentences, without full stops, about items and tasks whose points differ from those in the
+    /// exam.
     pub changes: Vec<String>,
     /// The number of days that have started since the due time, including free days.
     pub late_days: u32,
@@ -35,14 +36,14 @@ pub enum Deduction {
     FreeDays,
     /// A percentage is deducted.
     Percent {
-        /// The total percentage for all late days that aren't free.
+        /// The total percentage deducted for all late days that aren't free.
         percent: u32,
         /// The points that the percentage refers to.
         of: PercentBase,
         /// The number of late days that are free.
         free_days: u32,
     },
-    /// The points are limited to this percentage of all points.
+    /// The points are limited to this percentage of the maximum.
     Limit(u32),
     /// The submission is too late: after this many days, no points are given.
     Closed {

@@ -32,7 +32,7 @@ impl Policy {
     }
 
     /// Returns the final points for these tasks. First, items are removed, the points that staff
-    /// gave manually are added, and tasks are reweighted. Then lateness is considered.
+    /// gave manually are added, and tasks are reweighted. Then lateness is taken into account.
     pub fn count(&self, tasks: &[TaskPoints], lateness: Lateness) -> FinalPoints {
         let basis = self.points.basis(tasks);
         let out_of = self.points.out_of.unwrap_or(basis.out_of);

@@ -39,7 +39,7 @@ pub struct Policy {
     pub points: PointsPolicy,
     /// Deductions for late submissions.
     pub late: LatePolicy,
-    /// The choice among several submissions by one person.
+    /// How to choose among several submissions by the same person.
     pub attempts: AttemptsPolicy,
     /// Visibility of results.
     pub visibility: VisibilityPolicy,
@@ -55,14 +55,14 @@ pub struct PointsPolicy {
     pub rounding: Rounding,
     /// The ids of items that are removed from the exam after it has been graded.
     pub void: Vec<String>,
-    /// How the points of these items are treated.
+    /// How the points for these items are treated.
     pub void_points: VoidPoints,
     /// Points for the tasks that don't keep their points from the exam, keyed by the task's id. A
     /// task with 0 points is left out.
     pub tasks: BTreeMap<String, u32>,
 }
 
-/// How the points of removed items are treated.
+/// How the points for removed items are treated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VoidPoints {
@@ -107,7 +107,7 @@ pub struct LatePolicy {
     pub percent_per_day: u32,
     /// Whether `percent_per_day` is a percentage of the points earned or of the maximum.
     pub percent_of: PercentBase,
-    /// Maximum final points of a late submission, in percent of all points.
+    /// Maximum final points for a late submission, as a percentage of all points.
     pub most_percent: u32,
     /// Number of days after which a submission gets no points, or `None` if there is no such limit.
     pub closed_after_days: Option<u32>,
@@ -115,15 +115,15 @@ pub struct LatePolicy {
     pub extensions: BTreeMap<String, Extension>,
 }
 
-/// The choice among several submissions by one person.
+/// How to choose among several submissions by the same person.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttemptsPolicy {
-    /// The rule that chooses the submission.
+    /// The rule for choosing the submission that counts.
     pub counts: AttemptRule,
 }
 
-/// The rule that chooses one of several submissions by one person.
+/// The rule for choosing one of several submissions by the same person.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AttemptRule {

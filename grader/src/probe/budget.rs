@@ -67,12 +67,12 @@ impl Budget {
 #[derive(Clone, Debug)]
 pub struct Allowance {
     budget: Budget,
-    /// The time that the tasks before this one have used, as far as it is known.
+    /// The time that the tasks before this one have used, as far as is known.
     before: TimeUsed,
     /// The time that this task has used.
     used: TimeUsed,
-    /// The CPU time of the slowest item, among the task's items that have passed. Items of other
-    /// tasks don't affect this task's limits, because they may be running at the same time.
+    /// The CPU time of the slowest of the task's items that have passed. Items of other tasks don't
+    /// affect this task's limits, because they may be running at the same time.
     slowest_passed: Duration,
 }
 

@@ -12,8 +12,8 @@ use protocol::Question;
 
 use super::{ItemLimits, Launcher, TimeUsed};
 
-/// The time limits for each question. Most correct items take less time in total, so a question
-/// that exceeds these limits is treated as hung.
+/// The time limits for each question. With correct code, most items take less time than this in
+/// total, so a question that exceeds these limits is treated as hung.
 const LIMITS: ItemLimits = ItemLimits {
     waiting: Duration::from_millis(300),
     ..ItemLimits::from_cpu(Duration::from_millis(100))

@@ -28,8 +28,8 @@ pub(super) fn most_informative_first(task: &TaskScore) -> Vec<&ItemScore> {
     failing
 }
 
-/// Returns at most this many of a task's failing items, the most informative first. Each item after
-/// the first has evidence, and neither shares the first item's hint nor fails in the same way.
+/// Returns at most this many of a task's failing items, the most informative first. Every item
+/// after the first has evidence, has a different hint from the first, and fails in a different way.
 pub(super) fn most_new(task: &TaskScore, most: usize) -> Vec<&ItemScore> {
     let failing = most_informative_first(task);
     let Some((&first, others)) = failing.split_first() else {

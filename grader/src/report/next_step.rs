@@ -41,7 +41,7 @@ pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignme
     }
 }
 
-/// Returns text that names one thing to do next in the selected tasks and the place to do it.
+/// Returns text that names one thing to do next in the selected tasks and says where to do it.
 pub fn first_step(
     score: &Score,
     selection: &TaskSelection,

@@ -46,7 +46,7 @@ enum Request {
     Methods(Vec<Task>),
 }
 
-/// Returns the part of each file to reset.
+/// Returns, for each file, the part to reset.
 fn requests(handed_out: &HandedOut, names: &[TaskOrFile]) -> BTreeMap<&'static str, Request> {
     let mut requests: BTreeMap<&'static str, Request> = BTreeMap::new();
     for name in names {
@@ -75,7 +75,7 @@ struct FileChange {
     before: Option<Vec<u8>>,
     /// The file's new text, or `None` if it wouldn't change.
     after: Option<String>,
-    /// The part that is reset, to be named in a message.
+    /// The name of the part that is reset, for use in a message.
     part: String,
 }
 

@@ -9,8 +9,8 @@ use judging::judge::{Failure, FailureKind, Judgement, element_error};
 use crate::probe::{Allowance, Launcher};
 use crate::verdict::item_outcome::worst_failure;
 
-/// Returns whether the question whose wrong answer the report shows is answered correctly when it
-/// is rerun in isolation. The time this takes is deducted from the allowance.
+/// Reruns, in isolation, the question whose wrong answer the report shows. Returns whether the new
+/// answer is correct. The time that the rerun takes is deducted from the allowance.
 pub fn is_right_alone(
     launcher: &Launcher,
     item: &Item,

@@ -50,7 +50,7 @@ impl PriorResults {
         }
     }
 
-    /// Records the results of a task whose items are graded.
+    /// Records the results of a finished task.
     pub fn finish(&mut self, task: Task, finished: &FinishedTask) {
         if finished.is_stopped {
             self.stopped.insert(task);

@@ -1,6 +1,6 @@
 //! The limits on reading one submission, in total over all of its folders, archives and nested
-//! archives. They are numbers of files and bytes rather than times, so that they don't depend on
-//! the machine.
+//! archives. They apply to the numbers of files and bytes rather than to time, so that they don't
+//! depend on the machine.
 
 use std::fmt;
 

@@ -1,5 +1,5 @@
-//! The results of a search in the folders and archives of a submission. The files of each folder
-//! are classified by what their names resemble.
+//! The results of searching a submission's folders and archives. The files of each folder are
+//! classified by what their names resemble.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -89,7 +89,7 @@ impl Search {
         }
     }
 
-    /// Returns the error for exceeding a limit.
+    /// Returns the error to report if a limit is exceeded.
     pub(super) fn too_many(&self, limit: Limit) -> SubmissionError {
         SubmissionError::TooMany(self.submission.clone(), limit)
     }
@@ -146,7 +146,7 @@ impl Search {
         Ok(())
     }
 
-    /// Records the error of one folder or archive, so that the search can go on. Fails if the
+    /// Records an error in one folder or archive, so that the search can continue. Fails if the
     /// submission exceeds a limit.
     pub(super) fn keep_error<T>(
         &mut self,

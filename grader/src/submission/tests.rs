@@ -47,7 +47,7 @@ pub(super) fn zip(files: Files, method: CompressionMethod) -> Vec<u8> {
     writer.finish().unwrap().into_inner()
 }
 
-/// Collects a folder with these files.
+/// Collects the submission from a folder with these files.
 pub(super) fn collected(files: Files) -> Result<Submission, SubmissionError> {
     Submission::collect(folder(files).path(), &RAYS)
 }

@@ -83,13 +83,13 @@ fn add_symptom_clue(
 }
 
 /// Returns whether these are all the items of a task. After a save, the items that failed before
-/// are graded first, and rays from the other items may hit something.
+/// are graded first. Until the other items are graded, their rays might still hit something.
 fn is_whole_task<'a>(items: impl Iterator<Item = &'a Item>, info: &TaskInfo) -> bool {
     items.map(|item| item.points).sum::<u32>() == info.points
 }
 
-/// Returns whether a hint is possible: there is a wrong answer, or a known reason for a missing
-/// answer.
+/// Returns whether a hint is possible, i.e. whether there is a wrong answer or a known reason for a
+/// missing answer.
 fn can_have_hint(verdict: &Verdict) -> bool {
     // Invalid answers say nothing about the mistake.
     matches!(verdict.kind(), VerdictKind::Failed | VerdictKind::NoAnswer)

@@ -26,8 +26,8 @@ pub enum ItemOutcome<'a> {
     Answered {
         /// The judgements of the answers.
         judgements: Vec<Judgement>,
-        /// Whether the question whose wrong answer the report shows is answered correctly when it
-        /// is rerun in isolation.
+        /// Whether the question with the wrong answer shown in the report is answered correctly
+        /// when it is rerun in isolation.
         right_alone: bool,
     },
 }
@@ -63,8 +63,8 @@ impl ItemOutcome<'_> {
 }
 
 /// Returns the failure shown in an item's report and the index of its question. An item gets the
-/// credit of its worst question, so this is that question's failure. Returns `None` if all answers
-/// are right, or if there is no answer to the worst question.
+/// credit of its worst question, so the report shows that question's failure. Returns `None` if all
+/// answers are right, or if there is no answer to the worst question.
 pub fn worst_failure(judgements: &[Judgement]) -> Option<(usize, &Failure)> {
     let worst = judgements.iter().map(|judgement| judgement.credit).min()?;
     if worst == Credit::FULL {

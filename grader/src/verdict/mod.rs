@@ -147,7 +147,7 @@ fn not_compiled_message(file: &str, why: &NotCompiled) -> String {
     }
 }
 
-/// Returns the line of the compiler's error, if any.
+/// Returns the line number of the compiler's error, if it has one.
 pub fn file_line(why: &NotCompiled) -> Option<u32> {
     let NotCompiled::Error { line, .. } = why else {
         return None;
@@ -365,7 +365,7 @@ pub(crate) fn has_no_clue(line: &ItemScore) -> bool {
 }
 
 /// Returns the score of an item that was graded with substituted parts. This is the score that
-/// counts: mistakes in other files neither cost points in it nor hide a mistake in this file.
+/// counts: in it, mistakes in other files neither cost points nor hide a mistake in this file.
 pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> ItemScore {
     let message = match (own.verdict == Verdict::Pass, substituted.message.as_str()) {
         (true, "") => String::new(),

@@ -180,7 +180,7 @@ fn ids_in_order<'a>(exam: &'a Exam, handed_out: &HandedOut) -> impl Iterator<Ite
     tasks.flat_map(of_task).map(|item| item.id.as_str())
 }
 
-/// Returns the report's files. The page among them reloads itself while its window isn't focused.
+/// Returns the report's files. The report's page reloads itself while its window isn't focused.
 fn files(grader: &Grader, submission: &Submission) -> Option<ReportFiles> {
     grader.files(submission, Reload::WhileUnfocused)
 }

@@ -44,7 +44,7 @@ pub struct Screen<'a> {
     term: Term,
     options: &'a GradeOptions,
     paths: SourcePaths,
-    /// The rows and columns of the page on the screen.
+    /// The size of the page on the screen, in rows and columns.
     drawn_size: Cell<(u16, u16)>,
 }
 

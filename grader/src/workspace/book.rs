@@ -63,8 +63,8 @@ impl Book {
     }
 }
 
-/// Returns the length of the mention of a section at the start of `text`: a path, optionally
-/// followed by a heading in quotation marks on the same line.
+/// Returns the length of the mention at the start of `text`. A mention of a section is a path,
+/// optionally followed by a heading in quotation marks on the same line.
 fn mention_length(text: &str, path_start: usize) -> usize {
     let is_end = |c: char| !(c.is_ascii_alphanumeric() || "_-.".contains(c));
     let name = &text[path_start..];

@@ -1,5 +1,5 @@
 //! The version of the students' bundle, which is stored as build metadata in the versions of its
-//! packages. The packages in this repository itself have none.
+//! packages. The packages in this repository itself have no such metadata.
 
 use std::fs;
 

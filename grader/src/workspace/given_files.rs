@@ -11,12 +11,13 @@ use judging::content_hash::file_hash;
 
 use crate::machine::files;
 
-/// The list of these files in a bundle, with their hashes. It doesn't exist in this repository.
+/// The file in a bundle that lists these given files and their hashes. It doesn't exist in this
+/// repository.
 pub const LIST: &str = "grader/given-files.txt";
 
-/// The folders that contain these files.
+/// The folders that contain the listed files.
 const FOLDERS: [&str; 2] = ["student/framework/", "student/protocol/"];
-/// The maximum number of files that a note names.
+/// The maximum number of files to name in a note.
 const MAX_NAMES: usize = 3;
 
 /// Returns the text of the list. `bundle` contains the contents of all files in a bundle, keyed by

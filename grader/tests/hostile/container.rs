@@ -1,4 +1,4 @@
-//! The restrictions of an ordinary container, as far as they matter here.
+//! The restrictions of an ordinary container that matter here.
 
 use std::collections::BTreeMap;
 

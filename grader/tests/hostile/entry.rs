@@ -17,7 +17,7 @@ use crate::packaging::{Packaging, pack};
 /// except the description, are added to the task files or replace them.
 const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
-/// The file that describes the entries that have no files of their own.
+/// The file that describes the entries without files of their own.
 const PACKAGED_FILE: &str = "packaged.toml";
 /// The prefix of the lines in which a file describes its entry.
 const DESCRIPTION: &str = "//!";

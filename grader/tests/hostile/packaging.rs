@@ -150,8 +150,8 @@ pub fn pack(folder: &Path, packaging: Packaging, key: &Path) -> PathBuf {
     folder.to_owned()
 }
 
-/// Moves the files into the subfolder `below` of a new folder next to the old one, as if they were
-/// another student's. Returns the new folder. The old folder is empty afterwards.
+/// Moves the files into the subfolder `below` of a new folder next to the old one, as if they
+/// belonged to another student. Returns the new folder. The old folder is empty afterwards.
 fn move_elsewhere(folder: &Path, below: &str) -> PathBuf {
     let others = folder.with_extension("others");
     let target = others.join(below);

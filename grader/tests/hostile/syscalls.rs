@@ -1,5 +1,6 @@
-//! Makes system calls in place of a submission, with a program that contains `unsafe` code. The
-//! sandbox must be safe even if a submission gets around the compiler's ban on `unsafe`.
+//! Makes system calls from a program that runs in place of a submission. The program contains
+//! `unsafe` code, because the sandbox must be safe even if a submission gets around the compiler's
+//! ban on `unsafe`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

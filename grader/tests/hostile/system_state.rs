@@ -80,8 +80,8 @@ fn running_children() -> Vec<String> {
     names.collect()
 }
 
-/// Returns the files that an entry deliberately left behind, in folders where it might be able to
-/// write.
+/// Returns the files that an entry deliberately left behind in the folders that it might be able to
+/// write to.
 fn marked_files(mark: &str) -> Vec<String> {
     let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let home = std::env::var_os("HOME").map(PathBuf::from);

@@ -1,5 +1,5 @@
 //! Submissions that compile and then misbehave: they panic, hang, crash or give nonsensical
-//! answers. Each gets a report, and the points of other tasks don't change.
+//! answers. Each gets a report, and the points for other tasks don't change.
 
 use insta::assert_snapshot;
 
@@ -12,8 +12,8 @@ fn before_box_test(name: &str, statement: &str) -> Submission {
     Submission::reference(name).with_replaced("bbox.rs", test, &format!("{statement} {test}"))
 }
 
-/// Returns the report, which includes the points of all tasks. Panics unless an item of a task has
-/// this verdict.
+/// Returns the report, which includes the points for all tasks. Panics unless some item of `task`
+/// has this verdict.
 fn report_with(graded: &GradeRun, task: &str, verdict: &str) -> String {
     let verdicts = graded.verdicts(task);
     assert!(verdicts.contains(&verdict.to_owned()), "{verdicts:?}");

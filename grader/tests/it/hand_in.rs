@@ -15,7 +15,7 @@ fn hand_in(folder: &Path, out: &Path) -> Output {
     command.arg(folder).arg("--out").arg(out).output().unwrap()
 }
 
-/// Makes an archive next to the submission. Returns the exit code and the text.
+/// Makes an archive next to the submission. Returns the exit code and the output.
 fn hand_in_beside(submission: &Submission) -> (Option<i32>, String) {
     let out = submission.path().with_extension("zip");
     let output = hand_in(&submission.path(), &out);

@@ -11,8 +11,8 @@ fn grade_with(name: &str, file: &str, from: &str, to: &str) -> GradeRun {
     submission.with_replaced(file, from, to).grade()
 }
 
-/// Returns a solution that takes the far root first, but with different formulas than those in the
-/// catalogue of mistakes.
+/// Returns a solution that takes the far root first, but with formulas that differ from the ones in
+/// the catalogue of mistakes.
 fn far_first() -> Submission {
     Submission::reference("far-first").with_replaced(
         "sphere.rs",

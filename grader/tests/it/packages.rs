@@ -32,7 +32,7 @@ const OTHER_FILES: [(&str, &str); 6] = [
     ),
 ];
 
-/// Returns a zip of these files, all of which get this mode.
+/// Returns a zip of these files, each with this mode.
 fn make_zip(files: &[(&str, &str)], mode: u32) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, text) in files {

@@ -52,7 +52,8 @@ fn every_format_says_what_a_late_submission_counts_and_why() {
     assert!(written["log"].contains(&line), "{}", written["log"]);
 }
 
-/// Grades the reference with a policy, ten minutes after Gradescope's due time.
+/// Grades the reference with a policy, as if it had been submitted ten minutes after Gradescope's
+/// due time.
 fn grade_late(policy: &str) -> FormatTexts {
     let metadata = r#"{"id": 1, "created_at": "2026-11-21T00:10:00.365935-08:00",
         "assignment": {"due_date": "2026-11-20T23:59:59.000000-08:00", "late_due_date": null}}"#;

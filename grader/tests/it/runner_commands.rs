@@ -10,12 +10,12 @@ use zip::ZipWriter;
 
 use crate::harness::{Submission, grader, workspace};
 
-/// A command of each kind. The text is also a valid file name.
+/// One command of each kind, written so that the text is also a valid file name.
 const COMMANDS: &str = "::error::a ##[set-env name=a]b ##vso[task.complete]c ##teamcity[d]";
 
 /// Returns a program's output on a CI system. Panics if the commands are missing, or if one of them
-/// is printed in such a way that the system would run it. A line may begin with `own`, which comes
-/// from the grader itself.
+/// is printed in such a way that the system would run it. A line may begin with `own`, a command
+/// that the grader itself prints.
 fn checked_output(command: &mut Command, own: &str) -> String {
     let Output { stdout, stderr, .. } = command.env("GITHUB_ACTIONS", "true").output().unwrap();
     let text = [stdout, stderr].map(|text| String::from_utf8(text).unwrap());

@@ -1,4 +1,4 @@
-//! Tests for `--watch` with output that isn't a terminal.
+//! Tests of `--watch` when the output isn't a terminal.
 
 use std::fs;
 
@@ -40,7 +40,7 @@ fn grades_every_save_and_updates_the_score_file() {
     assert!(watching.report().contains("100 / 100"));
 }
 
-/// Only runs on Linux, where the program that opens a page is found by its name.
+/// Only runs on Linux, where the program that opens a page is looked up on the PATH by its name.
 #[cfg(target_os = "linux")]
 #[test]
 fn opens_the_page_once_and_from_then_on_the_page_reloads_itself() {

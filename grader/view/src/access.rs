@@ -87,7 +87,7 @@ fn without_port(host: &str) -> &str {
     }
 }
 
-/// Compares two secrets in a time that doesn't depend on the number of equal characters.
+/// Compares two secrets in time that doesn't depend on how many characters match.
 fn same(given: &str, secret: &str) -> bool {
     let pairs = given.bytes().zip(secret.bytes());
     given.len() == secret.len() && pairs.fold(0, |different, (a, b)| different | (a ^ b)) == 0

@@ -15,9 +15,9 @@ use crate::model::layer::{Layer, PixelContent};
 use crate::session::{Session, View};
 use crate::shared_session::SharedSession;
 
-/// Pairs of an age and an interval. Until the picture reaches the age, the interval is the time
-/// between two updates. A nearly complete picture changes little, and composing it takes time away
-/// from drawing it.
+/// Pairs of a picture's age and the interval between updates. The interval applies until the
+/// picture reaches that age. A nearly complete picture changes little, and composing it takes time
+/// away from drawing it.
 const INTERVALS: [(Duration, Duration); 3] = [
     (Duration::from_millis(600), Duration::from_millis(100)),
     (Duration::from_secs(4), Duration::from_millis(500)),
@@ -71,8 +71,8 @@ pub fn run(shared: &SharedSession) {
     }
 }
 
-/// Returns a function that returns the size of the picture and its colours. The function owns a
-/// copy of the values, so drawing can continue while it composes the picture.
+/// Returns a function that composes the picture and returns its size and colours. The function owns
+/// a copy of the values, so drawing can continue while the function runs.
 fn composition(session: &Session) -> Box<dyn FnOnce() -> (UVec2, Colours)> {
     let data = |colour| Tone::Data.to_bytes(colour);
     let mode = match session.shown.view {

@@ -15,7 +15,7 @@ use serde::Serialize;
 use crate::error::ViewError;
 use crate::recording::RECORDED;
 
-/// The package that is linked with the submission, and its folder.
+/// The name and the folder of the package that is linked with the submission.
 const PROBE: (&str, &str) = ("view_probe", "grader/view/probe");
 /// The `main` function of both programs.
 const ENTRY: &str = "

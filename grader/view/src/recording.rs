@@ -6,7 +6,7 @@
 
 use grader::handed_out::find_method;
 
-/// A method that is changed to report each call.
+/// A method that is changed so that each call to it is reported.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedMethod {
     /// The file.
@@ -17,7 +17,7 @@ pub struct RecordedMethod {
     wrapper: &'static str,
 }
 
-/// The methods that are changed to report each call.
+/// The methods that are changed so that each call to them is reported.
 pub const RECORDED: [RecordedMethod; 2] = [
     RecordedMethod {
         file: "bbox.rs",

@@ -29,7 +29,7 @@ const WORST: usize = 12;
 /// The width of the narrowest bar, as a fraction of the strip's width.
 const NARROWEST: f32 = 1.0 / 600.0;
 
-/// The files of the page: path, type and text.
+/// The page's files, each with its path, media type and text.
 const FILES: [(&str, &str, &str); 13] = [
     ("/", HTML, include_str!("page/index.html")),
     ("/style.css", CSS, include_str!("page/style.css")),

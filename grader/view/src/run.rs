@@ -134,7 +134,8 @@ fn cannot_listen(error: io::Error) -> ViewError {
     ViewError::Machine(format!("cannot listen on 127.0.0.1: {error}"))
 }
 
-/// Listens on this port. If none is given, listens on the default port or any free one.
+/// Listens on this port. If no port is given, listens on the default port or, if that is in use, on
+/// any free port.
 fn listen(port: Option<u16>) -> Result<TcpListener, ViewError> {
     let bind = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
     match port {

@@ -100,8 +100,8 @@ impl Subject {
         }
     }
 
-    /// Returns the reason not to read a tree of this size, or `None` if the tree isn't much larger
-    /// than a correct tree can be.
+    /// Returns the reason for not reading a tree of this size, or `None` if the tree isn't much
+    /// larger than a correct tree can be.
     pub fn oversize(&self, size: TreeSize) -> Option<String> {
         let shapes = self.data.shapes.len();
         let own = match &self.data.tree {

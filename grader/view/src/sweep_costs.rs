@@ -7,7 +7,7 @@ use judging::content_hash::ContentHash;
 use judging::judge::tree::bounds::Bounds;
 use protocol::Shape;
 
-/// For each scene, the hash of its boxes and its maximum leaf size, and the cost of its best tree.
+/// For each scene, the result of [`hash`] and the cost of the best tree.
 pub const SWEEP_COSTS: [(&str, f64); 7] = [
     ("07c750980583539559dd251f10a58d5c", 4.3866),
     ("35065b7b13e221811717d5ad541e1bf0", 14.2900),

@@ -1,4 +1,4 @@
-//! Generation of exams and their files.
+//! Generates exams and their files.
 
 use std::path::Path;
 

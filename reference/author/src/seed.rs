@@ -64,7 +64,7 @@ impl Rng {
         self.numbers.random_range(0..n)
     }
 
-    /// Returns an integer from `min` to `max`, both included.
+    /// Returns an integer from `min` to `max`, inclusive.
     pub fn integer(&mut self, min: u32, max: u32) -> u32 {
         self.numbers.random_range(min..=max)
     }

@@ -140,7 +140,7 @@ impl CrateBvhTree {
     }
 }
 
-/// The crate `bvh`, with one of its ways to traverse a tree.
+/// The crate `bvh`, with one of its two ways of traversing a tree.
 pub struct Traversed {
     pub tree: Rc<CrateBvhTree>,
     /// Whether to traverse in order of distance instead of testing every triangle whose box is hit.

@@ -39,7 +39,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Computes the spread of some values. There must be at least one.
+    /// Computes the spread of the values. There must be at least one value.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let mut values: Vec<f64> = values.into_iter().collect();
         values.sort_by(f64::total_cmp);

@@ -58,8 +58,8 @@ impl Report {
         Some(Spread::of(ratios).median)
     }
 
-    /// Returns the speed of a contender relative to the others, for each kind of ray. If there are
-    /// several others, the contender is compared with the fastest of them.
+    /// Returns, for each kind of ray, the speed of a contender relative to the fastest of the other
+    /// contenders.
     fn speedups(&self, name: &str, others: &[&str]) -> Option<[f64; 3]> {
         let mut ratios = [0.0; 3];
         for (ratio, kind) in ratios.iter_mut().zip(RAYS) {

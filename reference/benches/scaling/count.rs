@@ -11,7 +11,8 @@ pub struct Count {
     pub primitives: u64,
 }
 
-/// Traces rays. Returns the numbers of tests. Panics if a hit differs from the reference's.
+/// Traces rays and counts the intersection tests performed. Panics if a hit differs from the
+/// reference's.
 pub fn count_tests(bvh: &Bvh, rays: &[Ray]) -> Count {
     let mut count = Count::default();
     for ray in rays {

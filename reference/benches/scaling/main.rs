@@ -24,9 +24,9 @@ const UPDATE_COMMAND: &str = "cargo bench -p benches --bench scaling";
 const RAYS: usize = 2000;
 /// The maximum number of triangles in a leaf.
 const MAX_LEAF_SIZE: usize = 4;
-/// The numbers of pieces that an edge of the cube is divided into, one for each mesh. With n
-/// pieces, the mesh has 12 n² triangles. From one mesh to the next, the number of triangles grows
-/// by a factor of about √10.
+/// For each mesh, the number of pieces that each edge of the cube is divided into. With n pieces,
+/// the mesh has 12 n² triangles. From one mesh to the next, the number of triangles grows by a
+/// factor of about √10.
 const PIECES: [u32; 9] = [3, 5, 9, 16, 29, 51, 91, 162, 289];
 
 /// The counts for one mesh.

@@ -13,9 +13,9 @@ pub struct Triangle {
     pub shape: u32,
     /// The normal of the triangle's plane.
     face: Vec3,
-    /// The normal of the plane through p0 and p2, scaled so that the distance of p1 is 1.
+    /// The normal of the plane through p0 and p2, scaled so that p1 is at distance 1.
     u_plane: Vec3,
-    /// The normal of the plane through p0 and p1, scaled so that the distance of p2 is 1.
+    /// The normal of the plane through p0 and p1, scaled so that p2 is at distance 1.
     v_plane: Vec3,
 }
 

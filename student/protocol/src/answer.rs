@@ -65,7 +65,7 @@ impl Answer {
         }
     }
 
-    /// Returns the answer to one row of a table, or `None` if it is missing. Any other answer is
+    /// Returns the answer for one row of a table, or `None` if it is missing. Any other answer is
     /// returned unchanged.
     pub fn single(&self, row: usize) -> Option<Answer> {
         Some(match self {

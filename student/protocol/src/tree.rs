@@ -8,9 +8,9 @@ pub struct TreeNode {
     pub min: Vec3,
     /// The corner of the node's box with the largest coordinates.
     pub max: Vec3,
-    /// In a leaf, the index of its first primitive. Ignored in interior nodes.
+    /// The index of a leaf's first primitive. Ignored in interior nodes.
     pub start: u32,
-    /// In a leaf, the number of its primitives. Ignored in interior nodes.
+    /// The number of primitives in a leaf. Ignored in interior nodes.
     pub size: u32,
     /// In an interior node, the index of one child.
     pub l: u32,

@@ -13,8 +13,8 @@ use crate::names::{is_number, joined};
 
 impl Reader<'_> {
     /// Returns whether the files could be a download from Canvas. The names of other files may also
-    /// contain two numbers, such as parts of a date. Such files can be told apart, because all of
-    /// them have the same number or name in the student's place, or because two of them have the
+    /// contain two numbers, such as parts of a date. Such files can be recognised because they all
+    /// have the same number or name where the student's would be, or because two of them have the
     /// same attachment number.
     pub fn is_canvas_download(&self, root: &Node) -> bool {
         let nodes = root.children().iter();
@@ -39,7 +39,7 @@ impl Reader<'_> {
 }
 
 /// Returns the name under which Canvas shows a page: the name of the last attachment, provided that
-/// Canvas reads the first two numbers in it as the user's and the attachment's.
+/// Canvas reads the first two numbers in that name as the numbers of the user and the attachment.
 pub(super) fn attachment_name(
     canvas: &'static Platform,
     files: &[SubmissionNode],

@@ -1,8 +1,8 @@
 //! Finds the folder with the entries. In an archive, this is often a subfolder.
 //!
 //! A single folder may be the class itself or the class's only submission. Its contents aren't used
-//! to tell which, because a student may have written them. Its name is used if a platform or a
-//! teacher chose it.
+//! to tell the two cases apart, because a student may have written them. Its name is used if a
+//! platform or a teacher chose it.
 
 use super::METADATA;
 use super::platforms::{SAKAI_ARCHIVE, TEAMS_DRAFTS, TEAMS_SUBMITTED};
@@ -36,7 +36,7 @@ pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node
     (root, Some(note))
 }
 
-/// Returns the folder that contains the submissions of a Microsoft Teams library, and a note. The
+/// Returns the folder that contains the submissions in a Microsoft Teams library, and a note. The
 /// rest of the library only contains drafts.
 fn find_teams_folder(root: &Node) -> Option<(&Node, Option<String>)> {
     let names = root.children().iter().map(|node| node.name.as_str());
@@ -59,8 +59,9 @@ fn is_gradescopes(node: &Node) -> bool {
     number.is_some_and(is_number) && node.find(METADATA).is_some()
 }
 
-/// Returns whether an archive is named after the folder in it, as if the folder had been packed.
-/// Drives and browsers append a time or a number to the name.
+/// Returns whether an archive is named after the folder in it, which suggests that somebody packed
+/// this folder. Cloud drives and browsers may have appended a time or a number to the archive's
+/// name.
 fn is_packed(folder: &str, archive: &str) -> bool {
     let letters =
         |name: &str| -> String { fold(name).chars().filter(|c| c.is_alphanumeric()).collect() };

@@ -1,6 +1,7 @@
 //! Finds entries of a plain class that seem to belong to several people: a folder for a tutorial
-//! with a folder for each student, or the files of several people side by side, numbered by a
-//! browser or a drive. It would be unclear who gets the points for such an entry.
+//! with a folder for each student, or the files of several people side by side, with numbers that a
+//! browser or a drive has added to their names. It would be unclear who gets the points for such an
+//! entry.
 
 use grader::handed_out::{HandedOut, TaskFile};
 
@@ -13,7 +14,8 @@ use crate::roster::Member;
 const MAX_NAMES: usize = 3;
 
 /// Marks each entry that seems to belong to several people as having no files. Returns the reasons.
-/// An entry that belongs to somebody on a list is always one submission, regardless of its folders.
+/// An entry that belongs to somebody on a list always counts as one submission, regardless of its
+/// folders.
 pub(super) fn reject_mixtures(
     root: &Node,
     entries: &mut [Entry],
@@ -53,8 +55,8 @@ pub(super) fn reject_mixtures(
 }
 
 /// Returns the reason a folder seems to contain the files of several people: several versions of
-/// more than one task file, or many versions of a single one. A browser or a drive has appended
-/// numbers to their names.
+/// more than one task file, or at least three versions of a single task file. The versions differ
+/// by numbers that a browser or a drive has added to their names.
 pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     let versions = |file: &TaskFile| -> Vec<&str> {
         let names = node.children().iter().filter(|node| !node.is_folder());
@@ -117,7 +119,8 @@ fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<
 }
 
 /// Returns whether a folder contains repositories but isn't one itself. A repository is recognised
-/// by the hidden folder that Git creates, which nobody can hand in, or by its task files.
+/// by its task files or by the hidden folder `.git`, which nobody can hand in because Git never
+/// commits it.
 pub(super) fn is_section(node: &Node, handed_out: &HandedOut) -> bool {
     let is_repository = |node: &Node| node.path.join(".git").exists();
     let has_repositories = || node.children().iter().any(is_repository);

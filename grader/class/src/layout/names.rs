@@ -25,7 +25,7 @@ const ARCHIVE_ENDS: [&str; 12] = [
     ".gz", ".xz",
 ];
 
-/// A file or folder whose name belongs to a submission.
+/// A file or folder that, according to its name, belongs to a submission.
 pub(super) struct SubmissionNode<'a> {
     pub parts: Parts<'a>,
     pub node: &'a Node,
@@ -107,8 +107,8 @@ impl Reader<'_> {
             .collect()
     }
 
-    /// Returns whether the subgroups contain several people's projects. If all subgroups contain a
-    /// project with the same name, each belongs to one person.
+    /// Returns whether the subgroups contain several people's projects. If the projects in all
+    /// subgroups have the same name, each subgroup belongs to one person.
     fn has_sections(&self, folder: &Node) -> bool {
         let sections = self.sections(folder);
         let inside = sections.iter().flat_map(|section| section.children());

@@ -11,7 +11,7 @@ use crate::file_tree::Node;
 /// The name of the file that classroom50's tool writes next to the repositories. It contains a row
 /// for each attempt by each student.
 pub const CLASSROOM50_SCORES: &str = "scores.csv";
-/// The name of a file that every repository of classroom50 contains.
+/// The name of a file that every classroom50 repository contains.
 pub const CLASSROOM50_RESULT: &str = "result.json";
 /// The suffix of the folder that GitHub Classroom's tool creates.
 pub const SUBMISSIONS_SUFFIX: &str = "-submissions";
@@ -31,8 +31,8 @@ pub struct Platform {
     pub layout: Layout,
     /// The name used in messages.
     pub description: String,
-    /// For each level of folders between the class's folder and the submissions, templates for
-    /// their names.
+    /// Templates for the names of the folders between the class's folder and the submissions, one
+    /// list for each level.
     pub outer_folders: Vec<Vec<String>>,
     /// Templates for the names of submitted files and folders. Names that differ only in the `file`
     /// field belong to the same submission. The first matching template is used.
@@ -99,7 +99,8 @@ pub enum Record {
     Metadata,
     /// Blackboard's text file for each attempt.
     Receipt,
-    /// Sakai's files in each folder, which contain the time and the members of a group.
+    /// The files that Sakai writes into each folder, which contain the time and the members of a
+    /// group.
     FilesInFolder,
 }
 

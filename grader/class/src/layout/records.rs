@@ -1,5 +1,5 @@
-//! Reads the people and times that platforms write into files: Blackboard's receipts and Sakai's
-//! files in each folder.
+//! Reads the people and times that platforms write into files: Blackboard's receipts, and the files
+//! that Sakai writes into each submission's folder.
 
 use grader::files;
 

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use super::times::normalize_time;
 use crate::names::is_number;
 
-/// The template for one of the people in a name from Sakai or in its list of members. Sakai removes
-/// letters that aren't Latin.
+/// The template for one person in a folder name from Sakai or in Sakai's list of a group's members.
+/// Sakai removes letters that aren't Latin.
 const MEMBER: &str = "[{last}],[ ][{first}]({eid})";
 
 /// The texts in the fields of a template.
@@ -90,7 +90,7 @@ enum Item<'t> {
     Optional(&'t str),
 }
 
-/// Splits off the first item of a template. Returns `None` at its end.
+/// Splits off the first item of a template. Returns `None` at the end of the template.
 fn next_item(template: &str) -> Option<(Item<'_>, &str)> {
     if let Some(rest) = template.strip_prefix('{') {
         let (field, rest) = rest.split_once('}')?;
@@ -150,7 +150,8 @@ fn find_readings<'a>(
     }
 }
 
-/// Returns whether a string could match the pending templates, judging by their first item.
+/// Returns whether a string could match the pending templates, judging only by the first item in
+/// them.
 fn may_follow(pending: &[&'static str], text: &str) -> bool {
     match pending.iter().rev().find_map(|own| next_item(own)) {
         None => text.is_empty(),

@@ -31,8 +31,8 @@ fn layout(root: &Node) -> Layout {
     recognised(root).layout
 }
 
-/// A student can choose everything in a folder and sometimes its name. The archive's name is chosen
-/// by the teacher.
+/// A student can choose everything in a folder, and sometimes the folder's name. The archive's name
+/// is chosen by the teacher.
 #[test]
 fn a_folder_that_is_alone_is_entered_by_its_name_and_not_by_its_contents() {
     let alone = |name: &str| {

@@ -14,8 +14,8 @@ const COLUMNS_AFTER_TASKS: &str =
 /// The text for a submission that the platform marks as late.
 pub const LATE: &str = "LATE";
 
-/// Returns the table of the class. If a submission doesn't have a score, its points are left empty:
-/// the teacher decides how many it gets.
+/// Returns the table of the class. If a submission doesn't have a score, the cells for its points
+/// are left empty: the teacher decides how many points it gets.
 pub fn grades_table(class: &GradedClass) -> Table {
     let tasks = class.tasks().iter().map(|task| task.id.as_str());
     let header = COLUMNS_BEFORE_TASKS.split(',').chain(tasks.clone());

@@ -210,8 +210,8 @@ fn is_repetition(one: &Person, other: &Person) -> bool {
     own.zip(others).all(|(one, other)| are_equal(one, other))
 }
 
-/// Reads the people on the list in a platform's download. If the list is in a language that isn't
-/// supported, nobody is returned.
+/// Reads the people on the list in a platform's download. Returns an empty list if the language of
+/// the file isn't supported.
 pub fn read_downloaded(path: &Path) -> Vec<Member> {
     let mut members = read_members(path, ListKind::Downloaded).unwrap_or_default();
     // If names are hidden, everybody has the same name.

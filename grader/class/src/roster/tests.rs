@@ -60,7 +60,7 @@ fn one_column_that_identifies_people_is_enough() {
     assert_eq!(rows[0].person.number, "7001");
 }
 
-/// Brightspace marks identifiers and the end of each line, see
+/// Brightspace marks identifiers and the end of each line. See
 /// <https://kb.wisc.edu/page.php?id=4330>.
 #[test]
 fn the_marks_in_brightspaces_list_of_grades_are_no_part_of_the_identifiers() {

@@ -47,8 +47,8 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     }
 }
 
-/// Returns the time for comparisons within a list. All local times in a list are in the same time
-/// zone, so any zone will do.
+/// Returns the submission time, for comparison with other times in the same list. All local times
+/// in a list are in the same time zone, so any zone will do.
 fn time(member: &Member) -> Option<Timestamp> {
     read_time(&member.submitted, Some(&TimeZone::UTC)).ok()
 }

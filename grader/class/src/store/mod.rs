@@ -138,7 +138,8 @@ impl Store {
     }
 
     /// Writes an entry's stamp. If the entry has a score, the score must already have been written.
-    /// If it has none, its files from earlier runs are removed. `round` is the run's round.
+    /// If it has none, its files from earlier runs are removed. `round` is the round of the current
+    /// run.
     pub fn save_result(&self, result: &EntryResult, key: &str, round: u32) -> Result<(), Error> {
         let folder = self.entry_folder(&result.id);
         if result.score().is_none() {
@@ -172,7 +173,7 @@ impl Store {
         Ok(files::read_to_string(self.entry_folder(id).join(FEEDBACK))?)
     }
 
-    /// Adds sentences to the entry's pages that explain how the score contributes to the grade.
+    /// Adds sentences to the entry's pages, explaining how the score contributes to the grade.
     pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), Error> {
         // Older results from a shard may lack a page.
         write_counted(&self.entry_folder(id).join(REPORT), texts)?;

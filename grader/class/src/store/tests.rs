@@ -98,7 +98,7 @@ fn a_damaged_file_is_an_error_that_names_it() {
     assert_eq!(store.cached_score("a", "key"), None);
 }
 
-/// The run ends while it removes the files of an earlier result.
+/// The run fails while it removes the files of an earlier result.
 #[test]
 fn a_stamp_is_never_left_without_its_score() {
     let (_folder, store) = store();

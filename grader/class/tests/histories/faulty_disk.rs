@@ -7,9 +7,10 @@ use std::sync::Mutex;
 
 use grader::disk::{self, Disk, Operation};
 
-/// A disk fault. Each number says which operation of a step is affected, counted from 1.
-/// `ReadErrorAt` counts reads, and the other variants count changes. A process is never killed
-/// during a read, because that would leave the same files as killing it before the next change.
+/// A disk fault. The number in a variant says which of a step's operations is affected, counting
+/// from 1. `ReadErrorAt` only counts reads, and the other variants only count changes. A process is
+/// never killed during a read, because that would leave the same files as killing it before the
+/// next change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DiskFault {
     /// No fault.
@@ -79,7 +80,7 @@ pub fn start(root: &Path, fault: DiskFault) {
     };
 }
 
-/// Ends the faults. Returns the step's operation counts and whether a fault occurred.
+/// Stops simulating faults. Returns the step's operation counts and whether a fault occurred.
 pub fn stop() -> (Operations, bool) {
     let mut state = DISK.0.lock().unwrap();
     state.fault = DiskFault::None;
@@ -131,8 +132,8 @@ impl Disk for FaultyDisk {
     }
 }
 
-/// Leaves behind the same files as an operation during which the process is killed. Temporary files
-/// are renamed, because a process that isn't really killed removes its own.
+/// Leaves behind the files that would be left if the process were killed during the operation.
+/// Temporary files are renamed, because this process isn't really killed and would remove its own.
 fn leave_half(operation: Operation) {
     let left = |file: &Path, contents: &[u8]| {
         fs::write(file.with_file_name(".tmpKilled"), contents).unwrap();

@@ -387,7 +387,8 @@ impl History {
         }
     }
 
-    /// Runs everything once more without faults and compares the results with those in new folders.
+    /// Runs everything once more without faults and compares the results with those of runs into
+    /// new folders.
     fn end(&mut self) -> Result<(), String> {
         let none = (DiskFault::None, ProcessFault::None);
         // Shards with different lists cannot be merged.

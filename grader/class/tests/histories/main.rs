@@ -45,7 +45,7 @@ struct Arguments {
     /// Write the result into the table of long runs
     #[arg(long)]
     record: bool,
-    /// Run the histories in this process, and write any failures into this file
+    /// Run the histories in this process, and write any failures to this file
     #[arg(long, hide = true)]
     report: Option<PathBuf>,
     /// Stop at the first history that fails
@@ -90,7 +90,7 @@ fn run_here(seeds: Range<u64>, report: &Path, until_lost: bool) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Writes a number with commas between the thousands.
+/// Formats a number with commas as thousands separators.
 fn in_thousands(number: u64) -> String {
     match number / 1000 {
         0 => number.to_string(),

@@ -15,10 +15,10 @@ pub struct Model {
     pub observed: Observed,
     /// The cache keys seen so far in this course.
     pub keys: Keys,
-    /// Each entry's last stamped score and its round. It must not be lost before a new score
-    /// exists.
+    /// For each entry, its last stamped score and the round of that score. The score must not be
+    /// lost before a new one exists.
     kept: BTreeMap<String, (u64, ScoreId)>,
-    /// The regrades that were never finished before the next one started. Their scores are
+    /// The regrades that were still unfinished when the next regrade started. Their scores are
     /// discarded, but their stamps stay until the entry is graded again.
     abandoned: BTreeSet<u64>,
     /// The scores that the current round is compared with.

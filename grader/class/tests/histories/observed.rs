@@ -55,7 +55,7 @@ pub struct Observed {
     pub run: Option<Value>,
     /// The entries.
     pub entries: BTreeMap<String, Files>,
-    /// Whether the page of the class lists final grades that changed.
+    /// Whether the class's page lists final grades that changed.
     pub has_changed_grades: bool,
 }
 

@@ -114,7 +114,7 @@ pub fn score_file(student: &str, version: u32, exam: usize) -> String {
 }
 
 impl RecordedGrader {
-    /// Prepares a grader in the same way as the real one is prepared.
+    /// Prepares a grader in the same way as the real one.
     pub fn new(options: &GradeOptions, exam: usize, fault: ProcessFault) -> Result<Self, Error> {
         Ok(RecordedGrader {
             exam,

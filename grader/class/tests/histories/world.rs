@@ -40,7 +40,7 @@ pub const PARTS: usize = 2;
 pub enum Target {
     /// The whole class.
     Whole,
-    /// A shard of the class, counted from 1.
+    /// A shard of the class. Shards are numbered from 1.
     Part(usize),
     /// The merged shards.
     Merged,

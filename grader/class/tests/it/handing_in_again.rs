@@ -37,7 +37,7 @@ fn class() -> TestClass {
         .with("tut/camera (2).rs", "// a third")
 }
 
-/// Adds a corrected hand-in beside the class.
+/// Adds a corrected hand-in to the folder `corrected`, next to the class's folder.
 fn correct(class: &TestClass, path: &str, bytes: impl AsRef<[u8]>) {
     let path = class.path_beside("corrected").join(path);
     fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -5,8 +5,8 @@ use crate::harness::{TestClass, assert_contains, cell, successful_stdout, unzip}
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
-/// In Moodle, the name of a team's folder contains the group's number. Here, this is also the
-/// number of Ann, who is in the other team.
+/// In Moodle, the name of a team's folder contains the group's number. In this test, the number of
+/// team A is also the number of Ann, who is in team B.
 #[test]
 fn a_moodle_team_gets_points_by_its_name_and_never_by_its_number() {
     let class = TestClass::named("moodle")
@@ -133,7 +133,7 @@ fn folders_of_tutorials_and_flat_folders_of_several_people_are_refused() {
 }
 
 /// The whole class is checked even if only a shard is graded, since a shard may have too few
-/// entries.
+/// entries for the check.
 #[test]
 fn a_class_of_which_most_are_on_no_list_needs_a_confirmation() {
     let class = TestClass::named("class")
@@ -241,7 +241,7 @@ fn a_team_whose_name_lost_its_punctuation_is_that_of_the_roster() {
     assert_contains(&text, &expected);
 }
 
-/// Canvas names the files after the group, but with the number of a member.
+/// Canvas names a group's files after the group, but adds the number of one of its members.
 #[test]
 fn a_canvas_groups_files_belong_to_its_members() {
     let class = TestClass::named("submissions")

@@ -308,7 +308,7 @@ fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
     assert_snapshot!(format!("{flat}\n\n{tutorials}"));
 }
 
-/// A single clone of another assignment, or a project by staff, doesn't change where the account
+/// A single clone of another assignment or of a staff project doesn't change where the account name
 /// begins in the names of the other clones.
 #[test]
 fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
@@ -391,8 +391,8 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
     );
 }
 
-/// If there is only one attempt, and no receipt, nothing shows where the account begins in the
-/// file's name.
+/// If there is only one attempt and no receipt, nothing shows where the account name begins in the
+/// file name.
 #[test]
 fn a_chosen_layout_enters_a_folder_that_is_no_submission() {
     let class = TestClass::named("download").with(

@@ -1,4 +1,4 @@
-//! Runs that are killed and resumed, and regrades.
+//! Runs that are killed and resumed, and runs with `--regrade`.
 
 use std::fs;
 use std::process::Stdio;
@@ -86,7 +86,7 @@ fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
     assert!(error.contains("contains no scores yet"), "{error}");
 }
 
-/// Changes the points of the camera's item. Returns its original points and the path of the new
+/// Changes the points for the camera's item. Returns the original points and the path of the new
 /// exam.
 fn exam_with_changed_points(class: &TestClass, exam: &str, by: i64) -> (i64, String) {
     let mut other: Value = serde_json::from_slice(&fs::read(exam).unwrap()).unwrap();

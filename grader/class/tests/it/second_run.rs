@@ -156,7 +156,8 @@ fn points_by_hand_count_without_anything_that_can_be_graded() {
     assert_contains(&error, &["+99 points is out of range: 0 of"]);
 }
 
-/// Canvas's loose files aren't in a separate folder, and the export may be an archive.
+/// In a Canvas export, a student's files aren't in a folder of their own, and the export itself may
+/// be an archive.
 #[test]
 fn the_commands_in_a_report_name_an_archive_of_the_files_that_were_graded() {
     let class = TestClass::named("export");

@@ -1,5 +1,5 @@
-//! Random classes in the state after grading. Their files are written without grading, since these
-//! tests are about what happens to scores afterwards.
+//! Random classes in the state after grading. Their files are written without grading, since the
+//! tests that use them are about what happens to scores afterwards.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -24,8 +24,8 @@ pub struct StoredEntry {
     pub people: usize,
     /// The hours between the due time, 2026-11-20 12:00 UTC, and the submission.
     pub hours_late: i64,
-    /// The manual points for the first task. Each of the people gets them, unless they would take
-    /// the task's total out of range.
+    /// The manual points for the first task. Everyone who handed in the submission gets them,
+    /// unless they would take the task's total out of range.
     pub manual: i32,
     /// Whether an earlier version of the submission was graded and got no points.
     pub is_resubmitted: bool,

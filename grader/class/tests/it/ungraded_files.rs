@@ -1,5 +1,6 @@
 //! Tests that every file that looks like a task file or an archive but isn't graded is mentioned
-//! where people look, and that an untouched starter file next to a changed copy is never graded.
+//! wherever people might look for it, and that an untouched starter file next to a changed copy is
+//! never graded.
 
 use crate::harness::{TestClass, assert_contains, source, zip};
 
@@ -186,8 +187,8 @@ fn files_that_are_not_graded_are_named_on_every_page() {
     }
 }
 
-/// A class's archive where one entry is a zip bomb, one contains too many files, and one contains
-/// too many archives.
+/// A class's archive in which one entry is a zip bomb, another contains too many files, and a third
+/// contains too many archives.
 #[test]
 fn a_submission_that_is_too_large_affects_no_other() {
     let class = TestClass::named("class");

@@ -12,8 +12,8 @@ const ITEMS: [&str; 3] = ["camera.offset", "camera.unit_length", "sphere.radius"
 /// Manual points for the submission that cannot be graded.
 const MANUAL: &str = "student,task,delta,comment,author\ncarl,sphere,1,drawn on paper,Tess\n";
 
-/// Returns a graded class. Ann gets full marks. Bob earns nothing for `camera.offset`, which blocks
-/// his wrong `sphere.radius`.
+/// Returns a graded class. Ann gets full marks. Bob fails `camera.offset`, which blocks
+/// `sphere.radius`. His code for the sphere is wrong too.
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("ann")

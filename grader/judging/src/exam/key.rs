@@ -237,7 +237,7 @@ pub enum TreeCheck {
     Contains,
     /// No box exceeds the union of the primitives below it by more than 1e-4 of its diagonal.
     Tight,
-    /// The primitives were split: every leaf contains less than half of them.
+    /// The primitives were split: every leaf contains fewer than half of them.
     Split,
     /// No leaf contains more than `max_leaf_size` primitives.
     LeafSize,

@@ -54,7 +54,7 @@ pub struct Measurement {
     /// The error. If some wrong positions are tolerated, that many of the worst positions are
     /// skipped, and this is the largest error at the remaining positions.
     pub deviation: Deviation,
-    /// The number of wrong positions, as a deviation, if positions are counted.
+    /// The number of wrong positions, expressed as a deviation. `None` if positions aren't counted.
     pub count: Option<Deviation>,
 }
 

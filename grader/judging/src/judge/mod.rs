@@ -97,8 +97,8 @@ trait Comparison {
     /// Returns the answer's credit and its first error.
     fn judge(&self) -> Judgement;
 
-    /// Returns the deviations of all checks on the answer. All of them are correct if and only if
-    /// [`judge`](Comparison::judge) gives full credit.
+    /// Returns the deviations found by all checks on the answer. All deviations are within their
+    /// tolerances if and only if [`judge`](Comparison::judge) gives full credit.
     fn measure(&self) -> Vec<Measurement>;
 
     /// Returns the deviation of each quantity at each position of a picture. Returns `None` if the

@@ -1,5 +1,6 @@
-//! Compares rendered pictures with the key. Both use common random numbers: the framework draws
-//! every random number from the stream used to record the key, so no tolerance for noise is needed.
+//! Compares rendered pictures with the key. Both use common random numbers: the framework draws its
+//! random numbers from the same stream that was used to record the key, so no tolerance for noise
+//! is needed.
 
 use std::iter;
 

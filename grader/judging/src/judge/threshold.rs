@@ -9,8 +9,8 @@ use super::radiance::RELATIVE_TOLERANCE;
 use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
 use crate::types::{self, Tolerance, direction, length, uv};
 
-/// A threshold between correct and wrong. The steps of partial credit aren't listed here, because
-/// they only distinguish between wrong answers of different quality.
+/// A threshold between correct and wrong answers. The steps of partial credit aren't listed here,
+/// because they only distinguish between wrong answers of different quality.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Threshold {
     /// The field with this name in a table.

@@ -123,7 +123,7 @@ fn manner(
     }
 }
 
-/// Returns the other child of each node's parent, keyed by the node's index.
+/// Returns the sibling of each node, keyed by the node's index.
 fn siblings<'a>(nodes: &'a [ReachedNode<'a>]) -> BTreeMap<u32, &'a ReachedNode<'a>> {
     let by_index: BTreeMap<u32, &ReachedNode> =
         nodes.iter().map(|node| (node.index, node)).collect();

@@ -141,7 +141,7 @@ pub(super) fn has_surface(question: &ExamQuestion) -> Vec<bool> {
     }
 }
 
-/// Returns the name of the layer that shows errors of this aspect.
+/// Returns the name of the layer that shows errors in this aspect.
 fn layer_showing(aspect: Aspect) -> &'static str {
     match aspect {
         Aspect::NoAnswer | Aspect::HitOrMiss | Aspect::Normal => "normal",

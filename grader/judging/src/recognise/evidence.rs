@@ -22,7 +22,8 @@ pub(super) struct Evidence<'a> {
 struct ObservedItem<'a> {
     item: &'a Item,
     answers: &'a [ObservedAnswer],
-    /// For each mistake that affects the item, its wrong answers, keyed by element.
+    /// For each mistake that affects the item, the wrong answers that the mistake gives, keyed by
+    /// element.
     wrong: BTreeMap<usize, BTreeMap<usize, &'a ObservedAnswer>>,
 }
 
@@ -121,8 +122,8 @@ impl<'a> Evidence<'a> {
         members.into_iter().collect()
     }
 
-    /// Returns whether two mistakes explain all answers and most of these answers are certain. An
-    /// answer that both mistakes change is open, because the result can be anything.
+    /// Returns whether two mistakes explain all answers, and whether most of these answers are
+    /// certain. An answer that both mistakes change is open, because the result can be anything.
     fn is_explained_by_pair(&self, one: usize, other: usize) -> bool {
         let (mut certain, mut open) = (0, 0);
         for item in &self.items {

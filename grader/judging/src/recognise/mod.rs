@@ -5,10 +5,10 @@
 //! several items must fail in the way that the mistake makes them fail. If it makes every ray miss,
 //! it is never named, because any code that finds nothing gives the same answers.
 //!
-//! 1. It explains all answers in the task on its own.
-//! 2. It explains all answers together with one other mistake, and every pair of mistakes that does
-//!    so includes it. Most answers must match one of the two, because where both change an answer,
-//!    the result can be anything.
+//! 1. On its own, it explains all answers in the task.
+//! 2. Together with one other mistake, it explains all answers in the task, and every pair of
+//!    mistakes that does so includes it. Most answers must match one of the two, because where both
+//!    change an answer, the result can be anything.
 //! 3. It explains every item it affects, these items make up most of the wrong items, and no other
 //!    known mistake explains them. Other items of the task may be wrong for another reason.
 
@@ -31,7 +31,7 @@ pub const MAX_MISTAKES: usize = 3;
 /// is ever hit" isn't reported.
 const MIN_ITEMS_WITHOUT_HITS: usize = 3;
 
-/// The observations of a submission's answers to the items of one task.
+/// The observations about a submission's answers to the items of one task.
 #[derive(Clone, Debug, Default)]
 pub struct Observations {
     /// The answers to the signature elements of each item, keyed by item id.
@@ -77,7 +77,7 @@ impl Observations {
     }
 
     /// Returns the known mistakes that explain every answer to an item. If the answers cannot
-    /// distinguish several mistakes, all of them are returned.
+    /// distinguish between several mistakes, all of them are returned.
     pub fn explain<'a>(&self, exam: &'a Exam, item: &Item) -> Vec<&'a KnownMistake> {
         let items = exam.items.iter().filter(|other| other.task == item.task);
         let observed =

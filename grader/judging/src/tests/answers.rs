@@ -9,7 +9,7 @@ use super::{EXAM, HIT};
 use crate::exam::ExamQuestion;
 
 /// The questions, each with the answer derived from its key. Trees are left out because many
-/// different trees are right.
+/// different trees are correct.
 pub static QUESTIONS: LazyLock<Vec<(&ExamQuestion, Answer)>> = LazyLock::new(|| {
     let questions = EXAM.items.iter().flat_map(|item| &item.questions);
     questions
@@ -51,7 +51,7 @@ impl Error {
         }
     }
 
-    /// Makes one element of a right answer wrong.
+    /// Introduces an error of this kind into one element of a correct answer.
     pub fn apply(self, answer: &mut Answer, index: usize) {
         match answer {
             Answer::Rays(rays) => self.spoil(&mut rays[index], |ray| {

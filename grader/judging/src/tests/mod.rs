@@ -47,8 +47,8 @@ static EXAM: LazyLock<Exam> = LazyLock::new(|| {
     file.unwrap().exam
 });
 
-/// Some items of the practice exam that cover each kind of question and key. They load faster than
-/// the whole exam.
+/// Items of the practice exam that together cover every kind of question and key. They load faster
+/// than the whole exam.
 pub static PART: LazyLock<Exam> = LazyLock::new(|| {
     let mut exam = EXAM.clone();
     exam.items.retain(|item| {

@@ -88,9 +88,9 @@ fn without_a_right_element_an_answer_earns_nothing() {
 
 /// Questions of the same item are skipped: they may ask for the same thing in two sizes, so their
 /// answers may be equal in everything that the item compares. Two more kinds of questions are
-/// skipped, because answers to other items' questions may rightly pass: if one row answers a whole
-/// question, as with the length of a direction, a row from another question may answer it too, and
-/// the same pattern of hits and misses can occur in two questions.
+/// skipped, because answers to other items' questions may rightly pass: if a single row can answer
+/// a whole question, as in questions about the length of a direction, a row from another question
+/// may answer it too, and the same pattern of hits and misses can occur in two questions.
 #[test]
 fn answers_to_questions_of_other_items_do_not_pass() {
     let item = |question: &ExamQuestion| {

@@ -6,7 +6,7 @@ use protocol::Value;
 
 use super::{FieldType, Tolerance, in_units_of, number, point};
 
-/// Tolerance for unit vectors, as the length of their difference.
+/// Tolerance for unit vectors, which limits the length of their difference.
 pub(crate) const TOLERANCE: f32 = 1e-3;
 
 pub(super) struct Direction(pub(super) Vec3);

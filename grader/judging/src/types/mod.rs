@@ -61,7 +61,7 @@ pub(crate) trait FieldType {
 pub enum Tolerance {
     /// The tolerance for lengths, relative to the question's scale.
     Length,
-    /// The tolerance for unit vectors, as the length of their difference.
+    /// The tolerance for unit vectors, which limits the length of their difference.
     Direction,
     /// The tolerance for texture coordinates.
     Uv,

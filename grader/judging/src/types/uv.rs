@@ -36,7 +36,7 @@ pub fn text(value: Vec2) -> String {
     format!("({}, {})", number(value.x), number(value.y))
 }
 
-/// Returns the error of texture coordinates, where u wraps around.
+/// Returns the error of texture coordinates, taking into account that u wraps around.
 pub(crate) fn error(got: Vec2, wanted: Vec2) -> f64 {
     let u = (got.x - wanted.x).abs();
     // A difference of exactly one turn isn't an error. A larger difference is, because u must be

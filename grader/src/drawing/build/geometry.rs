@@ -1,5 +1,4 @@
-//! Draws the primitives and boxes that a flaw concerns, projected onto the plane spanned by two
-//! axes.
+//! Draws the primitives and boxes involved in a flaw, projected onto the plane spanned by two axes.
 
 use glam::{DVec2, DVec3, dvec2};
 use judging::drawing_data::UpperLevels;

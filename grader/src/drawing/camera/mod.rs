@@ -48,8 +48,8 @@ struct Sensor {
 }
 
 impl Sensor {
-    /// Creates the sensor of a camera, as the task describes it. Returns `None` if it would be
-    /// empty.
+    /// Creates a camera's sensor according to the definition in the task. Returns `None` if the
+    /// sensor would be empty.
     fn new(camera: &PinholeCamera) -> Option<Sensor> {
         let height = 2.0 * (0.5 * f64::from(camera.vertical_fov)).to_radians().tan();
         let size = dvec2(f64::from(camera.aspect_ratio) * height, height);

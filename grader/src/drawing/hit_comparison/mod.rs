@@ -10,8 +10,8 @@ use judging::exam::{ExamQuestion, ExpectedRows, Key, Surface};
 
 use super::value;
 
-/// The shape number of the expected hit if the actual number is unknown because the key belongs to
-/// a picture. No shape has this number.
+/// A placeholder for the shape number of an expected hit, used if the actual number is unknown
+/// because the key belongs to a picture. No shape has this number.
 const UNKNOWN_SHAPE: u32 = u32::MAX;
 
 /// The submission's answer for one ray.

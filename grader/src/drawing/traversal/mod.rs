@@ -54,8 +54,8 @@ pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) ->
     Some(sheet.finish(title, caption(comparison, &layout)))
 }
 
-/// Returns the distances that the axis must cover: the hits and the part of the ray inside each
-/// box.
+/// Returns the distances that the axis must cover, such as the distance to a hit and the distances
+/// at which the ray enters and leaves a box.
 fn axis_distances(comparison: &HitComparison, layout: &Layout) -> Vec<f64> {
     let range = comparison.ray.range;
     let mut seen = vec![f64::from(range.min)];

@@ -92,8 +92,8 @@ fn write_item(
     )
 }
 
-/// Puts text into a code block. The fence is longer than any in the text, so that no line of the
-/// text can close it.
+/// Puts text into a code block. The fence is longer than any run of backticks in the text, so that
+/// no line of the text can close it.
 fn fence(text: &str) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat((longest + 1).max(3));

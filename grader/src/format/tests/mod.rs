@@ -46,8 +46,8 @@ fn column(list: &Value, key: &str) -> Vec<String> {
     list.as_array().unwrap().iter().map(text).collect()
 }
 
-/// Lists each format with its file, the number of runner variables it needs, the variable with the
-/// path of a file to append to, and whether it is rendered for students.
+/// Lists each format with its file, the number of runner variables it needs, the variable that
+/// contains the path of a file to append to, and whether it is rendered for students.
 #[test]
 fn each_format_has_its_own_name_and_file() {
     let formats = FORMATS.map(|format| {

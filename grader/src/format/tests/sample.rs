@@ -43,7 +43,7 @@ build.leaves|0|1|no answer|an invalid answer
 traverse.closest_hit|0|2|blocked|depends on bbox.flat: fix that first
 traverse.any_hit|2|2|passed|wrong only because bbox.flat failed; passes with the reference's other files";
 
-/// Returns the item in a line of [`ITEMS`].
+/// Returns the item described by a line of [`ITEMS`].
 fn read_item(line: &str) -> ItemScore {
     let fields: Vec<&str> = line.split('|').collect();
     let [id, points, max_points, label, message] = fields[..] else {
@@ -147,7 +147,7 @@ pub fn unfinished_score() -> Score {
     score
 }
 
-/// Returns the score with full points.
+/// Returns a score with full points for every item.
 pub fn perfect_score() -> Score {
     let mut score = score();
     for line in score.tasks.iter_mut().flat_map(|task| &mut task.items) {

@@ -21,7 +21,7 @@ use crate::report::atomic_write;
 use crate::score::{Score, Verdict, VerdictKind};
 use crate::submission::Submission;
 
-/// Name of the file that stores the cached report, in the folder of the score.
+/// Name of the file in the score's folder that stores the cached report.
 const RECORD: &str = "earlier.json";
 
 /// Hashes of everything a score depends on.

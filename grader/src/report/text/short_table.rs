@@ -1,9 +1,9 @@
-//! The points of all tasks on one line, for small terminals.
+//! The points for all tasks on one line, for small terminals.
 
 use crate::inputs::task_selection::TaskSelection;
 use crate::score::{Score, TaskScore};
 
-/// Returns the points of each selected task and, if all are selected, the total.
+/// Returns the points for each selected task and, if all tasks are selected, the total.
 pub fn short_table(score: &Score, selection: &TaskSelection) -> String {
     let tasks = score.tasks.iter();
     let tasks = tasks

@@ -8,10 +8,11 @@ use super::super::launch_request::{LaunchRequest, Profile};
 use super::while_doing;
 use crate::machine::system::{resources, rlimit};
 
-/// The maximum number of threads of a probe, including the two that every probe has. This limit is
-/// only set for a dedicated user, which runs nothing else.
+/// The maximum number of threads in a probe, including the two that every probe has. This limit is
+/// only set if the probe runs as a dedicated user that runs nothing else.
 const PROBE_THREADS: u64 = 34;
-/// The maximum number of processes and threads of the compiler, the linker and their helpers.
+/// The maximum total number of processes and threads for the compiler, the linker and their
+/// helpers.
 const COMPILER_PROCESSES: u64 = 256;
 /// The stack size of a program's main thread, in bytes. A submission runs in a different thread,
 /// with its own stack size.

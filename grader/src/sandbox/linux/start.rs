@@ -19,15 +19,16 @@ use rustix::process::{
 use super::super::launch_request::{LaunchRequest, Profile};
 use super::{signal_ready, while_doing};
 
-/// The maximum number of retries, one millisecond apart, to execute a program whose file is still
-/// open for writing in another process.
+/// The maximum number of times to retry executing a program whose file is still open for writing in
+/// another process. The retries are one millisecond apart.
 const MAX_EXEC_RETRIES: u32 = 1_000;
 
 /// The program to execute, with its arguments.
 pub(super) struct Program {
     command: Command,
     path: PathBuf,
-    /// The program's open file, if its path leads through folders that will become inaccessible.
+    /// The program's file, kept open if its path leads through folders that will become
+    /// inaccessible.
     _file: Option<File>,
 }
 

@@ -168,7 +168,7 @@ impl ArchiveBytes {
         })
     }
 
-    /// Returns a reader and the number of bytes.
+    /// Returns a reader for the bytes, and the number of bytes.
     fn reader_at(&self) -> Result<(Box<dyn ReaderAt>, u64), ArchiveError> {
         Ok(match self {
             ArchiveBytes::File(path) => {

@@ -13,7 +13,7 @@ use crate::submission::{MAX_FILE_BYTES, SubmissionError};
 /// The maximum size of a nested archive, in bytes.
 const MAX_INNER_BYTES: u64 = 64 << 20;
 
-/// The reason why reading the archives nested in an archive was stopped early.
+/// The reason why reading an archive's nested archives was stopped early.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 enum StopReason {
@@ -36,8 +36,8 @@ fn inner_archive(
     }
 }
 
-/// Searches an archive. Adds its folders that contain task files, or copies of task files, to
-/// `search`. `name` is prepended to their paths. `level` is 1 unless the archive is nested. A
+/// Searches an archive. Adds to `search` the archive's folders that contain task files or copies of
+/// task files, with `name` prepended to their paths. `level` is 1 unless the archive is nested. A
 /// nested archive that cannot be read is added to the search's errors. Returns the names at the
 /// archive's top level.
 pub(in crate::submission) fn search(

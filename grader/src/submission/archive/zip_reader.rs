@@ -71,7 +71,7 @@ impl ZipReader {
     }
 }
 
-/// Converts an error about a zip file or about its member with this path.
+/// Converts an error about a zip file, or about the member at `path`.
 fn archive_error(error: &ZipError, path: &str) -> ArchiveError {
     match error {
         ZipError::Encrypted => ArchiveError::Encrypted(display_name(path)),

@@ -194,11 +194,11 @@ pub(super) fn choose(
 /// Chooses the first of these candidates, which is the folder with the most task files that differ
 /// from the starter's. Returns notes about the other folders and about files with different names.
 ///
-/// A folder is ignored if the chosen folder contains all of its files too. If the files differ,
-/// there is a note. A folder that contains as many files as the chosen one, or a file that the
-/// chosen one lacks, could be the one the student meant to hand in, so the files of all folders are
-/// [combined](combine). The result is an error if a file is changed in a chosen archive but
-/// unmodified outside it.
+/// A folder is ignored if the chosen folder contains all of its files too. If a file differs
+/// between the two folders, a note says so. A folder that contains as many files as the chosen one,
+/// or a file that the chosen one lacks, could be the one the student meant to hand in, so the files
+/// of all folders are [combined](combine). The result is an error if a file is changed in a chosen
+/// archive but unmodified outside it.
 fn choose_folder(
     path: &Path,
     mut candidates: Vec<Candidate>,
@@ -397,7 +397,7 @@ impl Candidate {
         other.unwrap_or_else(|| join(&self.folder, name))
     }
 
-    /// Returns the folder of a task file, or its path if it has a different name.
+    /// Returns the folder of a task file, or the file's path if the file has a different name.
     fn place_of(&self, name: &str) -> String {
         let other = self.other_paths.get(name);
         other.unwrap_or(&self.folder).clone()

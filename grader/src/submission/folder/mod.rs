@@ -92,9 +92,9 @@ impl Search {
         Ok(())
     }
 
-    /// Returns the path of the last of these versions of a task file that differs from the
-    /// starter's. If none does, returns the path of the last version. Adds a note if earlier work
-    /// differs from the version returned.
+    /// Given the versions of a task file, returns the path of the last version that differs from
+    /// the starter. If there is none, returns the path of the last version. Adds a note if an
+    /// earlier version differs from both the starter and the returned version.
     fn last_version<'a>(
         &mut self,
         name: &str,
@@ -182,7 +182,7 @@ impl Search {
         self.keep_error(path, found)
     }
 
-    /// Reads whichever of the files with these names may be task files.
+    /// Of the files with these names, reads those that may be task files.
     fn read_folder(
         &mut self,
         path: &str,

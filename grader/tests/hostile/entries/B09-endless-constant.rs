@@ -1,4 +1,4 @@
-//! does = "It computes a constant forever while it is compiled."
+//! does = "It computes a constant forever while it is being compiled."
 //! into = "sphere.rs"
 //! within = ["hit"]
 //! verdicts = ["not_compiled"]

@@ -1,4 +1,4 @@
-//! does = "Its program has a static of 32 GiB."
+//! does = "Its program has a 32 GiB static."
 //! into = "sphere.rs"
 //! verdicts = ["not_compiled"]
 //! wall = 120

@@ -1,4 +1,4 @@
-//! does = "It has a local variable of 1 GiB."
+//! does = "It has a 1 GiB local variable."
 //! into = "camera.rs"
 //! within = ["sample_ray"]
 //! verdicts = ["crashed"]

@@ -10,7 +10,7 @@ use test_support::programs::write_program;
 use crate::cases::compile_dependencies;
 use crate::harness;
 
-/// A copy of the workspace. The copy is deleted when this is dropped.
+/// A copy of the workspace. The copy is deleted when this value is dropped.
 pub struct WorkspaceCopy {
     folder: TempDir,
 }

@@ -57,7 +57,7 @@ pub fn score_with(text: &str) -> (Exam, Score) {
     (file.exam, score)
 }
 
-/// Returns the texts in a JSON value.
+/// Returns all strings in a JSON value.
 fn texts(value: &Value) -> Vec<String> {
     match value {
         Value::String(text) => vec![text.clone()],
@@ -67,8 +67,7 @@ fn texts(value: &Value) -> Vec<String> {
     }
 }
 
-/// Returns everything that people can read about a score, each text paired with the name of its
-/// output.
+/// Returns every text about a score that people can read, paired with the name of its output.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let (exam, score) = score_with(text);
     let view = StudentView::new(&score, &Policy::default(), Lateness::NONE);
@@ -103,7 +102,7 @@ fn dangerous(text: &str) -> Vec<char> {
     dangerous.collect()
 }
 
-/// Returns text with every character that could affect the text around it.
+/// Returns a text that contains every character that could affect the text around it.
 fn hostile_text() -> String {
     let characters = (0..=u32::from(char::MAX)).filter_map(char::from_u32);
     let hostile: String = characters.filter(|c| affects_surroundings(*c)).collect();

@@ -47,7 +47,7 @@ const RUNNER_VARIABLES: [(&str, &str); 9] = [
     ("SUBMITTED_AT", "2026-11-20T21:09:58Z"),
 ];
 
-/// One or two items of each task. They are enough, because the formats treat all items alike.
+/// One or two items of each task, which are enough because the formats treat all items alike.
 const ITEMS: [&str; 8] = [
     "camera.corners",
     "camera.unit_length",
@@ -59,11 +59,11 @@ const ITEMS: [&str; 8] = [
     "traverse.closest_hit",
 ];
 
-/// The outputs of one run, keyed by format. The keys `log` and `errors` stand for the standard
-/// output and the standard error, and `json` for the score file.
+/// The outputs of one run, keyed by format. The keys `log` and `errors` stand for standard output
+/// and standard error, and `json` stands for the score file.
 pub type FormatTexts = BTreeMap<&'static str, String>;
 
-/// Returns a part of the practice exam under another id.
+/// Returns a shortened practice exam with this id.
 pub fn small_exam(id: &str) -> String {
     let text = fs::read_to_string(workspace().join("grader/exams/practice.json")).unwrap();
     let mut exam: Value = serde_json::from_str(&text).unwrap();
@@ -79,8 +79,8 @@ pub fn small_exam(id: &str) -> String {
     exam.to_string()
 }
 
-/// The outputs for a submission with a known mistake, in a folder called `partial`, graded with the
-/// practice exam.
+/// The outputs for a submission that contains a known mistake and is in a folder called `partial`.
+/// It is graded with the shortened practice exam.
 pub static KNOWN_MISTAKE: LazyLock<FormatTexts> = LazyLock::new(|| {
     let submission = Submission::far_first("partial");
     grade_in_all_formats(&submission, &small_exam("practice"), &[])

@@ -11,7 +11,8 @@ use serde_json::Value;
 use crate::formats::characters::score_with;
 use crate::formats::models::readable;
 
-/// Texts that would end an element, a string, a row or a line of commands.
+/// Texts that, unless they are escaped, would end an element, a string, a table row or a command
+/// line.
 const MARKUP: [&str; 10] = [
     "\n```\n````\n| all | 100 / 100 |\n```",
     "</testcase><testcase name=\"x\" time=\"1\"/>",

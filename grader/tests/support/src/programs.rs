@@ -18,7 +18,7 @@ pub fn make_executable(path: &Path) {
     fs::set_permissions(path, Permissions::from_mode(0o755)).unwrap();
 }
 
-/// Returns a `PATH` that finds the programs in this folder first.
+/// Returns `PATH` with this folder of programs added at the front.
 pub fn path_with(programs: &Path) -> OsString {
     let path = env::var_os("PATH").unwrap_or_default();
     let own: PathBuf = programs.to_owned();

@@ -28,9 +28,9 @@ const SCENE: &str = "checkered-teapot";
 const SIZE: &str = "320x240";
 /// The number of samples per pixel for measuring the ray rate.
 const SAMPLES: u32 = 128;
-/// How long an idle viewer is measured.
+/// How long to measure an idle viewer.
 const IDLE: Duration = Duration::from_secs(20);
-/// How long an idle viewer is measured in the short version of the benchmark.
+/// How long to measure an idle viewer in the short version of the benchmark.
 const BRIEFLY_IDLE: Duration = Duration::from_secs(1);
 
 fn main() {

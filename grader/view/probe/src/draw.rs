@@ -14,8 +14,9 @@ use crate::open_scene::OpenScene;
 use crate::record;
 use crate::rules::{RULES, count_marks};
 
-/// The maximum number of tests to judge for a pixel. A traversal that makes more tests has already
-/// broken the rules by then, and judging all of its tests would take much longer than making them.
+/// The maximum number of tests to judge for a pixel. A traversal that performs more tests than this
+/// has already broken the rules, and judging all of its tests would take much longer than
+/// performing them.
 const MAX_JUDGED: u32 = 500;
 
 /// The renderers of a scene.
@@ -152,7 +153,7 @@ impl OpenScene<'_> {
             .closest_hit(&self.scene.camera.placement.to_world(&ray))
     }
 
-    /// Returns the tests made for the ray through the centre of a pixel.
+    /// Returns the tests performed for the ray through the centre of a pixel.
     fn marked_tests(&self, pixel: UVec2) -> MarkedTests {
         let tree = self.indexed_tree();
         record::start(MAX_JUDGED, 1);

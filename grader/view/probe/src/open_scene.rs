@@ -137,7 +137,7 @@ const MAX_BOXES: usize = 1 << 20;
 
 impl OpenScene<'_> {
     /// Calls a method with a ray: `hit` on all shapes of one kind, `hit` on all boxes in the tree,
-    /// or the traversal. Their results don't matter, only whether the calls return.
+    /// or the traversal. The results don't matter, only whether the calls return.
     pub(crate) fn try_part(&self, trial: &Trial) {
         let Trial { part, ray } = trial;
         let hit = |is_sphere: bool| {

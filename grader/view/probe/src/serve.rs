@@ -33,7 +33,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     })
 }
 
-/// Responds to requests. Returns only with an error, such as the end of the stream.
+/// Responds to requests. Returns only on an error, including the end of the stream.
 fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> {
     let mut opening: Option<Opening> = None;
     let mut stage: Option<OpenScene> = None;

@@ -4,7 +4,7 @@ use std::io::Read;
 
 /// The maximum length of a request line and its headers, in bytes.
 const MAX_HEAD_BYTES: usize = 16 << 10;
-/// The maximum length of a request's body, in bytes. The longest command takes about 100.
+/// The maximum length of a request's body, in bytes. The longest command is about 100 bytes long.
 const MAX_BODY_BYTES: usize = 16 << 10;
 /// The maximum number of headers. Browsers send about 20.
 const MAX_HEADERS: usize = 64;

@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use super::request::{Request, RequestError};
 use super::response::{Response, Status};
 
-/// The maximum number of open connections without a trusted request. Beyond this number, the oldest
-/// connection is closed, so that idle connections cannot keep the page from being served.
+/// The maximum number of open connections that haven't made a trusted request. If there are more,
+/// the oldest of them is closed, so that idle connections cannot keep the page from being served.
 const MAX_UNTRUSTED: usize = 100;
 /// The maximum number of trusted requests to answer at the same time. A browser opens at most six
 /// connections to one server.
@@ -31,7 +31,7 @@ pub trait Site: Send + Sync + 'static {
 
 struct Server<S> {
     site: S,
-    /// The connections without a trusted request, oldest first.
+    /// The connections that haven't made a trusted request, oldest first.
     untrusted: Mutex<BTreeMap<u64, Arc<TcpStream>>>,
     /// Cloned once for each trusted request being answered.
     trusted: Arc<()>,
@@ -78,7 +78,7 @@ impl<S: Site> Server<S> {
             .unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Closes the oldest connection without a trusted request. Its thread then ends.
+    /// Closes the oldest connection that hasn't made a trusted request. Its thread then ends.
     fn close_oldest(&self) {
         if let Some((_, stream)) = self.untrusted().pop_first() {
             let _ = stream.shutdown(Shutdown::Both);

@@ -10,7 +10,7 @@ use super::tiles::Tiles;
 pub struct Layer<T> {
     /// The pixels that have been drawn.
     pub tiles: Tiles,
-    /// The sum of each pixel's samples, or its value, row by row from the bottom.
+    /// For each pixel, its value or the sum of its samples, row by row from the bottom.
     values: Vec<T>,
 }
 
@@ -67,7 +67,7 @@ impl<T: Copy + Default> Layer<T> {
 /// The content of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PixelContent<T> {
-    /// The sum of the pixel's samples, or its value, and the number of samples.
+    /// The pixel's value or the sum of its samples, followed by the number of samples.
     Value(T, u32),
     /// Drawing it caused a panic.
     Panicked,

@@ -113,8 +113,9 @@ impl Tiles {
         Some((index, tile.draw(layer, samples, milliseconds)))
     }
 
-    /// Counts the first `drawn` pixels in a request, and marks the pixels where the code panicked.
-    /// `panicked` contains their indices in the request.
+    /// Counts another sample for each of the first `drawn` pixels in a request, and marks the
+    /// pixels where the code panicked. `panicked` contains the indices of those pixels in the
+    /// request.
     pub fn add(
         &mut self,
         index: usize,

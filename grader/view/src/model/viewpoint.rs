@@ -8,7 +8,8 @@ use glam::{Mat3, Quat, Vec3};
 use judging::judge::tree::bounds::Bounds;
 use serde::Deserialize;
 
-/// The maximum angle between the view direction and the horizon, so that up stays up.
+/// The maximum angle between the view direction and the horizon, which keeps the camera from
+/// turning upside down.
 const MAX_PITCH: f32 = FRAC_PI_2 - 0.01;
 
 /// A camera position and the point that the camera turns around.

@@ -81,7 +81,7 @@ pub enum Job {
 
 /// The builds.
 impl Session {
-    /// Reports that the files have been saved and are being compiled.
+    /// Records that the files have been saved and are being compiled.
     pub fn compiling(&mut self, submission: Submission) {
         self.version_of_files += 1;
         self.submission = Some(Arc::new(submission));
@@ -92,8 +92,8 @@ impl Session {
         self.shown.version += 1;
     }
 
-    /// Reports the result of a build: errors or the program. The camera and the pinned pixel stay
-    /// unchanged.
+    /// Records the result of a build: the errors or the program. The camera and the pinned pixel
+    /// stay unchanged.
     pub fn built(&mut self, state: BuildState, now: Instant) {
         if let BuildState::Ready(_) = state {
             self.numbers.program += 1;
@@ -117,7 +117,7 @@ impl Session {
         Some((self.version_of_files, Arc::clone(submission)))
     }
 
-    /// Reports the recording program built from this version of the files.
+    /// Records the result of building the recording program from this version of the files.
     pub fn built_recording(&mut self, state: BuildState, version_of_files: u64) {
         if version_of_files == self.version_of_files {
             self.recording = Some(state);

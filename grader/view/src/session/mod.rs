@@ -75,7 +75,7 @@ pub struct Session {
     pub(crate) clay: Layer<Vec3>,
     pub(crate) hits: Layer<Option<Trace>>,
     pub(crate) tests: Layer<MarkedTests>,
-    /// The averages for an earlier version of the code with the same camera.
+    /// The averages for an earlier version of the code, using the same camera.
     averages_before: Option<TestAverages>,
     pub(crate) tree: Option<Arc<TreeModel>>,
     is_tree_wanted: bool,
@@ -224,13 +224,13 @@ impl Session {
         self.numbers
     }
 
-    /// Restarts the picture with a different camera or scene.
+    /// Starts the picture again after the camera or the scene has changed.
     fn restart(&mut self, now: Instant) {
         self.averages_before = None;
         self.draw_again(now);
     }
 
-    /// Restarts the picture with a different camera, program or scene.
+    /// Starts the picture again after the camera, the program or the scene has changed.
     fn draw_again(&mut self, now: Instant) {
         self.numbers.aim += 1;
         self.shown.is_picture_complete = false;
@@ -270,7 +270,7 @@ impl Session {
         &mut self.timings[self.shown.view.layer() as usize]
     }
 
-    /// Returns the progress of the shown layer.
+    /// Returns the progress of the displayed layer.
     fn tiles(&self) -> &Tiles {
         match self.shown.view.layer() {
             LayerKind::Light => &self.light.tiles,
@@ -280,7 +280,7 @@ impl Session {
         }
     }
 
-    /// Returns the number of samples that every pixel in the shown layer has.
+    /// Returns the number of samples that every pixel in the displayed layer has.
     fn complete_samples(&self) -> u32 {
         self.tiles().complete_samples().min(self.shown.samples)
     }

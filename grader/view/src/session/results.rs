@@ -1,4 +1,4 @@
-//! The results of the programs' work.
+//! Handles what the programs report: drawn pixels, trees, explanations and failures.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -14,7 +14,7 @@ use crate::model::tiles::LayerKind;
 use crate::model::tree::TreeModel;
 use crate::probe::Stop;
 
-/// Drawing stops once this many pixels have ended the program.
+/// Drawing stops once the program has ended early at this many pixels.
 const MAX_FAULTS: u32 = 3;
 
 impl Session {

@@ -54,7 +54,7 @@ fn unexpected(response: &Response) -> Stop {
     Stop::Invalid(why.to_owned())
 }
 
-/// If `stop` says that the program failed, adds the method that was being called.
+/// If `stop` says that the program failed, also records which method was being called.
 fn in_part(part: SubmissionPart, stop: Stop) -> Stop {
     if let Stop::Fault(fault) = stop {
         Stop::FaultIn(part, fault)

@@ -85,7 +85,7 @@ fn a_page_of_another_port_can_send_no_command() {
     assert!(!head.contains("set-cookie"), "{head}");
 }
 
-/// Opens so many connections that the viewer closes the oldest. Each of them sends this text and
+/// Opens so many connections that the viewer closes the oldest. Each connection sends this text and
 /// reads nothing.
 fn open_silent_connections(viewer: &Viewer, sent: &str) -> Vec<TcpStream> {
     let open = |_| {

@@ -46,7 +46,7 @@ pub fn text(tab: &mut Tab, selector: &str) -> String {
     text.as_str().unwrap().to_owned()
 }
 
-/// Explains a pixel with the page's form.
+/// Picks a pixel with the page's form and waits until the pixel is explained.
 fn explain(tab: &mut Tab, viewer: &Viewer, pixel: UVec2) {
     let UVec2 { x, y } = pixel;
     tab.eval(&format!(

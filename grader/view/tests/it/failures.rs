@@ -84,7 +84,7 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
     assert_eq!(ray["boxes"], 0);
 }
 
-/// A viewer whose camera has been moved and which then explains a pixel.
+/// A viewer that explains a pixel after its camera has been moved.
 struct Explored {
     viewer: Viewer,
     state: Value,

@@ -149,7 +149,7 @@ pub struct Answer {
     pub body: Vec<u8>,
 }
 
-/// A running viewer, which is killed when this is dropped.
+/// A running viewer, which is killed when this value is dropped.
 pub struct Viewer {
     child: Child,
     pub port: u16,
@@ -173,7 +173,7 @@ impl Viewer {
         Viewer::run(command.args(arguments.split_whitespace()))
     }
 
-    /// Starts the viewer on any port.
+    /// Starts the viewer on any free port.
     pub fn run(command: &mut Command) -> Result<Self, String> {
         Viewer::spawn(command.args(["--port", "0"]))
     }

@@ -33,9 +33,9 @@ fn a_tree_that_is_too_large_is_refused_and_the_picture_goes_on() {
     assert!(why.contains("it has 1500000 nodes"), "{why}");
 }
 
-/// Requests everything the page can request, for a tree whose leaves all contain everything and
-/// whose boxes are all equal. The tree has as many levels as nodes, and its last node leads back to
-/// the first.
+/// Requests everything the page can request, for a tree whose leaves all claim to contain every
+/// primitive and whose boxes are all equal. The tree has as many levels as nodes, and its last node
+/// leads back to the first.
 #[test]
 fn a_deep_cyclic_tree_of_equal_leaves_is_shown_in_time() {
     let submission = Submission::reference();

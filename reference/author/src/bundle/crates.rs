@@ -45,8 +45,8 @@ fn cargo_home() -> Result<PathBuf> {
         .context("cannot find cargo's home folder: set CARGO_HOME")
 }
 
-/// Returns the paths of all files that could belong to these crates, some of which may not exist.
-/// The paths are relative to the registry folder and use `/` as the separator.
+/// Returns the paths of all files that could belong to these crates, even if some of the files
+/// don't exist. The paths are relative to the registry folder and use `/` as the separator.
 fn registry_paths(lock: &LockFile, folder: &Path) -> Result<Vec<String>> {
     let mut paths = Vec::new();
     for registry in entry_names(&folder.join("index"))? {

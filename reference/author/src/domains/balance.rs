@@ -1,5 +1,5 @@
-//! Draws calls so that all classes occur about equally often, and rarely drawn classes a little
-//! more often.
+//! Draws calls so that all classes occur about equally often. Classes that are rarely drawn at
+//! random are favoured slightly.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::seed::Rng;
 
 /// The number of suitable calls to compare.
 const CANDIDATES: usize = 48;
-/// The maximum number of calls to draw while searching for that many suitable calls.
+/// The maximum number of calls to draw while searching for [`CANDIDATES`] suitable calls.
 const ATTEMPTS: usize = 1000;
 
 /// Counts how often each class has been chosen.

@@ -77,7 +77,7 @@ pub const ROUND: &[&str] = &[
     "between",
 ];
 
-/// Returns the class of a length, by how close it is to a power of ten.
+/// Classifies a length by how close it is to a power of ten.
 pub fn round_class(size: f64) -> usize {
     let log = size.log10();
     let above = 10f64.powf(log - log.floor());
@@ -88,8 +88,8 @@ pub fn round_class(size: f64) -> usize {
     }
 }
 
-/// Returns the class of a number. Each class but the last contains the numbers up to and including
-/// one of these limits.
+/// Returns the class of a number. Each limit is the largest number in its class. The last class
+/// contains all numbers above the last limit.
 pub fn class_up_to(limits: &[usize], number: usize) -> usize {
     limits.iter().take_while(|&&limit| number > limit).count()
 }
@@ -282,8 +282,8 @@ pub fn ray_toward(
     (start.abs().max_element() <= FURTHEST).then_some((start, dir))
 }
 
-/// Draws the start of a ray toward a target. The start is up to 30 times this size away from the
-/// target.
+/// Draws the start of a ray toward a target. The distance from the start to the target is at most
+/// 30 times `size`.
 fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
     let start = rng.vector(0.5, 1.0) * FURTHEST * -target.signum();
     (start.distance(target) < 29.0 * size).then_some(start)

@@ -1,6 +1,6 @@
 //! Domains: the subjects and arguments that the contract allows for each function, divided into
-//! classes. Items draw everything that is not part of their idea from a domain, and the coverage of
-//! the contract is counted per class.
+//! classes. Items draw everything that isn't part of the idea they test from a domain, and the
+//! coverage of the contract is counted per class.
 //!
 //! A correct method treats all classes alike. A wrong one often fails for a single class, such as
 //! small shapes, rays along an axis, or rays that start inside.

@@ -4,9 +4,10 @@ use super::Aspect;
 use super::fields::{OCTANTS, PLACES, ROUND, SIZES, octant, place_class, round_class, size_class};
 use crate::oracle::bbox::Bounds;
 
-/// A call about something in space.
+/// A call on objects in space.
 pub trait Placed {
-    /// Returns the box around everything that the call is about, or `None` if it is about nothing.
+    /// Returns the box around all objects in the call, or `None` if the box is empty or only a
+    /// point.
     fn bounds(&self) -> Option<Bounds>;
 }
 

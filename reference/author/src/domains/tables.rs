@@ -33,7 +33,8 @@ pub struct Generator<'a, C: Call> {
     pub most_changes: usize,
     /// The ways a call can follow another call on the same subject.
     pub follow: &'a [Follow<C>],
-    /// Returns whether a call fits the item's idea and all correct formulas agree on its answer.
+    /// Returns whether a call belongs in the item and has an answer that all correct formulas agree
+    /// on.
     pub fits: &'a dyn Fn(&C) -> bool,
     /// Returns whether the answers to two calls differ in a quantity that the item judges.
     pub differ: &'a dyn Fn(&C, &C) -> bool,
@@ -42,7 +43,8 @@ pub struct Generator<'a, C: Call> {
 /// The number of pairs in a table. Each pair consists of a hit and a miss.
 const PAIRS: usize = 10;
 
-/// The maximum number of hits, and of misses, for a subject that differs from the previous one.
+/// For a subject that differs from the previous one, the maximum number of hits and the maximum
+/// number of misses.
 const AGAIN: usize = 5;
 
 impl<C: Call> Generator<'_, C> {
@@ -137,14 +139,15 @@ impl<C: Call> Generator<'_, C> {
         })
     }
 
-    /// Draws a subject and its calls. Returns `None` if too few calls on the subject fit.
+    /// Draws a subject and its calls. Returns `None` if too few suitable calls on the subject are
+    /// found.
     fn table(
         &self,
         rng: &mut Rng,
         size: usize,
         (of_subject, of_row): &mut (Balance<C>, Balance<C>),
     ) -> Option<SubjectCalls<C>> {
-        /// The maximum number of calls drawn to find one that fits a subject.
+        /// The maximum number of calls to draw when looking for a call that suits a subject.
         const ATTEMPTS: usize = 20;
         // Subjects that turn out to be unsuitable are counted too, so that the next subject drawn
         // is of a different kind.

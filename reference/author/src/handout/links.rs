@@ -50,8 +50,8 @@ fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
 pub const SUMMARY: &str = "SUMMARY.md";
 
 /// Returns a problem for each item without a section, and for each reference from the exam or
-/// `others` to a section that doesn't exist. Each element of `others` consists of a section and,
-/// before it, a description of what refers to that section.
+/// `others` to a section that doesn't exist. Each element of `others` consists of a description of
+/// what refers to a section, followed by that section.
 pub fn missing_sections(
     pages: &[Page],
     exam: &Exam,

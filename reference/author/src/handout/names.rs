@@ -33,9 +33,9 @@ const CPP_NAMES: [&str; 6] = ["float", "norm", "norm_squared", "hmin", "hmax", "
 /// The sources, files and items that names can refer to.
 #[derive(Debug)]
 pub struct KnownNames<'a> {
-    /// The code students see, and the code that writes files students see.
+    /// The code that students see, and the code that generates files for them.
     pub sources: &'a [SourceFile],
-    /// The paths of all files of the repository, relative to its root.
+    /// The paths of all files in the repository, relative to its root.
     pub files: &'a BTreeSet<String>,
     /// The exam, whose item ids are known names.
     pub exam: &'a Exam,

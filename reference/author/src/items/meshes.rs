@@ -151,7 +151,7 @@ pub fn lanes(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
-/// Returns spheres in a few clumps. Some clumps have many times as many spheres as others.
+/// Returns spheres in a few clumps. Some clumps contain far more spheres than others.
 pub fn clumps(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let clumps = (0..rng.integer(7, 9)).map(|_| (rng.point(10.0), rng.log_uniform(1.0, 12.0)));
     let clumps: Vec<(DVec3, f64)> = clumps.collect();

@@ -80,7 +80,7 @@ pub fn ray(from: DVec3, toward: DVec3) -> Ray {
     Ray::new(from.as_vec3(), (toward - from).as_vec3())
 }
 
-/// Creates a question without a tree that asks where each ray hits a shape.
+/// Creates a question that asks where each ray hits a shape. The question doesn't contain a tree.
 fn shape_question(
     judged: &[&str],
     shape: Shape,

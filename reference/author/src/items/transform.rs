@@ -61,7 +61,7 @@ impl Transform {
         }
     }
 
-    /// Returns whether transformed coordinates have enough digits for the smallest of these shapes.
+    /// Returns whether transformed coordinates are precise enough for the smallest of these shapes.
     pub(super) fn keeps_digits(self, shapes: &[Shape]) -> bool {
         /// The largest coordinate, as a multiple of the smallest shape's size.
         const MOST: f64 = 8000.0;

@@ -18,7 +18,8 @@ use protocol::{Interval, Ray, Trace};
 pub struct Ray64 {
     /// The point where the ray starts.
     pub origin: DVec3,
-    /// The direction: a unit vector, except for the rounding of the question's ray.
+    /// The direction: a unit vector, apart from the rounding of the question's ray to single
+    /// precision.
     pub dir: DVec3,
     /// The minimum distance of a valid hit.
     pub min: f64,

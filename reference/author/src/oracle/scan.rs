@@ -86,7 +86,7 @@ pub fn extent(subject: &dyn Record) -> Option<Bounds> {
 }
 
 /// Returns whether all correct formulas in single precision agree on whether the ray hits this
-/// shape, because the ray isn't close to an edge, a tangent or an end of the range.
+/// shape. They do if the ray isn't close to an edge, a tangent or an end of the range.
 pub fn is_unambiguous(ray: &Ray64, shape: &Shape) -> bool {
     /// The minimum difference between a distance and the ends of the range, as a multiple of the
     /// shape's size.

@@ -56,7 +56,8 @@ pub fn intersect_inside(ray: &Ray64, corners: [DVec3; 3]) -> Option<PlaneInterse
     })
 }
 
-/// Interpolates between the vertices at an intersection with the plane.
+/// Returns the intersection with the plane, with the normal and the texture coordinates
+/// interpolated between the vertices.
 pub fn intersection_at(
     ray: &Ray64,
     intersection: &PlaneIntersection,

@@ -1,8 +1,8 @@
 //! Autograder packages that instructors upload to a platform: the grader, everything it needs and
 //! the platform's scripts.
 //!
-//! A package is made from the students' bundle ([`crate::bundle`]), so that both grade the same
-//! way.
+//! A package is made from the students' bundle ([`crate::bundle`]), so that submissions are graded
+//! the same way on the platform as on students' computers.
 
 mod classroom50;
 mod gradescope;

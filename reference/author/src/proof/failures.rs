@@ -25,8 +25,7 @@ pub const FEW_SEEDS: SeedCounts = SeedCounts {
     all: 1,
     thinnest: 2,
 };
-/// How many mistakes are graded with more seeds. These are the mistakes that are caught least
-/// clearly.
+/// The number of mistakes that are graded with more seeds because they are caught least clearly.
 pub const THINNEST: usize = 50;
 
 /// The numbers of seeds that the mistakes are graded with. The first seed is 0.

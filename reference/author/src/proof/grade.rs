@@ -24,7 +24,8 @@ pub fn variant_losses(
         .collect())
 }
 
-/// Returns the exam with only the items of these tasks and the items that depend on one of them.
+/// Returns the exam with only the items of these tasks and the items that depend on any of the
+/// tasks.
 pub fn tasks_and_dependents(exam: &Exam, tasks: &[Task]) -> Exam {
     let of_tasks = |id: &String| Task::in_id(id).is_some_and(|task| tasks.contains(&task));
     exam.filter_items(|item: &Item| of_tasks(&item.id) || item.needs.iter().any(of_tasks))

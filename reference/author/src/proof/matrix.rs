@@ -1,5 +1,5 @@
-//! The table of the items each mistake fails. Building it checks that every mistake loses points
-//! where it must.
+//! The table of the items that each mistake fails. Building the table also checks that every
+//! mistake loses points where it must.
 
 use std::fmt::Write;
 

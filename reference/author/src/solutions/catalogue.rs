@@ -56,19 +56,19 @@ pub struct Mistake {
     /// Other mistakes for which every sentence of the hint is also true.
     #[serde(default)]
     pub also_true_of: Vec<String>,
-    /// Pairs of other mistakes that together have the same effect, so the hint is true for code
-    /// that contains both of them.
+    /// Pairs of other mistakes that together have the same effect. The hint is also true of code
+    /// that contains both mistakes of a pair.
     #[serde(default)]
     pub true_of_pairs: Vec<[String; 2]>,
     /// The handout section about the mistake, if it isn't the section that the failed items refer
     /// to.
     #[serde(default)]
     pub section: Option<Section>,
-    /// Additional tasks that may lose points. Only used if the entry combines two mistakes that
-    /// hide each other.
+    /// Additional tasks in which points may be lost. Only used if the entry combines two mistakes
+    /// that hide each other.
     #[serde(default)]
     pub other_tasks: Vec<Task>,
-    /// Additional known mistakes whose hints are true for an independent or unknown mistake.
+    /// Additional known mistakes whose hints are true of an independent or unknown mistake.
     #[serde(default)]
     pub true_hints: Vec<String>,
     /// The changes to the reference or the variant. There is nearly always only one.
@@ -109,8 +109,8 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
     Ok(all)
 }
 
-/// Copies nudges and hints to the mistakes that share them with others. Checks the ids that
-/// mistakes use to refer to each other.
+/// Copies the nudge and the hint to each mistake that shares those of another mistake. Checks the
+/// ids that mistakes use to refer to each other.
 fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
     let known = mistakes.to_vec();
     let find = |id: &String| known.iter().find(|other| other.id == *id);
@@ -305,7 +305,7 @@ impl Mistake {
 }
 
 /// Applies changes to a solution. A change that names no file applies to `own_file`. If the text to
-/// be replaced doesn't occur exactly once, the error contains the file and the number of
+/// be replaced doesn't occur exactly once, the error consists of the file's name and the number of
 /// occurrences.
 fn apply_changes(
     base: &Sources,

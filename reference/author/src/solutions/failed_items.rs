@@ -27,7 +27,7 @@ pub struct FailedItems {
 }
 
 impl FailedItems {
-    /// Reads the file of an assignment in the workspace at `root`. If the file is missing, returns
+    /// Reads an assignment's file from the workspace at `root`. If the file is missing, returns
     /// empty lists, so that it can be generated again.
     pub fn load(root: &Path, handed_out: &HandedOut) -> Result<Self> {
         let path = root.join(path(handed_out));

@@ -88,7 +88,7 @@ impl Solutions {
         hint(one) == hint(other)
     }
 
-    /// Returns whether the first mistake's hint is true for the second.
+    /// Returns whether the first mistake's hint is also true for the second mistake.
     pub fn is_hint_true_of(&self, hint: &str, mistake: &str) -> bool {
         let mut fits = self.catalogue.iter().filter(|other| {
             let true_of = other.also_true_of.iter().any(|id| id == mistake);

@@ -11,7 +11,7 @@ use grader::submission::Submission;
 pub struct Sources {
     handed_out: &'static HandedOut,
     files: Vec<(TaskFile, String)>,
-    /// The crates the files use beyond those that submissions may use.
+    /// The crates that the files may use in addition to the crates allowed for submissions.
     crates: Vec<String>,
 }
 
@@ -63,7 +63,7 @@ impl Sources {
         Sources { crates, ..self }
     }
 
-    /// Returns the crates the files use beyond those that submissions may use.
+    /// Returns the crates that the files may use in addition to the crates allowed for submissions.
     pub fn crates(&self) -> &[String] {
         &self.crates
     }

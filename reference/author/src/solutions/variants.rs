@@ -18,7 +18,7 @@ use crate::solutions::sources::Sources;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// The stem of the replaced file (or of one of them), a dot and a name, such as
+    /// The stem of the replaced file (or of one of the replaced files), a dot and a name, such as
     /// `sphere.stable_quadratic`.
     pub id: String,
     /// A description of its method.

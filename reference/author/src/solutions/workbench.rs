@@ -37,7 +37,7 @@ pub struct Workbench {
     builder: Builder,
 }
 
-/// The error for a solution that doesn't compile.
+/// The error to report when a solution doesn't compile.
 #[derive(Debug, thiserror::Error)]
 #[error("{id} does not compile:\n{message}")]
 pub struct NotCompiledError {

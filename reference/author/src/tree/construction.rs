@@ -42,7 +42,7 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// Adds an interior node around two others. Returns its index.
+    /// Adds an interior node with two existing nodes as its children. Returns its index.
     pub fn add_interior(&mut self, l: usize, r: usize) -> usize {
         let (left, right) = (&self.nodes[l], &self.nodes[r]);
         let (min, max) = (left.min.min(right.min), left.max.max(right.max));

@@ -25,8 +25,8 @@ pub enum SkipReason {
 pub type Child = fn(&TreeNode) -> u32;
 
 /// Returns whether the leaf is the given child of a node that every correct traversal enters, and
-/// the ray clearly misses the leaf's box. If so, only the boxes of the two children decide whether
-/// the leaf is entered.
+/// whether the ray clearly misses the leaf's box. If both are true, only the boxes of the two
+/// children decide whether the leaf is entered.
 pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, child: Child) -> bool {
     let path = tree.path(leaf);
     let [.., parent, _] = path[..] else {
@@ -101,8 +101,8 @@ pub struct PathFork {
 }
 
 impl PathFork {
-    /// Returns whether the ray leaves the box of `toward_hit` after the box of `toward_leaf`, by a
-    /// clear margin.
+    /// Returns whether the ray leaves the box of `toward_hit` clearly later than the box of
+    /// `toward_leaf`.
     pub fn exits_hit_side_last(&self, tree: &Tree, ray64: &Ray64) -> bool {
         let exit = |index: usize| tree.bounds(index).span(&ray64.ahead()).map(|(_, end)| end);
         let margin = MARGIN * tree.bounds(self.parent).diagonal();
@@ -133,9 +133,9 @@ fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
     Some(tree.bounds(index).span(&ray64.ahead())?.0)
 }
 
-/// Returns whether, on the path from the fork down to the leaf, the ray misses the sibling of every
-/// node that begins beyond the closest hit. Such a node is the only child that the ray hits, so the
-/// slides' pseudo-code, taken literally, enters it without comparing distances.
+/// Returns whether the ray misses the sibling of every node that is on the path from the fork down
+/// to the leaf and whose box begins beyond the closest hit. Such a node is the only child that the
+/// ray hits, so the slides' pseudo-code, taken literally, enters it without comparing distances.
 pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let Some(fork) = find_fork(tree, leaf, ray64) else {
         return false;
@@ -191,7 +191,7 @@ fn every_traversal_is_correct(tree: &Tree, ray64: &Ray64) -> bool {
         .all(|rule| Traversal::correct(tree, ray64, rule).closest == expected)
 }
 
-/// Returns whether the expected hit doesn't depend on rounding: all ordinary primitives up to the
+/// Returns whether the expected hit is independent of rounding: all ordinary primitives up to the
 /// closest hit are clearly hit or clearly missed, and no two are hit at the same distance.
 fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
     /// The minimum distance from the hit to a shape behind it, as a multiple of the shape's size.

@@ -56,7 +56,7 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// Traverses the tree correctly: skips nodes that the ray misses or that begin beyond the
+    /// Traverses the tree correctly: skips nodes that the ray misses or enters only beyond the
     /// closest hit, and visits the nearer child first.
     pub fn correct(tree: &'a Tree, ray64: &Ray64, rule: TraversalRule) -> Self {
         let mut traversal = Traversal::new(tree, ray64);

@@ -65,8 +65,8 @@ fn sampled_mutants_are_caught_or_equivalent() {
     assert!(summary.trim_end().ends_with(", 0 survive"), "{summary}");
 }
 
-/// Checks that at least `count` mistakes are measured, that at least nine in ten are recognised,
-/// and that at most `with_false_hint` get a false hint.
+/// Checks that at least `count` mistakes are measured, that at least nine in ten of them are
+/// recognised, and that at most `with_false_hint` of them get a false hint.
 fn assert_recognised(recognition: &Recognition, count: usize, with_false_hint: usize) {
     assert_eq!(recognition.problems, [""; 0]);
     assert!(recognition.count >= count, "{recognition}");

@@ -46,7 +46,7 @@ static TASKS: Assignment = Assignment {
     challenge: None,
 };
 
-/// Creates a given file of the toy, which is the same in the starter and in the solution.
+/// Creates one of the toy's given files, which are the same in the starter and in the solution.
 macro_rules! given {
     ($name:literal) => {
         GivenFile {

@@ -9,7 +9,7 @@ use glam::DVec3;
 use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use protocol::{Geometry, LocalDirection, Question, Ray, Shape, Table};
 
-/// The items about balls, where single balls and lists of balls are hit equally often.
+/// The items about a single ball, which the items about lists of balls need.
 const BALLS: Group = Group("balls");
 
 /// The number of rays that hit. The same number of rays miss.

@@ -10,7 +10,7 @@ impl Bvh {
     }
 }
 
-/// The number of neighbours on each side from which a cluster chooses the nearest.
+/// The number of clusters on each side that a cluster considers when choosing the nearest.
 const RADIUS: usize = 16;
 
 fn merge_all(mut primitives: Vec<Primitive>) -> Option<Cluster> {

@@ -35,7 +35,7 @@ struct OpenNode<'a> {
 }
 
 impl<'a> OpenNode<'a> {
-    /// Creates the heap's entry for a node, or returns `None` if the ray misses the node's box.
+    /// Creates the heap entry for a node, or returns `None` if the ray misses the node's box.
     fn new(node: &'a Node, ray: &Ray) -> Option<Self> {
         let entry = node.bbox.hit(ray, ray.range)?.min;
         Some(OpenNode { node, entry })

@@ -1,4 +1,4 @@
-/// Returns the position of a point in the box along the Z-order curve: 16 bits for each axis,
+/// Returns a point's position along the Z-order curve that fills the box: 16 bits for each axis,
 /// interleaved.
 fn morton_code(point: glam::Vec3, bbox: &BBox) -> u64 {
     let size = (bbox.max - bbox.min).max(glam::Vec3::splat(f32::MIN_POSITIVE));

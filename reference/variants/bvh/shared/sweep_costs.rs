@@ -1,4 +1,4 @@
-/// Returns the size of the left side and the cost for each way to split the sorted primitives.
+/// For each way to split the sorted primitives, returns the size of the left side and the cost.
 fn sweep_costs(sorted: &[Primitive]) -> Vec<(usize, f32)> {
     let left = areas(sorted.iter());
     let mut right = areas(sorted.iter().rev());

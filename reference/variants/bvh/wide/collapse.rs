@@ -103,7 +103,7 @@ impl<'a> Collapser<'a> {
         true
     }
 
-    /// Collects the nodes that become children, at most `at_most` of them.
+    /// Collapses a subtree into at most `at_most` children, which are added to `found`.
     fn children(&self, index: usize, at_most: u8, found: &mut Vec<usize>) {
         match self.plans[index].sides[usize::from(at_most)] {
             (0, 0) => found.push(index),

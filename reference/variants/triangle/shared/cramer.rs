@@ -1,6 +1,6 @@
 impl Triangle {
     /// Solves the three equations u·e1 + v·e2 − t·d = s by Cramer's rule. `det` returns the
-    /// determinant of the matrix with these three columns.
+    /// determinant of the matrix whose columns are its three arguments.
     fn cramer(
         &self,
         ray: &Ray,

@@ -1,16 +1,16 @@
 //! How far from a surface rays must start so that they don't hit it again.
 //!
 //! Rounding moves a computed hit position slightly off the surface. How far depends on the shape
-//! and the viewpoint, but not on the size of the scene: a ball on a sphere that is a thousand times
-//! as large gets the offset for a ball. The estimates follow the error terms in Pharr, Jakob and
-//! Humphreys, *Physically Based Rendering*, 4th edition, section 6.8 "Managing Rounding Error",
-//! and, for spheres seen from far away, Haines et al., "Precision Improvements for Ray/Sphere
-//! Intersection", *Ray Tracing Gems*, 2019.
+//! and the viewpoint, but not on the size of the scene: a ball gets the same offset even if it lies
+//! on a sphere that is a thousand times as large. The estimates follow the error terms in Pharr,
+//! Jakob and Humphreys, *Physically Based Rendering*, 4th edition, section 6.8 "Managing Rounding
+//! Error", and, for spheres seen from far away, Haines et al., "Precision Improvements for
+//! Ray/Sphere Intersection", *Ray Tracing Gems*, 2019.
 
 use glam::Vec3;
 use protocol::Shape;
 
-/// The error of a formula, relative to its largest term: 16 roundings of an `f32`.
+/// The error of a formula, relative to its largest term. It allows for 16 roundings of an `f32`.
 const RELATIVE_ERROR: f32 = 8.0 * f32::EPSILON;
 
 /// The smallest cosine to divide by. A ray along the surface itself, with a cosine of 0, would
@@ -18,9 +18,9 @@ const RELATIVE_ERROR: f32 = 8.0 * f32::EPSILON;
 const MIN_COSINE: f32 = 1e-3;
 
 /// Returns how far from `position` a ray that leaves `shape` in direction `dir` must start, or how
-/// far before `position` a ray that arrives in this direction must end. Closer than that, rounding
-/// can put the ray on either side of the surface. `eye` is the origin of the ray that found
-/// `position`.
+/// far before `position` a ray that arrives in this direction must end. If the ray started or ended
+/// closer to `position`, rounding could put that point on either side of the surface. `eye` is the
+/// origin of the ray that found `position`.
 pub(super) fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> f32 {
     let (normal, term) = match *shape {
         Shape::Triangle { vertices, .. } => {

@@ -1,4 +1,4 @@
-//! Random numbers that depend only on their use, not on earlier numbers.
+//! Random numbers that depend only on what they are used for, not on earlier numbers.
 //!
 //! With a stream of random numbers, one wrong hit would shift all later numbers of its path, and
 //! the picture of an almost correct submission would look nothing like the reference's. Here, each

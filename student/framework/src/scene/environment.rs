@@ -1,4 +1,4 @@
-//! The light that arrives from far away, where no shape is in the way.
+//! The light that arrives from far away in directions where no shape is in the way.
 
 use std::f32::consts::{PI, TAU};
 #[cfg(feature = "cli")]

@@ -15,8 +15,8 @@ pub(super) fn read_text(path: &Path) -> Result<String, SceneError> {
     })
 }
 
-/// Reads a text file that may contain bytes that aren't UTF-8. Drops the byte order mark that some
-/// editors put at its start.
+/// Reads a text file, which may contain invalid UTF-8. Drops the byte order mark that some editors
+/// put at the start of a file.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, SceneError> {
     let bytes = std::fs::read(path).map_err(|error| {
         SceneError::new(None, format!("cannot read the file: {error}")).in_file(path)

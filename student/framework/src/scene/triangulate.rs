@@ -81,7 +81,8 @@ pub(super) fn triangulate(corners: &[DVec3]) -> Option<Vec<[usize; 3]>> {
 mod tests {
     use super::*;
 
-    /// Returns the signed areas of the triangles of an outline in a slanted plane.
+    /// Returns the signed areas of the triangles that an outline is split into. The outline lies in
+    /// a slanted plane.
     fn areas(outline: &[[f64; 2]]) -> Option<Vec<f64>> {
         let corners: Vec<DVec3> = outline
             .iter()

@@ -74,7 +74,7 @@ impl<'a> Value<'a> {
         self.error(format!("{problem} `{name}`{suggestion}; {list}: {known}"))
     }
 
-    /// Returns the members of an object as keys and values. All keys differ.
+    /// Returns the members of an object as keys and values. The keys must all be different.
     pub(super) fn members(&self) -> Result<Vec<(Value<'a>, Value<'a>)>, SceneError> {
         let mut members: Vec<(Value, Value)> = Vec::new();
         let items = self.items('{');

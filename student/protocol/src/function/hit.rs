@@ -31,7 +31,7 @@ pub enum Geometry {
     },
     /// Calls `Bvh::hit` on a tree from the exam.
     Tree {
-        /// The primitives, in the order that the leaves index them.
+        /// The primitives, in the order in which the leaves index them.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
         /// The nodes, in any order.

@@ -1,4 +1,4 @@
-//! Functions: the methods of a submission that an exam calls in tables, once per row.
+//! Functions: the methods of a submission that an exam calls once for each row of a table.
 //!
 //! Each function is declared in its own file. This file contains the two lists of all functions:
 //! `Question`, which also has a few variants that aren't tables, and the methods of `Submission`.

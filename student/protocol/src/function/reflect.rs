@@ -9,7 +9,7 @@ use super::{Function, Input, Output, Question, ResultText, Submission, Table};
 use crate::answer::{Answer, ElementOutcome};
 use crate::value::{Fields, Record, fields};
 
-/// Calls `reflect` with directions. The function isn't called on a subject.
+/// Calls `reflect` with directions. It is a free function, so it has no subject.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reflect;
 

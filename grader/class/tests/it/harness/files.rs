@@ -48,8 +48,8 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Returns all files in a folder, without anything that differs between equivalent runs: the
-/// timings, the folder's own path in reports, and the mark that a merge puts on each list that it
-/// took from the shards.
+/// timings, the folder's own path in reports, and the mark that a merge puts on each list taken
+/// from the shards.
 pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let comparable = |path: PathBuf| {
         let mut bytes = fs::read(&path).unwrap();
@@ -67,5 +67,5 @@ pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     files_below(folder).into_iter().map(comparable).collect()
 }
 
-/// The mark that a merge puts on each list that it took from the shards.
+/// The mark that a merge puts on each list taken from the shards.
 const IS_OF_PARTS: &str = ",\n      \"is_of_parts\": true";

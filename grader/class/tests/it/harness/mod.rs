@@ -195,7 +195,7 @@ impl TestClass {
         self.command_into(&self.out(), exam, more)
     }
 
-    /// Runs a question again on the results in this folder. Returns the output.
+    /// Reruns a question with `--replay`, using the results in this folder. Returns the output.
     pub fn replay(&self, out: &Path, arguments: &[&str]) -> Output {
         let mut command = class_command();
         command.args(["--isolation", "none", "--replay"]);

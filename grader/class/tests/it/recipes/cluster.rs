@@ -104,7 +104,8 @@ impl Cluster {
         command.env("SLURM_CONF", self.folder.path().join("slurm.conf"))
     }
 
-    /// Returns Slurm's description of a job. An array has a paragraph for each task.
+    /// Returns Slurm's description of a job. For an array, the description has a paragraph for each
+    /// task.
     pub fn describe(&self, job: &str) -> String {
         let output = self.command("scontrol").args(["show", "job", job]).output();
         successful_stdout(&output.unwrap())
@@ -156,8 +157,8 @@ impl Cluster {
             .concat()
     }
 
-    /// Returns the process ids of the daemons and the jobs they started. Their environments contain
-    /// the path of this cluster's folder.
+    /// Returns the process ids of the daemons and of the jobs they started. The environment of each
+    /// of these processes contains the path of this cluster's folder.
     fn processes(&self) -> Vec<String> {
         let path = self.folder.path().as_os_str().as_bytes();
         let is_own = |id: &String| {

@@ -10,8 +10,9 @@ use super::cluster::Cluster;
 use super::{ITEMS, is_installed, recipe_command};
 use crate::harness::{TestClass, assert_contains, comparable_files, successful_stdout};
 
-/// A replacement for the binary that is killed once, in the middle of the second shard. That shard
-/// contains an infinite loop, so it takes longer than the CPU time limit.
+/// A script that runs in place of the binary and kills it once, in the middle of the second shard.
+/// A submission in that shard contains an infinite loop, so the shard takes longer than the CPU
+/// time limit.
 const DYING_ONCE: &str = r#"#!/bin/bash
 if [[ "$*" == *"--shard 2/3"* && ! -e "$DIED" ]]; then
     touch "$DIED"

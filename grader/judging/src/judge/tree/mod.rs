@@ -153,7 +153,7 @@ impl TreeCriteria<'_> {
     }
 
     /// Returns the SAH cost of a tree. If the tree doesn't contain every primitive exactly once,
-    /// the cost would be meaningless, so the first such defect is returned instead.
+    /// its cost is meaningless, and the first such defect is returned instead.
     pub fn cost(&self, nodes: &[ReachedNode]) -> Result<f64, TreeDefect> {
         let mut defects = self.check_defects(TreeCheck::Partition, nodes);
         defects.next().map_or_else(|| Ok(cost(nodes)), Err)

@@ -29,7 +29,8 @@ fn leaf(first: u32, last: u32) -> TreeNode {
     node(first, last, last - first + 1, 0, 0)
 }
 
-/// Returns a tree over this many spheres, which it lists in order. The first node is the root.
+/// Returns a tree with these nodes over this many spheres. The first node is the root, and the
+/// spheres are listed in order.
 fn tree_of(nodes: Vec<TreeNode>, count: u32) -> Tree {
     Tree {
         nodes,

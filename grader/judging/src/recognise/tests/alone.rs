@@ -1,4 +1,4 @@
-//! Mistakes that explain all answers in a task on their own.
+//! Single mistakes that explain all answers in a task.
 
 use super::*;
 

@@ -219,7 +219,7 @@ fn archives_in_archives_are_opened_down_to_a_level() {
     assert_eq!(refused, ArchiveError::TooDeep);
 }
 
-/// All archives of a submission share one budget, no matter how small each of them is.
+/// All archives in a submission share one budget, no matter how small each of them is.
 #[test]
 fn archives_share_one_budget() {
     let too_many = |archives: usize, archive: &[u8]| {

@@ -81,8 +81,8 @@ fn sender(bits: u32) -> Submission {
     with(submission, "bvh.rs", head, "send();", PRINTS_AND_WAITS)
 }
 
-/// Returns the output without the parts that differ in each run: the path of the output folder and
-/// the progress of the first run on a machine.
+/// Returns the output without the parts that differ from run to run: the path of the output folder
+/// and the progress of the first run on a machine.
 fn comparable(text: &str) -> String {
     let lines = text.lines().filter(|line| {
         let is_path = line.contains("/out/") || line.contains("\\out\\");

@@ -96,8 +96,8 @@ pub fn channels() -> Vec<Channel> {
     ]
 }
 
-/// Fails to compile when a program can fail in a new way, i.e. when a variant is added below. Add a
-/// channel for each number and each text in the new variant.
+/// Fails to compile when a program can fail in a new way, i.e. when one of the enums matched below
+/// gets a new variant. Add a channel for each number and each text in that variant.
 #[expect(dead_code, reason = "it only has to compile")]
 fn has_a_channel(fault: &Fault, failure: &FailureKind) {
     match fault {

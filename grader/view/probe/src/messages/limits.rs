@@ -44,7 +44,8 @@ impl Request {
 }
 
 impl Response {
-    /// Returns whether this answers the request with the requested number of values.
+    /// Returns whether this response answers the request and contains the requested number of
+    /// values.
     pub fn answers(&self, request: &Request) -> bool {
         let is_whole = match (request, self) {
             (Request::Scene(_), Response::Received)

@@ -23,8 +23,8 @@ pub enum Request {
     Scene(Box<SceneData>),
     /// Calls a method to find out whether it has been written and whether it returns.
     Try(Trial),
-    /// Builds the tree, using the parts that were found to be written. All requests listed below
-    /// need the tree.
+    /// Builds the tree, leaving out shapes whose `hit` hasn't been written yet. All requests listed
+    /// below need the tree.
     Build,
     /// Replaces the camera and keeps the tree.
     Aim(Aim),
@@ -44,8 +44,8 @@ pub enum Request {
 pub struct Trial {
     /// The method.
     pub part: SubmissionPart,
-    /// The ray to test. Unused for the camera. Before the tree is built, the ray is tested against
-    /// one shape, and afterwards against all shapes.
+    /// The ray to test. Unused for the camera. The ray is tested against a single shape before the
+    /// tree is built, and against all shapes afterwards.
     pub ray: Ray,
 }
 
@@ -56,10 +56,10 @@ pub struct Draw {
     pub origin: UVec2,
     /// The width and height of the rectangle, in pixels.
     pub size: UVec2,
-    /// Draws only pixels whose coordinates are multiples of this.
+    /// Draws only pixels whose coordinates are multiples of this number.
     pub stride: u32,
-    /// Leaves out pixels whose coordinates are multiples of this, because they have already been
-    /// drawn. 0 leaves out none.
+    /// Leaves out pixels whose coordinates are multiples of this number, because they have already
+    /// been drawn. If the number is 0, no pixels are left out.
     pub drawn_stride: u32,
     /// The number of samples to draw for each of these pixels, one after the other. Rays through
     /// the same pixel need the same nodes, which are then in the cache.

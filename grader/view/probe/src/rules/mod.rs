@@ -27,10 +27,11 @@ pub struct NodeSpan {
 /// The nodes that a test belongs to.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
-    /// The nodes whose box was tested: several if their boxes are equal. For a primitive, its leaf.
+    /// The nodes whose box was tested (several if their boxes are equal), or the leaf of the
+    /// primitive that was tested.
     pub nodes: Vec<u32>,
-    /// The node entered with this test, unless it was entered before: the parent of the node whose
-    /// box was tested, or the primitive's leaf.
+    /// The node that was entered for the first time with this test: the parent of the node whose
+    /// box was tested, or the leaf of the primitive that was tested.
     pub enters: Option<u32>,
     /// Nodes that may have been entered with this test, i.e. the parents if several nodes share the
     /// tested box.
@@ -134,7 +135,7 @@ pub fn rows(ray: &RecordedRay, tree: &IndexedTree, addresses: Option<NodeAddress
     rows
 }
 
-/// Counts, for each rule, the steps of a ray that break it. `span` returns the part of the ray's
+/// Counts, for each rule, the tests of a ray that break it. `span` returns the part of the ray's
 /// range inside the box with these corners.
 pub fn count_marks(
     ray: &RecordedRay,

@@ -21,8 +21,8 @@ fn tree() -> IndexedTree {
     })
 }
 
-/// Parses a test: `b2` is a test of node 2's box, `p1` is a test of primitive 1 that misses it, and
-/// `p1:3.5` is one that hits it at 3.5.
+/// Parses a test: `b2` tests the box of node 2, `p1` tests primitive 1 without hitting it, and
+/// `p1:3.5` tests primitive 1 and hits it at distance 3.5.
 fn test(text: &str) -> Test {
     let (kind, rest) = text.split_at(1);
     let (number, distance) = rest.split_once(':').unwrap_or((rest, ""));

@@ -120,7 +120,8 @@ impl TreeCheckup {
     }
 }
 
-/// Returns the title for all defects of this kind. On the page, it is followed by their number.
+/// Returns the title for all defects of this kind. On the page, the title is followed by the number
+/// of defects.
 fn title(defect: &TreeDefect) -> &'static str {
     match defect {
         TreeDefect::Partition { leaves: 0, .. } => {

@@ -34,7 +34,7 @@ pub struct NodeInfo {
     pub node: u32,
     /// Its level, 0 for the root.
     pub level: u32,
-    /// Its parent, except for the root.
+    /// Its parent, or `None` for the root.
     pub parent: Option<u32>,
     /// The children of an interior node.
     pub children: Option<[u32; 2]>,
@@ -104,8 +104,8 @@ impl TreeModel {
     }
 
     /// Returns the sum of all nodes' costs: the expected number of tests for a ray that hits the
-    /// root's box, if each step down and each primitive costs one. If primitives are missing, the
-    /// sum is too low.
+    /// root's box, if each step down the tree and each test of a primitive costs 1. If primitives
+    /// are missing, the sum is too low.
     pub fn total_cost(&self) -> f32 {
         self.costs.iter().sum()
     }

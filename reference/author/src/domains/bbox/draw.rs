@@ -116,8 +116,8 @@ fn thin(rng: &mut Rng) -> f64 {
     }
 }
 
-/// Returns a centre and half sides that are close to these and make the corners and the centre
-/// exact in single precision. Half sides that are too short for that are returned unchanged.
+/// Returns a centre and half sides close to the given ones, such that the corners and the centre
+/// are exact in single precision. Half sides that are too short for that are returned unchanged.
 fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
     let step = size.log2().floor().exp2() / 256.0;
     let is_long = half.cmpge(DVec3::splat(step));
@@ -128,7 +128,7 @@ fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
     ]
 }
 
-/// Draws times and a ray that passes through a box or beside it. Returns `None` if the ray would
+/// Draws times, and a ray that passes through or beside a box. Returns `None` if the ray would
 /// start too far away.
 fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
@@ -175,8 +175,8 @@ fn short_times(rng: &mut Rng, call: &BoxCall) -> Option<Interval> {
     })
 }
 
-/// Draws a ray in this direction. Sometimes draws a ray that starts far away or at the origin
-/// instead.
+/// Draws a ray, usually in this direction. Sometimes the ray starts far away or at the origin
+/// instead, and then its direction is different.
 fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
     let target = target(rng, bounds);
@@ -191,7 +191,7 @@ fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Inter
     Some(with_times(rng, origin, dir, ahead.max(0.0) + 2.0 * size))
 }
 
-/// Draws a point in the box, close to one of its faces, or around it.
+/// Draws a point in the box, close to one of its faces, or in the space around the box.
 fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -453,9 +453,9 @@ pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     (0..4).map(table).collect()
 }
 
-/// Returns the calls in a table, with up to three new calls added. Two of them have rays that are
-/// parallel to the ray before them, and the third has a ray that starts at the same point as the
-/// ray before it. Each new ray hits if the ray before it misses, and vice versa.
+/// Returns the calls in a table, with up to three new calls added. Two of the new rays are parallel
+/// to the previous ray, and the third starts at the same point as the previous ray. Each new ray
+/// hits if the previous ray misses, and vice versa.
 fn with_related_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),

@@ -298,7 +298,7 @@ const DISTANCE: Aspect<BoxCall> = Aspect {
     class: |call| Some(distance_class(call.bounds.span(&call.ray64())?.0)),
 };
 
-/// How the ray's line crosses the box, and how much of the crossing is within the times.
+/// How the ray's line crosses the box, and whether it enters and leaves the box within the times.
 const OUTCOME: Aspect<BoxCall> = Aspect {
     name: "outcome",
     classes: &[

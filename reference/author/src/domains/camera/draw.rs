@@ -185,8 +185,8 @@ pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     all
 }
 
-/// Draws samples on a film. The first and the last also exist on the rotated film. One sample
-/// repeats the previous one with x and y swapped.
+/// Draws samples on a film. The first and last few samples also exist on the rotated film. One
+/// sample repeats the previous one with x and y swapped.
 fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
     let square = UVec2::splat(film.min_element());
     let films = [square, square, film, film, film, film, square, square];

@@ -255,7 +255,7 @@ const ROUND_ANGLE: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// The largest relative difference between ratios that are almost the same.
+/// The relative difference below which two ratios count as almost the same.
 const ALMOST: f64 = 0.01;
 
 /// Returns 0 if a ratio is 1 up to rounding, and 1 if it is almost 1.

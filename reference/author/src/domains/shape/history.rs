@@ -13,8 +13,8 @@ use crate::seed::Rng;
 /// The largest angle between two directions that count as almost the same, in radians.
 const ANGLE: f64 = 2e-3;
 
-/// The largest distance between two starts that count as almost the same, as a multiple of the
-/// shape's size.
+/// The largest distance between the origins of two rays that count as almost the same, as a
+/// multiple of the shape's size.
 const DISTANCE: f64 = 0.02;
 
 /// The largest difference between the ends of two ranges that count as almost the same, as a
@@ -68,7 +68,7 @@ pub const FOLLOW: &[Follow<ShapeCall>] = &[
 ];
 
 /// Returns two calls whose rays differ only in their ranges. One range ends or begins just before a
-/// hit, and the other ends or begins just behind it. The two calls can come in either order.
+/// hit, and the other ends or begins just after it. The two calls can come in either order.
 fn with_ranges_beside_a_hit(rng: &mut Rng, before: &ShapeCall) -> Option<Vec<ShapeCall>> {
     let whole = before.ray.within(0.0, f32::INFINITY);
     let distance = scan::intersect(&Ray64::from(&whole), &before.shape)?.distance;

@@ -13,8 +13,9 @@ use crate::domains::{Call, Change, Generator};
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws spheres of these sizes and, for each sphere, rays that fit an item's idea. Half of the
-/// rays are hits. Every correct formula computes the judged quantities within their tolerances.
+/// Draws spheres of these sizes and, for each sphere, rays for which `belongs` returns true. Half
+/// of the rays hit their sphere. Every correct formula computes the judged quantities within their
+/// tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
@@ -104,7 +105,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     Some(ray.within(range.min, range.max))
 }
 
-/// Draws a range that begins or ends just before or just behind a root.
+/// Draws a range that begins or ends just before or just after a root.
 fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
     let beside = line.sphere.radius * rng.log_uniform(0.0101, 0.02);
     let end = (line.roots[rng.index(2)] + rng.sign() * beside) as f32;

@@ -8,7 +8,7 @@ use crate::domains::shape::ShapeCall;
 use crate::oracle::Ray64;
 use crate::oracle::sphere::Sphere;
 
-/// The line of a call's ray, and the sphere.
+/// The line along a call's ray, together with the call's sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
     /// The sphere.
@@ -124,7 +124,7 @@ impl Line {
         EPSILON * (4.0 * from_center * from_center / half_chord + 2.0 * self.coordinates())
     }
 
-    /// Returns the largest coordinate of the ray and the sphere.
+    /// Returns the largest absolute coordinate of the ray's origin and of any point on the sphere.
     pub(super) fn coordinates(&self) -> f64 {
         let sphere = self.sphere.center.abs().max_element() + self.sphere.radius;
         sphere.max(self.ray64.origin.abs().max_element())

@@ -71,8 +71,8 @@ impl TraverseCall {
     /// Returns the leaf of a second hit close behind the closest hit, if there is such a second
     /// hit.
     pub(super) fn layer(&self) -> Option<SecondLeaf> {
-        /// The largest relative difference between the distances, and the largest distance from the
-        /// start as a fraction of the tree's diagonal.
+        /// The maximum relative difference between the distances, and also the maximum distance
+        /// from the start, as a fraction of the tree's diagonal.
         const MOST: f64 = 1e-3;
         let ray64 = Ray64::from(&self.ray);
         let tree = &self.subject.tree;
@@ -106,8 +106,8 @@ impl TraverseCall {
         (closest.distance < near && others.any(is_near)).then_some(SecondLeaf::Other)
     }
 
-    /// Returns the number of nodes that wait while a traversal goes to the leaf with the hit:
-    /// siblings of this leaf, or of a node above it, that the ray enters later.
+    /// Returns how many nodes are still to be visited when a traversal reaches the leaf with the
+    /// hit. These are the siblings of this leaf, or of a node above it, that the ray enters later.
     pub fn nodes_waiting(&self) -> Option<usize> {
         let (tree, ray64) = (&self.subject.tree, Ray64::from(&self.ray));
         let leaf = self.leaf_of_hit()?;
@@ -161,8 +161,8 @@ impl TraverseCall {
     /// Returns whether an unreferenced primitive in front of the answer is about as large as the
     /// tree, or `None` if no unreferenced primitive is in front of the answer.
     pub(super) fn unreferenced_in_front(&self) -> Option<bool> {
-        /// A primitive is as large as the tree if, along two axes, it covers at least this fraction
-        /// of the tree's side.
+        /// A primitive counts as about as large as the tree if, along two axes, its extent is at
+        /// least this fraction of the tree's.
         const LARGE: f64 = 0.9;
         let ray64 = Ray64::from(&self.ray);
         let end = self.hit.map_or(ray64.max, |hit| hit.distance);

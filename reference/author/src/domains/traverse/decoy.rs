@@ -73,8 +73,8 @@ impl Decoy {
     }
 }
 
-/// Returns the class of the reason why a leaf isn't entered, or `None` if a node above the leaf is
-/// the reason.
+/// Classifies the reason why a leaf isn't entered. Returns `None` if a node above the leaf is the
+/// reason.
 fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
     let reason = decoy::skip_reason(tree, leaf, ray64)?;
     let sibling = tree.sibling(leaf)?;
@@ -120,7 +120,7 @@ fn is_from_siblings_box(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     sibling.is_some() && tree.leaf_of_hit(ray64) == sibling
 }
 
-/// Returns the class of the call before the one with the decoy.
+/// Classifies the call before the one with the decoy.
 fn history(tree: &Tree, leaf: usize, ray64: &Ray64, previous: Option<&Ray>) -> usize {
     let Some(previous) = previous.map(Ray64::from) else {
         return 0;

@@ -11,7 +11,8 @@ use crate::tree::Tree;
 /// Draws a ray toward a point in a tree. The ray starts near the tree, far away from it or inside
 /// it, but its distance from each shape is at most 30 times the shape's size.
 pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
-    /// The distance of the farthest start, as a multiple of the smallest shape's size.
+    /// The maximum distance from a faraway start to any shape, as a multiple of the smallest
+    /// shape's size.
     const FARTHEST: f64 = 27.0;
     let bounds = tree.bounds(tree.root);
     let target = bounds.center() + rng.point(0.45) * (bounds.max - bounds.min);

@@ -63,7 +63,7 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     }
 }
 
-/// Draws the corners of a triangle with sides of about length one.
+/// Draws the corners of a triangle whose sides are about one unit long.
 fn corners(rng: &mut Rng) -> [DVec3; 3] {
     let (axis, kind) = (rng.index(3), rng.index(4));
     let tilt = match kind {
@@ -138,8 +138,8 @@ fn with_legs_along_axes(rng: &mut Rng, axis: usize, other: usize) -> [DVec3; 3] 
     corners
 }
 
-/// Moves corners so that the normal of the plane is exactly along a diagonal of a cube or of one of
-/// its faces. Returns `None` if the triangle would be narrow.
+/// Moves the corners of a triangle so that its normal points exactly along a diagonal of a cube or
+/// of one of the cube's faces. Returns `None` if the triangle would be narrow or too far away.
 fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3]> {
     /// The spacing of a grid, relative to the largest coordinate. The coordinates of the grid's
     /// points have so few digits that their sums are exact.
@@ -256,7 +256,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     Some(ray.within(range.min, range.max))
 }
 
-/// Draws a range that begins or ends just before or just behind the plane of the triangle.
+/// Draws a range that begins or ends just in front of or just behind the plane of the triangle.
 fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
     let plane = Plane::of(call)?;
     let beside = plane.size * rng.log_uniform(0.0102, END);

@@ -304,8 +304,9 @@ fn almost_right_corner(corners: [DVec3; 3]) -> Option<usize> {
     (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT)
 }
 
-/// Triangles with an angle that is almost, but not exactly, a right angle, and with texture
-/// coordinates that differ so much there that the deviation from a right angle matters.
+/// Triangles that have almost, but not exactly, a right angle at one corner, and whose texture
+/// coordinates differ so much between this corner and the others that the deviation from a right
+/// angle matters.
 const RIGHT_AND_FAR: Aspect<ShapeCall> = Aspect {
     name: "almost right and far",
     classes: &["at p0", "at p1", "at p2"],
@@ -325,7 +326,7 @@ const RIGHT_AND_FAR: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The largest cosine of an angle that is almost a right angle.
+/// An angle counts as almost a right angle if the absolute value of its cosine is less than this.
 const ALMOST_RIGHT: f64 = 3e-3;
 
 /// The edges of the triangle.
@@ -418,7 +419,7 @@ fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
     }
 }
 
-/// The names of the classes, each of which says which two corners have the same value.
+/// The names of the classes, each of which specifies the two corners that have the same value.
 const EQUAL: &[&str] = &["at p0 and p1", "at p1 and p2", "at p2 and p0"];
 
 /// The two corners with the same texture coordinates.
@@ -541,7 +542,7 @@ const CROSSING: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The largest weight of a point that is just inside an edge.
+/// The weight below which a point inside the triangle counts as just inside an edge.
 const EDGE: f64 = 0.02;
 
 /// Weights that are small but still matter for the texture coordinates of a hit.
@@ -591,11 +592,11 @@ const NORMAL_LENGTH: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The largest distance between an edge and a ray that narrowly misses it, as a fraction of the
-/// altitude.
+/// The largest distance from an edge at which a ray counts as narrowly missing it, as a fraction of
+/// the altitude.
 const NARROW_MISS: f64 = 7e-4;
 
-/// The upper limit of a small weight.
+/// Weights below this limit count as small.
 const SMALL_WEIGHT: f64 = 1e-3;
 
 /// The ends of the range relative to the point where the ray crosses the plane.
@@ -620,8 +621,8 @@ const ENDS: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The maximum distance between the plane and an end of the range near it, as a multiple of the
-/// triangle's size.
+/// The distance from the plane within which an end of the range counts as near it, as a multiple of
+/// the triangle's size.
 const END: f64 = 0.02;
 
 /// The minimum distance at which a plane counts as distant, as a multiple of the triangle's size.

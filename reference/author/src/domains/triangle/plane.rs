@@ -82,7 +82,7 @@ impl Plane {
         self.ray64.min == 0.0 && self.ray64.max == f64::INFINITY
     }
 
-    /// Returns whether the ray crosses the plane inside the triangle, ignoring its range.
+    /// Returns whether the ray crosses the plane inside the triangle, whatever the ray's range is.
     pub fn is_inside(&self) -> bool {
         self.least_weight() >= 0.0
     }
@@ -95,10 +95,9 @@ impl Plane {
     pub fn is_clear(&self) -> bool {
         /// The minimum distance from an edge, as a fraction of the altitude.
         const EDGE_MARGIN: f64 = 5e-4;
-        /// The minimum cosine at which edges are tested.
+        /// The minimum cosine at which `EDGE_MARGIN` is enough.
         const EDGE_COSINE: f64 = 0.1;
-        /// The minimum distance between an edge and a ray at a smaller cosine, as a fraction of the
-        /// altitude.
+        /// The minimum distance from an edge at smaller cosines, as a fraction of the altitude.
         const GRAZING_MARGIN: f64 = 0.1;
         /// The minimum difference between a distance and an end of the range, as a multiple of the
         /// triangle's size.

@@ -24,7 +24,7 @@ const SIZE: (u32, u32) = (240, 180);
 const COLUMNS: u32 = 3;
 /// The number of pixels between pictures.
 const GAP: u32 = 6;
-/// The colour between pictures, which suits light and dark pages.
+/// The colour of the gaps between pictures, which suits both light and dark pages.
 const BACKGROUND: image::Rgb<u8> = image::Rgb([128, 128, 128]);
 /// The maximum mean difference per byte at which two sheets are considered the same. It isn't 0
 /// because different machines round differently.
@@ -65,7 +65,7 @@ fn is_same(path: &Path, picture: &RgbImage) -> bool {
     found.dimensions() == picture.dimensions() && mean <= TOLERANCE
 }
 
-/// A students' workspace in which the pictures of solutions are drawn.
+/// A workspace like a student's, in which pictures are drawn with the code of solutions.
 struct Workspace {
     folder: PathBuf,
     reference: Sources,

@@ -32,8 +32,8 @@ pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
 }
 
 /// Returns a ray that is almost parallel to a face of the box. A ray that hits the box crosses the
-/// plane of this face where it enters or leaves the box. A ray that misses crosses this plane
-/// beside the box.
+/// plane of this face where it enters or leaves the box. A ray that misses the box crosses this
+/// plane outside the face.
 fn ray_that_crosses_a_plane(rng: &mut Rng, bounds: &Bounds, number: usize, is_hit: bool) -> Ray {
     let (along, across) = (number % 3, (number + 1) % 3);
     let third = 3 - along - across;

@@ -1,4 +1,4 @@
-//! Items about hits and misses of rays from all sides.
+//! Items about rays that come from all sides and hit or miss a box.
 
 use judging::symptom::{PRESENCE, Symptom};
 

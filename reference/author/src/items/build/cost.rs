@@ -71,8 +71,8 @@ fn huge_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
 }
 
 /// Creates questions about a few clumps of spheres. Some clumps have many times as many spheres as
-/// others, which makes splitting by count expensive, even if a builder does so only above the last
-/// levels or only below the root.
+/// others, which makes splitting by count expensive, even if a builder splits this way only above
+/// the last levels or only below the root.
 fn clumps_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
     /// The minimum cost of a tree that is partly split by count, relative to the exact sweep's
     /// tree.
@@ -128,7 +128,7 @@ fn lanes_question(rng: &mut Rng, (count, max_leaf_size): (usize, u32)) -> ExamQu
 }
 
 /// Returns the highest relative cost among correct bucketed builders. For some meshes, all planes
-/// of a builder narrowly miss the best split, which makes its tree expensive.
+/// that a builder considers narrowly miss the best split, which makes its tree expensive.
 fn highest_correct_cost(question: &ExamQuestion) -> f64 {
     let sides = SideRule::AllBuckets;
     let costs = [8, 10, 12, 16, 17, 24, 25, 32]

@@ -73,8 +73,8 @@ const GAP: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Three clumps. The first is the largest, but a builder whose counts come from different buckets
-/// than its boxes overlooks it and splits at the other gap.
+/// Three clumps. The first is the largest, but a builder that takes its counts and its boxes from
+/// different buckets overlooks this clump and splits at the other gap.
 const HEAVY_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
     first_size: SMALL,
@@ -256,8 +256,9 @@ fn of_outliers() -> Vec<Draw> {
     counts.map(draw).collect()
 }
 
-/// Returns functions that draw a dense cluster at one end. The gap beside it ends just before a
-/// seventh of the row, so that no builder with fewer than 8 buckets has a plane there.
+/// Returns functions that draw a dense cluster at one end. The gap beside the cluster ends just
+/// short of one seventh of the way along the row, so that no builder with fewer than 8 buckets has
+/// a plane there.
 fn of_dense_ends() -> Vec<Draw> {
     let counts = [(12, 40), (41, 110), (111, 250), (251, 600)].into_iter();
     let draw = |(least, most): (u32, u32)| -> Draw {
@@ -431,7 +432,7 @@ fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
 
 /// Returns whether a builder with only `count` buckets builds a much more expensive tree.
 fn is_missed(shapes: &[Shape], max_leaf_size: usize, count: usize) -> bool {
-    /// The minimum cost, relative to the exact sweep's tree.
+    /// The minimum cost, relative to the cost of the exact sweep's tree.
     const LEAST: f64 = 1.25;
     let few = BucketedBuilder {
         count,

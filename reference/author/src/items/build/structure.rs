@@ -19,7 +19,7 @@ use crate::seed::Rng;
 /// The maximum number of primitives in most questions.
 const MOST: usize = 130;
 
-/// All arrangements of distinct primitives without a common centre.
+/// All arrangements of distinct primitives that don't share a common centre.
 const ARRANGEMENTS: &[Arrangement] = &[
     Line,
     FlatBoxes,
@@ -30,8 +30,8 @@ const ARRANGEMENTS: &[Arrangement] = &[
     Outlier,
 ];
 
-/// Returns these questions, followed by questions about primitives in these arrangements. The
-/// additional questions are drawn from the domain.
+/// Returns `questions`, followed by questions about `count` trees that are drawn from the domain.
+/// The primitives of these trees are in the given arrangements.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -44,7 +44,7 @@ fn with_domain(
     questions
 }
 
-/// Returns whether some nodes of the tree are not leaves.
+/// Returns whether the tree must have nodes that aren't leaves.
 fn is_split(call: &BuildCall) -> bool {
     call.shapes.len() > call.max_leaf_size as usize
 }
@@ -123,7 +123,7 @@ fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> Vec<ExamQuestion> {
     questions
 }
 
-/// Creates a question about several hundred spheres in leaves that may hold hundreds of them.
+/// Creates a question about several hundred spheres, where a leaf may hold all but one of them.
 fn large_leaves(rng: &mut Rng, checks: &[TreeCheck]) -> ExamQuestion {
     let count = rng.integer(600, 760) as usize;
     let spheres = meshes::many_spheres(rng, count);

@@ -15,8 +15,8 @@ use crate::seed::Rng;
 /// All properties of a tree except its cost.
 const ALL: &[TreeCheck] = &[Partition, Contains, Tight, LeafSize, Stops];
 
-/// Returns these questions, followed by questions about primitives in these arrangements. The
-/// additional questions are drawn from the domain. They check how the primitives are split, using
+/// Returns the given questions, followed by questions drawn from the domain, about primitives in
+/// the given arrangements. The additional questions check how the primitives are split, using
 /// [`Split`] if a different item tests the exact size of leaves.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,

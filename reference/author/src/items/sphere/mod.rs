@@ -33,7 +33,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
 };
 
 /// Creates questions about spheres of these sizes, with rays that `belongs` accepts. Half of the
-/// rays are hits.
+/// rays hit their sphere.
 fn questions(
     rng: &mut Rng,
     judged: &[&str],

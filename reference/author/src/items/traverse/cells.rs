@@ -64,7 +64,7 @@ const DECOYS: usize = 12;
 /// The number of trees in the chain. The deepest leaf is two levels below the root of the last
 /// tree.
 const CHAIN: usize = 58;
-/// The links of the chain whose decoys belong to each class of levels, in the order of the classes.
+/// For each class of levels, in order, the links of the chain whose decoys belong to the class.
 const LINKS: [std::ops::Range<usize>; 4] = [0..9, 10..21, 22..37, 38..CHAIN];
 
 /// Creates a question about a chain of cells.
@@ -383,7 +383,7 @@ impl Draft {
         self.number - 1
     }
 
-    /// Adds the leaves of a cell in which no boxes cross. Returns the ray.
+    /// Adds the leaves of a cell in which no boxes cross. Returns the ray toward the decoy.
     fn add_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
         let (up, side) = (rng.uniform(0.45, 0.55), rng.uniform(-0.04, 0.04));
         let start = dvec3(rng.uniform(-0.4, 0.0), 0.0, 0.0);
@@ -496,7 +496,7 @@ impl Draft {
         self.add_interior(leaf, other, false)
     }
 
-    /// Returns a tiny triangle beside a point, on either side of the ray's plane.
+    /// Returns a tiny triangle beside a point, on a random side of the ray's plane.
     fn tiny(&mut self, rng: &mut Rng, point: DVec3, beside: DVec3) -> Shape {
         const SIZE: f64 = 0.25;
         let beside = beside * dvec3(1.0, 1.0, rng.sign());
@@ -504,8 +504,8 @@ impl Draft {
         with_number(shape, self.next_number())
     }
 
-    /// Adds two leaves whose boxes form a cross. Returns the ray, and a parallel ray that enters
-    /// the boxes in the opposite order.
+    /// Adds two leaves whose boxes form a cross. Returns the ray toward the decoy and a parallel
+    /// ray that enters the boxes in the opposite order.
     fn add_crossing_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
         let dir = dvec3(1.0, -1.0, rng.uniform(-0.03, 0.03)).normalize();
         let shift = dvec3(3.0, 0.0, 0.0);
@@ -537,7 +537,7 @@ impl Draft {
         (ray, Some(self.frame.ray(before, dir)))
     }
 
-    /// Returns the ray with the planned range, which begins before the decoy and ends behind all
+    /// Returns the ray with the planned range, which begins before the decoy and ends beyond all
     /// boxes.
     fn with_range(&self, rng: &mut Rng, ray: Ray) -> Ray {
         let later = rng.uniform(0.05, 0.3) as f32;

@@ -92,9 +92,9 @@ fn built_tree_question(
     ExamQuestion::new(Question::hits(built, rays), key)
 }
 
-/// Creates a question about a row of as many triangles as a typical mesh has. The rays enter every
-/// node, since they pass through a corner of every box, but they hit only the larger triangle at
-/// the end.
+/// Creates a question about a row of triangles, with as many triangles as a typical mesh. The rays
+/// enter every node, since they pass through a corner of every box, but they hit only the larger
+/// triangle at the end.
 fn long_row(rng: &mut Rng) -> ExamQuestion {
     const COUNT: usize = 5000;
     const STEP: f64 = 0.02;

@@ -21,8 +21,8 @@ const SPREAD: f64 = 52.0;
 /// The distance between the two triangles of a pair.
 const SPACE: f64 = 0.0175;
 
-/// Creates a question about pairs of triangles. The triangles are so small that the question isn't
-/// moved to other places. A third of the rays start so close to a pair that the distances to both
+/// Creates a question about pairs of triangles. The triangles are so small that `Mover` leaves the
+/// question where it is. A third of the rays start so close to a pair that the distances to both
 /// triangles are tiny compared to the size of the tree. The other rays start so far away that both
 /// triangles, which are in the same leaf or in different leaves, are at almost the same distance.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {
@@ -93,7 +93,8 @@ struct Pair {
 }
 
 impl Pair {
-    /// Returns a triangle at these distances behind and beside the front triangle.
+    /// Returns a triangle that is offset from the front triangle by these distances, backward and
+    /// sideways.
     fn triangle(&self, behind: f64, aside: f64, number: u32) -> Shape {
         let [x, y] = self.across;
         let middle = self.place + behind * self.normal + aside * x;

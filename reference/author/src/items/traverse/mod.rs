@@ -84,7 +84,7 @@ fn traversal_question(tree: &Tree, rays: Vec<Ray>) -> ExamQuestion {
     ExamQuestion::new(Question::hits(tree.geometry(), rays), key)
 }
 
-/// Returns a ray from a point around or in the tree toward a point in it.
+/// Returns a ray from a point in or around the tree toward a point in the tree.
 fn ray_from_around(rng: &mut Rng, tree: &Tree) -> Ray {
     rng.retry(|rng| {
         let ray = match rng.index(8) {

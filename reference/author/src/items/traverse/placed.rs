@@ -68,14 +68,14 @@ impl Mover {
     }
 }
 
-/// Returns the same question shrunk to dust. It is just as fair, since correct code computes the
-/// same digits for numbers that are scaled by this power of two.
+/// Returns the question with its scene shrunk to the size of dust. The new question is just as
+/// fair, since correct code computes the same digits when all lengths are scaled by a power of two.
 pub(super) fn as_dust(asked: &ExamQuestion) -> ExamQuestion {
     let dust = Transform::new(1.0 / f64::from(1 << 22), DVec3::ZERO);
     moved(dust, asked).expect("the question has a list of rows")
 }
 
-/// Returns whether a question is about dust.
+/// Returns whether a question is about shapes as small as dust.
 fn is_dust(asked: &ExamQuestion) -> bool {
     let bounds = Bounds::enclosing(shapes(asked).iter().map(scan::bounds));
     bounds.diagonal() < 1e-4

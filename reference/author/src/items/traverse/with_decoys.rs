@@ -28,7 +28,7 @@ pub(super) const FIRST_DECOY: u32 = 20_000;
 /// A filter for the leaves that may contain a decoy for a ray.
 type LeafFilter<'a> = &'a dyn Fn(&Tree, usize, &Ray64) -> bool;
 
-/// How many of a question's rays may get a decoy. All other rays come after them.
+/// The number of rays in a question that may get a decoy. They come before all other rays.
 const RAYS_WITH_DECOYS: usize = 10;
 const OTHER_RAYS: [usize; 2] = [4, 4];
 /// The minimum number of decoys in a question. A question with fewer decoys is drawn again.

@@ -416,9 +416,9 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
     questions.into_iter().chain([along]).collect()
 }
 
-/// Creates a question about a chain whose first leaves are the farthest ones. Most rays enter
-/// almost all boxes, so that almost all leaves have to wait until the end of the chain has been
-/// traversed.
+/// Creates a question about a chain whose first leaves are the farthest from where the rays start.
+/// Most rays enter almost all boxes, so that almost all leaves have to wait until the end of the
+/// chain has been traversed.
 fn along_the_chain(rng: &mut Rng) -> ExamQuestion {
     const LEVELS: usize = 60;
     /// The minimum number of boxes that a ray enters.

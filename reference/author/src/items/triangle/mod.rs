@@ -40,7 +40,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
 };
 
 /// Creates questions about triangles of these sizes, with rays that `belongs` accepts. Half of the
-/// rays are hits.
+/// rays hit their triangle.
 fn questions(
     rng: &mut Rng,
     judged: &[&str],

@@ -22,7 +22,7 @@ use crate::package::trial::submission::{REACHED, TrialSubmission, submissions};
 
 /// The folder for trials, relative to the workspace's root.
 const TRIAL_FOLDER: &str = "target/package";
-/// The command that grades the last submission in Gradescope's trial again, without isolation.
+/// The command that regrades the last submission of Gradescope's trial without isolation.
 const GRADE_WITHOUT_ISOLATION: &str = "cd /opt/pathtracing && source ./environment && \
     CARGO_HOME=/opt/pathtracing/crates target/release/grader /autograder/submission \
     --isolation=none --exam=exam.json --out=target/open";

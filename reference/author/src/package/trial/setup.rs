@@ -42,7 +42,7 @@ const RUNNER_VARIABLES: [&str; 17] = [
     "COMMIT_URL=https://example.org/commit/a1b2c3d",
     "CLASSROOM50_BUNDLE_DIR=/home/runner/autograder",
 ];
-/// Commits the checkout and runs a command there.
+/// Commits all files of a checkout and runs a command there.
 const COMMIT_AND_RUN: &str = "git init --quiet && git add . && \
     git -c user.name=alice -c user.email=alice@example.org \
     commit --quiet --allow-empty --message submission && exec \"$@\"";

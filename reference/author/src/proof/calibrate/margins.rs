@@ -65,8 +65,8 @@ enum SamplePurpose {
     WorstCorrect(Threshold),
     /// The smallest deviation of a mistake that the threshold catches.
     MildestMistake(Threshold),
-    /// A correct solution fails an item for a reason without a threshold. The fields are the ids
-    /// of the solution and the item.
+    /// A correct solution fails an item for a reason that doesn't involve a threshold. The fields
+    /// are the ids of the solution and the item.
     FailedVariant(String, String),
     /// An item that must catch a mistake catches it with too small a margin or not at all. The
     /// fields are the ids of the mistake and the item.

@@ -1,5 +1,5 @@
-//! Known mistakes in the reference: one at a time, with the full exam and with the mistake removed
-//! from the exam, and two at once.
+//! Determines the hints for known mistakes in the reference: for one mistake at a time, both with
+//! the full exam and with the mistake removed from the exam, and for two mistakes at once.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -25,7 +25,7 @@ struct KnownHints {
     /// The false hints that the mistake gets if its own hint is removed from the exam.
     if_unknown: BTreeSet<String>,
     /// Whether the exam contains the mistake's signature. It doesn't if only pictures reveal the
-    /// mistake, if the mistake gives no answers, or if too many other mistakes give the same
+    /// mistake, if the mistake produces no answers, or if too many other mistakes produce the same
     /// answers.
     has_signature: bool,
 }
@@ -36,7 +36,7 @@ pub fn recognise(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
     Ok(summary(solutions, &known_hints(solutions, exam)?))
 }
 
-/// Like [`recognise`], but with the final exams for some seeds. Adds up the results.
+/// Like [`recognise`], but adds up the results for the final exams that several seeds produce.
 pub fn recognise_with_seeds(solutions: &Solutions, seeds: Range<u64>) -> Result<Recognition> {
     let mut all = Vec::new();
     for seed in seeds {

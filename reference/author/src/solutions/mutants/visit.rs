@@ -1,4 +1,4 @@
-//! The traversal of a file's syntax tree, which collects the changes of all families.
+//! Traverses a file's syntax tree and collects the changes of every family.
 
 use syn::visit::{self, Visit};
 use syn::{

@@ -5,7 +5,7 @@ use protocol::{Ray, Trace};
 
 use crate::ball::Ball;
 
-/// A mirror, in the frame in which +z is its normal.
+/// A mirror, in a coordinate frame whose +z axis is the mirror's normal.
 pub struct Mirror;
 
 impl Mirror {

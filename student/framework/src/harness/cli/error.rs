@@ -80,7 +80,7 @@ impl fmt::Display for SubmissionPanic {
     }
 }
 
-/// Returns the command that examines a pixel of the picture that these arguments render.
+/// Returns the command for examining a pixel of the picture rendered with these arguments.
 fn pixel_command(arguments: &[String], UVec2 { x, y }: UVec2) -> String {
     let mut words = vec![format!("cargo render --pixel {x},{y}")];
     let mut arguments = arguments.iter();

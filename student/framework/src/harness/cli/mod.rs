@@ -67,7 +67,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
 struct Events {
     sender: Sender<Event>,
     receiver: Receiver<Event>,
-    /// Whether an unfinished picture exists for Ctrl-C to keep.
+    /// Whether there is an unfinished picture that Ctrl-C should keep.
     has_picture: Arc<AtomicBool>,
 }
 
@@ -95,7 +95,7 @@ impl Events {
     }
 }
 
-/// A scene in the submission's types and everything needed to render it.
+/// A scene, converted to the submission's types, and everything needed to render it.
 struct Job<'a> {
     options: &'a Options,
     scene: &'a Scene,

@@ -58,8 +58,9 @@ impl RenderPool {
         Ok(rows.into_iter().flatten().collect())
     }
 
-    /// Adds samples to each pixel of the canvas: first one, then as many as it already has. A
-    /// pixel's samples are added in order, so the picture doesn't depend on the passes.
+    /// Adds samples to each pixel of the canvas. The first pass adds one sample, and each later
+    /// pass doubles the number of samples. A pixel's samples are added in order, so the picture
+    /// doesn't depend on the division into passes.
     pub(super) fn accumulate(
         &self,
         progress: &Progress,

@@ -52,7 +52,7 @@ impl Progress {
         self.bar.inc(samples);
     }
 
-    /// Returns the statistics of all rows so far.
+    /// Returns the statistics for all rows finished so far.
     pub(super) fn stats(&self) -> RenderStats {
         RenderStats {
             rays: self.rays.load(Ordering::Relaxed),

@@ -1,9 +1,9 @@
 //! How surfaces scatter light: matte surfaces, mirrors and glass.
 //!
 //! All directions are unit vectors that lead away from the surface. They are in the surface's
-//! frame, where +z is the normal. The normal of glass points out of the glass. Any other normal is
-//! on the side that `out` leads to. `out` leads to where the path comes from, and `incoming` to
-//! where the light comes from.
+//! frame, where +z is the normal. `out` leads to where the path comes from, and `incoming` to where
+//! the light comes from. The normal of glass points out of the glass. The normal of any other
+//! material is on the same side of the surface as `out`.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -85,8 +85,8 @@ pub(super) struct Glass {
 }
 
 impl Glass {
-    /// Picks reflection with a probability equal to the share of the light that is reflected, using
-    /// a random number in `[0, 1)`. So the share and the probability cancel.
+    /// Chooses between reflection and refraction using a random number in `[0, 1)`. The probability
+    /// of each equals its share of the light, so the share and the probability cancel.
     ///
     /// Where light enters a denser medium, its rays are squeezed into a smaller solid angle and its
     /// radiance grows. See Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th edition,

@@ -128,7 +128,7 @@ impl Integrator<'_> {
         Ok(value * radiance / (light_pdf + matte.pdf(out, incoming)))
     }
 
-    /// Returns how far before a light a ray toward it must end, so that the light doesn't block
+    /// Returns how far short of a light a ray toward it must end, so that the light doesn't block
     /// itself.
     fn margin(&self, sample: &LightSample, from: Vec3) -> f32 {
         let LightSource::Shape(index) = sample.source else {

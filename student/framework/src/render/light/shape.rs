@@ -58,9 +58,9 @@ impl LightShape {
         }
     }
 
-    /// Samples a direction from `from` toward the light with two random numbers in `[0, 1)`. Returns
-    /// the direction and the distance to the light. Returns `None` if the light doesn't emit in that
-    /// direction.
+    /// Samples a direction from `from` toward the light, using two random numbers in `[0, 1)`.
+    /// Returns the direction and the distance to the light. Returns `None` if the light doesn't
+    /// emit in that direction.
     pub(super) fn sample(&self, from: Vec3, random: Vec2) -> Option<(Vec3, f32)> {
         match *self {
             LightShape::Triangle {

@@ -18,7 +18,7 @@ use super::triangulate::triangulate;
 /// The maximum number of corners in a face. Splitting a face takes cubic time in the worst case.
 const MAX_CORNERS: usize = 1000;
 
-/// The line of an error, if known, and its message.
+/// The line number of an error, if known, and the error's message.
 type ObjError = (Option<usize>, String);
 
 /// Loads a mesh from an OBJ file.
@@ -44,7 +44,7 @@ fn parse(text: &str) -> Result<Vec<Face>, SceneError> {
 const INDEXED: [(&str, &str); 3] = [("v", "position"), ("vt", "uv"), ("vn", "normal")];
 
 /// Splits the text into statements, each with the number of its first line: removes comments, which
-/// may follow a statement on its line, and joins lines that end in a backslash.
+/// may follow a statement on the same line, and joins lines that end in a backslash.
 fn statements(text: &str) -> Vec<(usize, Vec<&str>)> {
     let mut statements: Vec<(usize, Vec<&str>)> = Vec::new();
     let mut continues = false;
@@ -100,7 +100,7 @@ fn check(statements: &[(usize, Vec<&str>)]) -> Result<(String, Vec<CheckedFace>)
     Ok((text, faces))
 }
 
-/// Returns those numbers in a statement that the mesh uses, provided that all of the statement's
+/// Returns the numbers that the mesh uses from a statement, provided that all of the statement's
 /// numbers are finite. `v` may be followed by a weight or a colour, and the second number of `vt`
 /// may be missing.
 fn check_numbers<'a>(

@@ -52,12 +52,13 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
     let folder = handed_out.solutions();
     let text = format!(
         "# Coverage of the contract\n\n\
-         Written by `cargo author coverage` for the {} exam. First come the sentences that \
-         document the methods students write, with the items that test them. Then, for each \
-         function, come the numbers of answers that test each class of its domain, counted \
-         separately for answers with a result, for answers that are `None` and for each judged \
-         quantity. Each class needs at least {FEWEST} answers. A letter stands for the reason why \
-         there are fewer, which is given below the table.\n",
+         Written by `cargo author coverage` for the {} exam. For each task, a table lists the \
+         sentences that document the methods students write, with the items that test each \
+         sentence. Then, for each function, a table divides the inputs into classes and shows how \
+         many answers test each class. It counts answers with a result, answers that are `None`, \
+         and answers for each judged quantity separately. Each class needs at least {FEWEST} \
+         answers. If there are fewer, a letter refers to the reason, which is given below the \
+         table.\n",
         exam.id
     );
     let mut coverage = Coverage {

@@ -58,7 +58,7 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             &["outcome"],
             &["misses", "too late", "too early"],
             &[],
-            "The box is missed.",
+            "The rays in this class miss the box.",
         ),
         not_asked(
             &["outcome"],
@@ -69,7 +69,7 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
                 "inside throughout",
             ],
             &["`None`"],
-            "The box is hit.",
+            "The rays in this class hit the box.",
         ),
         not_asked(
             &["size"],
@@ -86,13 +86,13 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
                 "narrowly misses a flat strip",
             ],
             &[],
-            "The box is missed.",
+            "The rays in this class miss the box.",
         ),
         not_asked(
             &["form"],
             &["a line", "a point"],
             &["some", "interval inside the box", "pairs"],
-            "Whether a ray hits a line or a point depends on rounding.",
+            "If a box is only a line or a point, rounding decides whether a ray hits it.",
         ),
         not_asked(
             &["start in the box"],
@@ -104,19 +104,19 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             &["way past the centre", "part of the way through"],
             &[],
             &["`None`"],
-            "The box is hit.",
+            "The rays in this class hit the box.",
         ),
         not_asked(
             &["components below 1e-4"],
             &["lead into the box", "below 3e-6, into the box"],
             &["`None`"],
-            "The box is hit.",
+            "The rays in this class hit the box.",
         ),
         not_asked(
             &["components below 1e-4"],
             &["lead past the box", "below 3e-6, past the box"],
             &["some", "interval inside the box"],
-            "The box is missed.",
+            "The rays in this class miss the box.",
         ),
         not_asked(
             &["start"],
@@ -361,7 +361,10 @@ const CORNER: f64 = 0.953;
 /// The part of the path through a distant box that is within the times, if this part is small.
 const SHORT_TIMES: Aspect<BoxCall> = Aspect {
     name: "part of the way through",
-    classes: &["the beginning of a distant one", "the end of a distant one"],
+    classes: &[
+        "its beginning, in a distant box",
+        "its end, in a distant box",
+    ],
     class: |call| {
         let (enter, leave) = call.crossing()?;
         let (from, to) = call.bounds.span(&call.ray64())?;

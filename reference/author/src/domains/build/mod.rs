@@ -81,8 +81,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &["primitives"],
             &["about 2,048", "about 4,096"],
             &[],
-            "An exam tests one tree of each of these sizes, since each takes up as much of the \
-             exam as a hundred small ones.",
+            "An exam tests only one tree of each of these sizes, since such a tree takes up as \
+             much of the exam as a hundred small trees.",
         ),
         not_asked(
             &[
@@ -97,8 +97,9 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             ],
             &[],
             EVERY_PROPERTY,
-            "Each property of a tree is judged for each arrangement of primitives, and in many \
-             trees that differ in this aspect.",
+            "Each property of a tree is judged for every arrangement of primitives (along any \
+             axis), and for many trees that differ in this aspect. So it need not be judged for \
+             every class.",
         ),
         not_asked(
             &[
@@ -115,8 +116,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &["over 1,024 primitives"],
             &[],
             &["split", "cost"],
-            "The leaf size is judged instead, which is stricter. The cost is judged for trees with \
-             larger leaves.",
+            "The leaf size is judged instead, which is a stricter test. The cost is judged for \
+             trees with larger leaves.",
         ),
         not_asked(
             &["levels"],
@@ -129,7 +130,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
                 "stops",
                 "cost",
             ],
-            "A builder that stops at a certain level makes a leaf there that is too large.",
+            "If a builder stops at a certain level, it makes a leaf that is too large. So it is \
+             enough to judge the leaf size.",
         ),
         not_asked(
             &["levels"],
@@ -154,14 +156,15 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &["arrangement along any axis"],
             &["equal boxes, max_leaf_size 1"],
             &["split", "cost"],
-            "Some of the partitions of equal boxes cost the same, so the leaf size is judged \
+            "If the boxes are equal, some partitions cost the same, so the leaf size is judged \
              instead.",
         ),
         not_asked(
             &["arrangement along any axis"],
             &["equal primitives"],
             &["cost"],
-            "Some of the partitions of equal primitives cost the same, so builders differ.",
+            "If the primitives are equal, some partitions cost the same, so correct builders may \
+             choose different partitions.",
         ),
         not_asked(
             &["arrangement along any axis"],
@@ -171,7 +174,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
                 "of very different sizes",
             ],
             &["split"],
-            "The leaf size is judged instead, which is stricter.",
+            "The leaf size is judged instead, which is a stricter test.",
         ),
     ],
 };
@@ -258,9 +261,9 @@ const LEAF_SIZE: Aspect<BuildCall> = Aspect {
 const LEAVES: Aspect<BuildCall> = Aspect {
     name: "primitives in leaves",
     classes: &[
-        "fewer than fit into one",
-        "as many as fit into one",
-        "one more",
+        "fewer than fit into one leaf",
+        "as many as fit into one leaf",
+        "one more than fits into one leaf",
         "up to 2 leaves",
         "up to 8 leaves",
         "more",
@@ -363,7 +366,7 @@ mod tests {
         let expected = [
             "about 16",
             "9 to 32",
-            "one more",
+            "one more than fits into one leaf",
             "10",
             "1 size away",
             "+++",

@@ -46,21 +46,22 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["call before"],
             &["the same ray with its axes in another order"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
-            "A ray like this hits only shapes near the origin, so an exam may test only the \
-             distance of the hit.",
+            "A ray like this hits only shapes near the origin, so it is enough if an exam tests \
+             the distance of the hit.",
         ),
         not_asked(
             &["centre"],
             &[],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
-            "A sphere on an axis is hit like any other, which the distance shows.",
+            "A sphere on an axis is hit in the same way as any other sphere, and testing the \
+             distance is enough to show this.",
         ),
         not_asked(
             &["place"],
             &["1,000 sizes away"],
             &["normal", "unit_normal", "uv"],
-            "At this distance from the origin, rounding the centre changes the normal by more than \
-             its tolerance.",
+            "At this distance from the origin, rounding the centre's coordinates changes the \
+             normal by more than the tolerance for normals.",
         ),
         not_asked(
             &["start"],
@@ -72,7 +73,7 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["line"],
             &["grazing, outside", "outside"],
             &[],
-            "A line outside the sphere hits nothing.",
+            "A ray along a line outside the sphere hits nothing.",
         ),
         not_asked(
             &["size"],
@@ -85,8 +86,8 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["distance"],
             &["2000"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
-            "Only the largest spheres are hit from so far away, so an exam may test only the \
-             distance of the hit.",
+            "Only the largest spheres are hit from so far away, so it is enough if an exam tests \
+             the distance of the hit.",
         ),
     ],
 };

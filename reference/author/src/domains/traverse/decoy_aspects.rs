@@ -63,10 +63,7 @@ pub(super) const BOX: Aspect<TraverseCall> = Aspect {
 /// The sibling of the decoy's leaf.
 pub(super) const SIBLING: Aspect<TraverseCall> = Aspect {
     name: "decoy's sibling",
-    classes: &[
-        "any",
-        "4 or more primitives, next to 4 or more with the decoy",
-    ],
+    classes: &["any", "4 or more primitives, as in the decoy's leaf"],
     class: |call| Some(usize::from(call.decoy?.is_beside_a_large_leaf)),
 };
 

@@ -117,34 +117,36 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
                 "the hit comes before its sibling's box, and its own box is farther still",
             ],
             &["`None`"],
-            "Nothing is beyond the closest hit of a ray that hits nothing.",
+            "If a ray hits nothing, there is no closest hit that a box could begin beyond.",
         ),
         not_asked(
             &["decoy's history"],
             &["after a parallel ray that enters the decoy's box before the sibling's box"],
             &["`None`", "pairs"],
-            "The order of two boxes matters only where the second begins beyond a hit in the first.",
+            "The order of two boxes matters only if the second box begins beyond a hit in the \
+             first box.",
         ),
         not_asked(
             &["history"],
             &[],
             &["`None`", "normal", "origin", "position", "shape", "uv"],
-            "An exam repeats a ray only for its distance, since a stale trace has a wrong distance \
-             too.",
+            "If an exam repeats a ray, it tests only the distance, since a trace left over from an \
+             earlier call has a wrong distance, too.",
         ),
         not_asked(
             &[],
             &[],
             &["normal", "origin", "position", "shape", "uv"],
-            "A tree returns the trace of a primitive unchanged, whatever the tree's shape, size \
-             and position. So these quantities are tested in a few trees, and the distance in all.",
+            "Whatever its shape, size and position, a tree returns a primitive's trace unchanged. \
+             So these quantities are tested for only a few trees, and the distance is tested for \
+             all trees.",
         ),
         not_asked(
             &["size"],
             &["500"],
             &[],
-            "A tree half as large as the largest coordinate allows is tested only if the seed \
-             leaves room for one.",
+            "A tree that is half as large as the largest coordinate allows is tested only if the \
+             exam's seed leaves room for such a tree.",
         ),
     ],
 };
@@ -294,7 +296,7 @@ const START: Aspect<TraverseCall> = Aspect {
 const HISTORY: Aspect<TraverseCall> = Aspect {
     name: "history",
     classes: &[
-        "first call of a tree",
+        "first call on a tree",
         "after another ray",
         "after the same ray with another range",
         "after almost the same ray, with another hit",
@@ -368,7 +370,7 @@ const ON_SPHERE: Aspect<TraverseCall> = Aspect {
 
 /// The number of primitives whose boxes the ray enters before it hits something or ends.
 const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
-    name: "boxes of primitives on the way",
+    name: "primitives' boxes on the way",
     classes: &["up to 2,048", "2,049 to 5,000"],
     class: |call| {
         let ray64 = Ray64::from(&call.ray);
@@ -406,7 +408,7 @@ const LAYERS: Aspect<TraverseCall> = Aspect {
     name: "another hit close behind",
     classes: &[
         "within a thousandth of the distance, earlier in the same leaf",
-        "in a leaf around the start, both within a thousandth of the tree's diagonal",
+        "in a leaf around the start, with both hits within 1e-3 diagonals of the start",
         "within a thousandth of the distance, in a leaf that is entered earlier",
     ],
     class: |call| {
@@ -420,7 +422,7 @@ const LAYERS: Aspect<TraverseCall> = Aspect {
 
 /// An unreferenced primitive in front of the answer.
 const UNREFERENCED: Aspect<TraverseCall> = Aspect {
-    name: "primitive of no leaf in front",
+    name: "primitive in front that is in no leaf",
     classes: &["small", "as large as the tree"],
     class: |call| call.unreferenced_in_front().map(usize::from),
 };
@@ -469,7 +471,7 @@ mod tests {
             Some("outside the root's box"),
             Some("along +x"),
             Some("from 0 to ∞"),
-            Some("first call of a tree"),
+            Some("first call on a tree"),
             Some("1e-3 or more"),
             Some("before all boxes around the hit"),
             Some("elsewhere"),

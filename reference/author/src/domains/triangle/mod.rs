@@ -72,14 +72,15 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["start"],
             &["on the surface"],
             &[],
-            "The start itself is in the range only if the range begins there, but no range begins \
-             or ends so close to the triangle. So a ray like this hits nothing.",
+            "The ray starts on the triangle. This point is in the range only if the range begins \
+             there, but no range in an exam begins or ends so close to the triangle. So the ray \
+             hits nothing.",
         ),
         not_asked(
             &["crossing"],
             &["just outside an edge", "outside", "far outside"],
             &[],
-            "Outside the triangle, nothing is hit.",
+            "A ray that passes outside the triangle hits nothing.",
         ),
         not_asked(
             &["crossing"],
@@ -88,14 +89,15 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
                 "`None`", "distance", "normal", "origin", "position", "shape",
             ],
             "Only `triangle.outside` and `triangle.uv_corners` test rays close to an edge, so that \
-             a mistake there costs few points. The small weights show in the texture coordinates.",
+             a mistake at the edges costs few points. Small weights show up in the texture \
+             coordinates.",
         ),
         not_asked(
             &["call before"],
             &["the same ray with its axes in another order"],
             &["normal", "origin", "position", "shape", "uv"],
-            "A ray like this hits only shapes near the origin, so an exam may test only the \
-             distance of the hit.",
+            "A ray like this hits only shapes near the origin, so it is enough if an exam tests \
+             the distance of the hit.",
         ),
         not_asked(
             &["call before"],
@@ -119,7 +121,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &[
                 "`None`", "some", "distance", "normal", "origin", "position", "shape",
             ],
-            "A weight below a thousandth shows only in the texture coordinates.",
+            "A weight below a thousandth shows up only in the texture coordinates.",
         ),
         not_asked(
             &["interpolated normal"],
@@ -135,7 +137,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &[
                 "some", "distance", "normal", "origin", "position", "shape", "uv",
             ],
-            "Outside the triangle, nothing is hit.",
+            "A ray that passes outside the triangle hits nothing.",
         ),
         not_asked(
             &["form"],
@@ -148,38 +150,37 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
                 "flat at p2",
             ],
             &["normal", "uv", "origin", "position", "shape"],
-            "In a narrow or flat triangle, the weights that a usual formula computes in single \
-             precision are wrong by more than the tolerances allow, so the items that judge \
-             normals or texture coordinates have no triangles like this. The other quantities do \
-             not depend on the weights.",
+            "For narrow and flat triangles, the usual formulas in single precision compute weights \
+             whose errors exceed the tolerances. So the items that judge normals or texture \
+             coordinates contain no such triangles. The other quantities do not depend on the \
+             weights.",
         ),
         not_asked(
             &["altitude"],
             &[],
             &["normal", "uv", "origin", "position", "shape"],
-            "A triangle as flat as this is tested as rarely as other flat triangles, for the same \
-             reason.",
+            "Triangles this flat are rarely tested, for the same reason as other flat triangles.",
         ),
         not_asked(
             &["cosine"],
             &["below 0.01"],
             &["normal", "uv"],
-            "At a cosine this small, the weights that a usual formula computes in single precision \
-             are seldom exact enough, so an exam may test only the other quantities.",
+            "At a cosine this small, the usual formulas in single precision seldom compute the \
+             weights accurately enough, so an exam needs to test only the other quantities.",
         ),
         not_asked(
             &["place"],
             &["1,000 sizes away"],
             &["normal", "uv"],
-            "At this distance from the origin, rounding the corners changes the weights by more \
-             than the tolerances of normals and texture coordinates allow.",
+            "At this distance from the origin, rounding the corners' coordinates changes the \
+             weights by more than the tolerances for normals and texture coordinates allow.",
         ),
         not_asked(
             &["distance"],
             &["2000"],
             &["normal", "origin", "position", "shape", "uv"],
-            "Only the largest triangles are hit from so far away, so an exam may test only the \
-             distance of the hit.",
+            "Only the largest triangles are hit from so far away, so it is enough if an exam tests \
+             the distance of the hit.",
         ),
     ],
 };

@@ -61,24 +61,26 @@ fn header(calibration: &Calibration) -> String {
     format!(
         "# Margins of the thresholds\n\n\
          Written by `cargo author calibrate`: {} correct solutions (`reference/variants`) were \
-         graded with the exams of {}, and {} known mistakes (`reference/mistakes`) with those of \
-         {}.\n\n\
-         Values are multiples of the threshold, as computed by the judge: a value up to 1 is \
-         correct. A margin is the factor by which a threshold could be made stricter before \
-         the first correct answer is judged wrong, or more lenient before an item stops catching a \
-         mistake that must fail it. `cargo author calibrate --check` fails if a margin is below \
-         {MIN_MARGIN}.\n\n\
-         - Where an item tolerates a number of wrong positions or pixels, that many of the worst \
-         are ignored. To be caught there, a mistake must exceed two thresholds: the \
-         deviation, and the number of wrong positions. The table shows the smaller of the two \
-         values.\n\
-         - For the cost of a tree, only the excess over the exact sweep's tree is measured: a tree \
-         with the same cost has the value 0. Correct builders that do not use the surface area \
-         heuristic are left out.\n\
+         graded with the exams of {}, and {} known mistakes (`reference/mistakes`) with the exams \
+         of {}.\n\n\
+         The judge computes each value as a multiple of the threshold: a value up to 1 is correct. \
+         The margin of the worst correct answer is the factor by which the threshold could be made \
+         stricter before this answer is judged wrong. The margin of the mildest mistake is the \
+         factor by which the threshold could be made more lenient before an item that must catch \
+         this mistake stops catching it. `cargo author calibrate --check` fails if a margin is \
+         below {MIN_MARGIN}.\n\n\
+         - If an item tolerates a number of wrong positions or pixels, that number of the worst \
+         positions or pixels is ignored. Such an item catches a mistake only if the mistake \
+         exceeds two thresholds: one for the deviation, and one for the number of wrong positions. \
+         The table shows whichever of these two values is smaller.\n\
+         - For the cost of a tree, only the excess over the cost of the exact sweep's tree is \
+         measured: a tree with the same cost has the value 0. Correct builders that do not use the \
+         surface area heuristic are left out.\n\
          - If an item catches a mistake by a margin below {MIN_MARGIN} and another item of the \
-         same exam catches the mistake clearly, only the other item is measured.\n\
-         - Hits and misses, panics, and the structure of trees have no threshold. The limits of \
-         partial credit are not measured, since they only distinguish between wrong answers.\n\n\
+         same exam catches the mistake clearly, only that other item is measured.\n\
+         - There are no thresholds for hits and misses, panics, or the structure of trees. The \
+         limits for partial credit are not measured, since they only separate some wrong answers \
+         from others.\n\n\
          | threshold | value | defined in | worst correct answer | margin | mildest mistake | margin |\n\
          |---|---|---|---|--:|---|--:|\n",
         calibration.variants,

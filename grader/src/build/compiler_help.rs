@@ -12,11 +12,12 @@ const VECTORS: &str = "cpp.md#vectors";
 const OPTION: &str = "cpp.md#a-value-that-may-be-missing";
 const ORDER: &str = "cpp.md#floats-have-no-total-order";
 const MOVES: &str = "cpp.md#slices-and-partitions";
+const CRATES: &str = "cpp.md#crates";
 const BORROWS: &str = "cpp.md#recursion-that-fills-a-vector";
 
 /// Triples of an error code, words in the compiler's text, and the section that explains errors
 /// that match both. Syntax errors have no code. The first match is used.
-const SECTIONS: [(&str, &str, &str); 41] = [
+const SECTIONS: [(&str, &str, &str); 43] = [
     ("", "expected `;`", BLOCKS),
     ("", "expected one of `.`, `;`", BLOCKS),
     ("E0308", "found `()`", BLOCKS),
@@ -52,6 +53,8 @@ const SECTIONS: [(&str, &str, &str); 41] = [
     ("E0599", "`Vec3`", VECTORS),
     ("E0609", "`Option<", OPTION),
     ("E0004", "`None`", OPTION),
+    ("E0432", "missing a crate named", CRATES),
+    ("E0433", "unlinked crate", CRATES),
     ("E0382", "", MOVES),
     ("E0499", "", BORROWS),
     ("E0502", "", BORROWS),

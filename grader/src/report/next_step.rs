@@ -8,7 +8,7 @@ use crate::build::compiler_help::SECTION_LABEL;
 use crate::inputs::task_selection::TaskSelection;
 use crate::machine::printing::wrap;
 use crate::report::failing_items::most_informative_first;
-use crate::report::text::{HintDetail, joined_hints};
+use crate::report::text::{HintDetail, MAX_WARNINGS, joined_hints};
 use crate::sandbox::Isolation;
 use crate::score::{Score, TaskScore, Verdict, VerdictKind};
 
@@ -54,7 +54,7 @@ pub fn first_step(
         .filter(|task| selection.includes(task.id));
     let first = selected.find_map(|task| Some((task, *most_informative_first(task).first()?)));
     let Some((task, item)) = first else {
-        return row(&after_all_points(assignment));
+        return labelled(notes(score)) + &row(&after_all_points(assignment));
     };
     let info = assignment.info(task.id);
     let method = match &item.at {
@@ -84,13 +84,27 @@ pub fn first_step(
         ("again", Some(item.rerun_command(&score.rerun_command))),
     ];
     let rows = rows
-        .iter()
-        .filter_map(|(label, text)| Some((label, text.as_ref()?)));
+        .into_iter()
+        .filter_map(|(label, text)| Some((label, text?)));
+    // They can explain the wrong answer, or show that the mistake is in another file.
+    let warnings = task.relevant_warnings().iter().take(MAX_WARNINGS);
+    let warnings = warnings.map(|warning| ("warning", warning.clone()));
+    format!("\n{}", labelled(rows.chain(notes(score)).chain(warnings)))
+}
+
+/// Returns the notes on the submission's files, with a label.
+fn notes(score: &Score) -> impl Iterator<Item = (&'static str, String)> {
+    let notes = score.build.all_notes();
+    notes.map(|note| ("note", note.clone()))
+}
+
+/// Formats pairs of a label and a text as lines.
+fn labelled(rows: impl Iterator<Item = (&'static str, String)>) -> String {
     let rows = rows.map(|(label, text)| {
-        let lines = wrap(&sanitize(text, usize::MAX), TEXT_WIDTH).join("\n          ");
+        let lines = wrap(&sanitize(&text, usize::MAX), TEXT_WIDTH).join("\n          ");
         format!("  {label:<7} {lines}\n")
     });
-    format!("\n{}", rows.collect::<String>())
+    rows.collect()
 }
 
 /// Returns the step for a file that doesn't compile: its first error and, if there is one, the

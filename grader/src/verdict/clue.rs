@@ -54,10 +54,23 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
 
 /// Returns the clue for a panic with this message, if any.
 pub fn of_panic(message: &str) -> Option<&'static str> {
+    // The harness stops reading such a tree.
+    if message.starts_with("the tree is too large") {
+        return Some(
+            "A split puts each primitive on one of two sides, and each side is built once. Draw the tree \
+             that your code builds for four primitives: which part of it is there more than once?",
+        );
+    }
+    // The first message is from a vector, the second from an array of three numbers.
+    let is_axis = message == "index out of bounds" || message.contains("the len is 3 ");
     Some(match PanicKind::of(message)? {
+        PanicKind::Index if is_axis => {
+            "Compare the index with the length: is the index one too far, or was it meant for another \
+             list? A vector has the axes 0, 1 and 2."
+        }
         PanicKind::Index => {
             "Compare the index with the length: is the index one too far, is the list empty, or was the index \
-             meant for another list? A vector has the axes 0, 1 and 2."
+             meant for another list?"
         }
         PanicKind::Arithmetic => {
             "`usize` and `u32` have no values below zero, and no whole number can be divided by zero. \
@@ -74,6 +87,26 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
 mod tests {
     use super::*;
     use crate::handed_out::RAYS;
+
+    #[test]
+    fn only_an_index_that_can_be_an_axis_is_called_one() {
+        for (message, can_be_axis) in [
+            ("index out of bounds", true),
+            ("index out of bounds: the len is 3 but the index is 3", true),
+            (
+                "index out of bounds: the len is 12 but the index is 12",
+                false,
+            ),
+            (
+                "range end index 133 out of range for slice of length 129",
+                false,
+            ),
+            ("mid > len", false),
+        ] {
+            let clue = of_panic(message).unwrap();
+            assert_eq!(clue.contains("axes"), can_be_axis, "{message}: {clue}");
+        }
+    }
 
     #[test]
     fn a_stack_overflow_in_a_build_leads_to_the_split() {

@@ -85,10 +85,12 @@ pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> f
     writeln!(out, "    {FAINT}and {items} in this task{how}{FAINT:#}")
 }
 
+/// The maximum number of compiler warnings shown for a task.
+pub const MAX_WARNINGS: usize = 3;
+
 /// If a task has a wrong or missing answer, writes the first few of the task's warnings, which may
 /// explain that answer.
 pub(super) fn write_warnings(out: &mut String, task: &TaskScore) -> fmt::Result {
-    const MAX_WARNINGS: usize = 3;
     let mut shown = task.relevant_warnings().iter().take(MAX_WARNINGS);
     shown.try_for_each(|warning| write_row(out, "warning", warning))
 }

@@ -19,7 +19,7 @@ use crate::report::text::item::{
 use crate::sandbox::Isolation;
 use crate::score::{ItemScore, Score, TaskScore, Verdict};
 
-pub use item::joined_hints;
+pub use item::{MAX_WARNINGS, joined_hints};
 pub use short_table::short_table;
 
 const WIDTH: usize = 80;

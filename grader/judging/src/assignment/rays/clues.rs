@@ -315,17 +315,17 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::HIT],
-            clue: "Your code returns a hit, but no correct traversal finds one here: the \
-                     primitive is in no leaf, or in a leaf that must not be entered, or its hit \
-                     is outside ray.range. Which of these is the case, and why was the primitive \
-                     tested?",
-            section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
+            clue: "Your code returns a hit, but no correct traversal finds one here. If it is the hit of a \
+                primitive, that primitive is in no leaf, or in a leaf that must not be entered, or its hit is \
+                outside ray.range: why was it tested? If it isn't, what does your code return when \
+                nothing is hit?",
+            section: "traversal.md#the-algorithm",
         },
         SymptomClue {
             symptoms: &[Symptom::less("distance")],
-            clue: "Your hit is nearer than the correct one: its primitive is in no leaf, or in \
-                     a leaf that must not be entered, or the hit is nearer than ray.range.min. \
-                     Which of these is the case, and why was the primitive tested?",
+            clue: "Your distance is less than the correct one. If it belongs to a primitive, that primitive is \
+                in no leaf, or in a leaf that must not be entered, or the hit is nearer than ray.range.min: \
+                why was it tested?",
             section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
         },
         SymptomClue {
@@ -337,9 +337,8 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::less("depth")],
-            clue: "Your hit is nearer than the correct one: its primitive is in no leaf, or in \
-                     a leaf that must not be entered. Which of these is the case, and why was the \
-                     primitive tested?",
+            clue: "Your depth is less than the correct one. If it belongs to a primitive, that primitive is in \
+                no leaf, or in a leaf that must not be entered: why was it tested?",
             section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
         },
         SymptomClue {

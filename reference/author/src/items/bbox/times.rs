@@ -10,8 +10,8 @@ use crate::oracle::Ray64;
 pub(super) const BEHIND: Declaration = Declaration {
     id: "bbox.behind",
     title: "a box behind the ray is missed",
-    look: "Behind the origin, times are negative, so no part of the ray's path through the box is within \
-        times. An interval that would end before it begins is a miss.",
+    look: "If a box is behind the origin, its times are negative, so no part of the ray's path through it \
+        is within times. An interval that would end before it begins is a miss, too.",
     look_fits: &[Symptom::HIT],
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
     tests: &["Returns the part…"],
@@ -58,7 +58,8 @@ pub(super) const CLIPPED: Declaration = Declaration {
 pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
     id: "bbox.wholly_inside",
     title: "if the ray is in the box during all of times, all of times is returned",
-    look: "Then the ray doesn't cross any plane within times, but it is still a hit, from times.min to times.max.",
+    look: "If the ray is in the box during all of times, it doesn't cross any plane within times, but it is \
+        still a hit, from times.min to times.max.",
     look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
     section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
     tests: &["The result is clipped…"],

@@ -377,8 +377,8 @@ fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
 pub(super) const DEEP: Declaration = Declaration {
     id: "traverse.deep",
     title: "a tree of 60 levels is traversed to the end",
-    look: "A stack of fixed size must be large enough, and every node that is pushed must be \
-           popped again.",
+    look: "Nothing may end the traversal above the deepest level: neither a limit on the depth nor a stack of \
+        fixed size that is too small. If you push nodes, pop every one of them.",
     look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#deep-trees",
     tests: &["The tree can be 60…"],

@@ -192,7 +192,8 @@ pub(super) const GRAZING: Declaration = Declaration {
 pub(super) const DEGENERATE: Declaration = Declaration {
     id: "triangle.degenerate",
     title: "a triangle that has no area or is parallel to the ray is missed",
-    look: "The determinant is then zero, and dividing by it gives no usable number: return a miss.",
+    look: "If the triangle has no area or is parallel to the ray, the determinant is zero, and dividing by it \
+        gives no usable number: return a miss.",
     look_fits: &[Symptom::HIT],
     section: "triangle.md#when-the-denominator-is-zero",
     tests: &["A triangle without…"],

@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn says_why_a_method_is_not_found() {
-        let [none, several, braces] = ["it was renamed", "several methods", "its braces"];
+        let [none, several, braces] = ["it was renamed", "several methods", "the file's braces"];
         for (text, error) in [
             ("impl Ball { fn hit_it() {} }", none),
             ("fn hit() {}", none),

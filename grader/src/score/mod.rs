@@ -326,6 +326,7 @@ pub struct FileReport {
     pub message: String,
     /// Whether the submission doesn't contain the file.
     #[serde(rename = "missing", skip_serializing_if = "Not::not")]
+    #[cfg_attr(test, schemars(default))]
     pub is_missing: bool,
 }
 

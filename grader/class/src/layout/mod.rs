@@ -122,8 +122,8 @@ pub fn recognise(
     };
     let (mut entries, unmatched, notes) = reader(layout).read(root, metadata, choice)?;
     reject_links(root, &mut entries);
-    // In the other layouts, the platform says who handed in each entry. Whoever explicitly chooses
-    // the plain layout vouches that each entry is one submission.
+    // In the other layouts, the platform says who handed in each entry. By explicitly choosing the
+    // plain layout, staff confirm that each entry is one submission.
     let mut mixtures = Vec::new();
     if layout == Layout::Plain && choice.layout.is_none() {
         mixtures = mixture::reject_mixtures(root, &mut entries, handed_out, known);

@@ -26,7 +26,7 @@ use crate::starter;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-/// What the table of long runs shows instead of seeds for a run that doesn't use any.
+/// The text in the table of long runs that replaces the seeds of a run without seeds.
 const PRACTICE: &str = "practice";
 
 /// The result of a command. The caller prints the error.

@@ -38,6 +38,17 @@ fn an_endless_loop_is_stopped() {
     assert_snapshot!(report_with(&graded, "sphere", "timed_out"));
 }
 
+/// The left side of each split is built twice, and a given method is changed.
+#[test]
+fn the_next_step_shows_notes_and_does_not_blame_the_given_code() {
+    let left = "self.build_node(start, middle)";
+    let submission = Submission::reference("twice")
+        .with_replaced("bvh.rs", left, &format!("{{ {left}; {left} }}"))
+        .with_replaced("bbox.rs", "0.5 * (self.min + self.max)", "self.min");
+    let graded = submission.grade_with(&["--next"]);
+    assert_snapshot!(graded.report());
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn allocating_without_bound_is_stopped() {

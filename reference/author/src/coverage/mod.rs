@@ -53,12 +53,12 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
     let text = format!(
         "# Coverage of the contract\n\n\
          Written by `cargo author coverage` for the {} exam. For each task, a table lists the \
-         sentences that document the methods students write, with the items that test each \
-         sentence. Then, for each function, a table divides the inputs into classes and shows how \
-         many answers test each class. It counts answers with a result, answers that are `None`, \
-         and answers for each judged quantity separately. Each class needs at least {FEWEST} \
-         answers. If there are fewer, a letter refers to the reason, which is given below the \
-         table.\n",
+         sentences in the documentation of the methods that students write, along with the items \
+         that test each sentence. Then, for each function, a table divides the inputs into classes \
+         and shows how many answers test each class. The columns count the answers that contain a \
+         result (`some`), the answers that are `None`, and the answers that test each judged \
+         quantity. Each class needs at least {FEWEST} answers in every column. If there are fewer, \
+         a letter takes the place of the number and refers to a reason below the table.\n",
         exam.id
     );
     let mut coverage = Coverage {

@@ -81,8 +81,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &["primitives"],
             &["about 2,048", "about 4,096"],
             &[],
-            "An exam tests only one tree of each of these sizes, since such a tree takes up as \
-             much of the exam as a hundred small trees.",
+            "An exam tests only one tree for each of these sizes, since a tree this large takes up \
+             as much of the exam as a hundred small trees.",
         ),
         not_asked(
             &[
@@ -98,8 +98,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &[],
             EVERY_PROPERTY,
             "Each property of a tree is judged for every arrangement of primitives (along any \
-             axis), and for many trees that differ in this aspect. So it need not be judged for \
-             every class.",
+             axis) and for many trees that differ in this respect. So the property need not be \
+             judged for every class.",
         ),
         not_asked(
             &[
@@ -116,8 +116,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &["over 1,024 primitives"],
             &[],
             &["split", "cost"],
-            "The leaf size is judged instead, which is a stricter test. The cost is judged for \
-             trees with larger leaves.",
+            "The leaf size is judged instead, because this is a stricter test. The cost is judged \
+             for trees with larger leaves.",
         ),
         not_asked(
             &["levels"],
@@ -130,8 +130,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
                 "stops",
                 "cost",
             ],
-            "If a builder stops at a certain level, it makes a leaf that is too large. So it is \
-             enough to judge the leaf size.",
+            "A builder that always stops at a certain level makes leaves that are too large. So it \
+             is enough to judge the leaf size.",
         ),
         not_asked(
             &["levels"],
@@ -150,7 +150,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
             &["arrangement along any axis"],
             &["all on a line parallel to an axis"],
             &["split", "cost"],
-            "Every box has area 0, so no partition is better than any other.",
+            "Every box has an area of 0, so no partition is better than any other.",
         ),
         not_asked(
             &["arrangement along any axis"],
@@ -174,7 +174,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
                 "of very different sizes",
             ],
             &["split"],
-            "The leaf size is judged instead, which is a stricter test.",
+            "The leaf size is judged instead, because this is a stricter test.",
         ),
     ],
 };

@@ -55,7 +55,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         ],
         &[],
         OTHER_QUANTITIES,
-        "These aspects change only the direction.",
+        "These aspects affect only the ray's direction.",
     )],
 };
 

@@ -47,14 +47,14 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["the same ray with its axes in another order"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
             "A ray like this hits only shapes near the origin, so it is enough if an exam tests \
-             the distance of the hit.",
+             the distance to the hit.",
         ),
         not_asked(
             &["centre"],
             &[],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
-            "A sphere on an axis is hit in the same way as any other sphere, and testing the \
-             distance is enough to show this.",
+            "Rays hit a sphere on an axis in the same way as any other sphere. To check this, it \
+             is enough if an exam tests the distance.",
         ),
         not_asked(
             &["place"],
@@ -67,13 +67,13 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["start"],
             &["behind"],
             &[],
-            "A sphere behind the ray is not hit.",
+            "A sphere behind the start of the ray is not hit.",
         ),
         not_asked(
             &["line"],
             &["grazing, outside", "outside"],
             &[],
-            "A ray along a line outside the sphere hits nothing.",
+            "A ray whose line misses the sphere hits nothing.",
         ),
         not_asked(
             &["size"],
@@ -87,7 +87,7 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["2000"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
             "Only the largest spheres are hit from so far away, so it is enough if an exam tests \
-             the distance of the hit.",
+             the distance to the hit.",
         ),
     ],
 };

@@ -75,13 +75,13 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             &["nodes"],
             &["none", "one, an empty leaf"],
             OF_A_HIT,
-            "Nothing is hit in an empty tree.",
+            "In an empty tree, there is nothing to hit.",
         ),
         not_asked(
             &["primitives"],
             &["0"],
             OF_A_HIT,
-            "Nothing is hit in an empty tree.",
+            "In an empty tree, there is nothing to hit.",
         ),
         not_asked(
             &[
@@ -117,7 +117,7 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
                 "the hit comes before its sibling's box, and its own box is farther still",
             ],
             &["`None`"],
-            "If a ray hits nothing, there is no closest hit that a box could begin beyond.",
+            "If a ray hits nothing, there is no closest hit, so no box can begin beyond it.",
         ),
         not_asked(
             &["decoy's history"],
@@ -130,23 +130,23 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             &["history"],
             &[],
             &["`None`", "normal", "origin", "position", "shape", "uv"],
-            "If an exam repeats a ray, it tests only the distance, since a trace left over from an \
-             earlier call has a wrong distance, too.",
+            "If an exam repeats a ray, it tests only the distance. This is enough, since a trace \
+             left over from an earlier call has the wrong distance as well.",
         ),
         not_asked(
             &[],
             &[],
             &["normal", "origin", "position", "shape", "uv"],
-            "Whatever its shape, size and position, a tree returns a primitive's trace unchanged. \
-             So these quantities are tested for only a few trees, and the distance is tested for \
-             all trees.",
+            "Whatever the tree's shape, size and position, traversing it returns the primitive's \
+             trace unchanged. So these quantities are tested for only a few trees, but the \
+             distance is tested for all trees.",
         ),
         not_asked(
             &["size"],
             &["500"],
             &[],
-            "A tree that is half as large as the largest coordinate allows is tested only if the \
-             exam's seed leaves room for such a tree.",
+            "The size of a tree in this class is at least half of the largest coordinate. An exam \
+             tests such a tree only if its seed leaves room for one.",
         ),
     ],
 };

@@ -64,17 +64,17 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         not_asked(&["distance"], &[], &["`None`"], "A miss has no distance."),
         not_asked(
             &["start"],
-            &["leads away"],
+            &["points away"],
             &[],
-            "A ray that leads away from the triangle hits nothing.",
+            "A ray that points away from the triangle hits nothing.",
         ),
         not_asked(
             &["start"],
             &["on the surface"],
             &[],
-            "The ray starts on the triangle. This point is in the range only if the range begins \
-             there, but no range in an exam begins or ends so close to the triangle. So the ray \
-             hits nothing.",
+            "A ray in this class starts on the triangle. Its start is a hit only if its range \
+             begins there, but no range in an exam begins or ends so close to the triangle. So the \
+             ray hits nothing.",
         ),
         not_asked(
             &["crossing"],
@@ -88,16 +88,16 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &[
                 "`None`", "distance", "normal", "origin", "position", "shape",
             ],
-            "Only `triangle.outside` and `triangle.uv_corners` test rays close to an edge, so that \
-             a mistake at the edges costs few points. Small weights show up in the texture \
-             coordinates.",
+            "Only the items `triangle.outside` and `triangle.uv_corners` test rays close to an \
+             edge, so that a mistake at the edges costs few points. Of the quantities, only the \
+             texture coordinates are judged, because they show errors in small weights.",
         ),
         not_asked(
             &["call before"],
             &["the same ray with its axes in another order"],
             &["normal", "origin", "position", "shape", "uv"],
             "A ray like this hits only shapes near the origin, so it is enough if an exam tests \
-             the distance of the hit.",
+             the distance to the hit.",
         ),
         not_asked(
             &["call before"],
@@ -121,7 +121,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &[
                 "`None`", "some", "distance", "normal", "origin", "position", "shape",
             ],
-            "A weight below a thousandth shows up only in the texture coordinates.",
+            "A weight below a thousandth has a noticeable effect only on the texture coordinates.",
         ),
         not_asked(
             &["interpolated normal"],
@@ -150,10 +150,10 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
                 "flat at p2",
             ],
             &["normal", "uv", "origin", "position", "shape"],
-            "For narrow and flat triangles, the usual formulas in single precision compute weights \
-             whose errors exceed the tolerances. So the items that judge normals or texture \
-             coordinates contain no such triangles. The other quantities do not depend on the \
-             weights.",
+            "For narrow and flat triangles, the usual formulas are not accurate enough in single \
+             precision: the errors of the weights exceed the tolerances. So the items that judge \
+             normals or texture coordinates contain no such triangles. The other quantities do not \
+             depend on the weights.",
         ),
         not_asked(
             &["altitude"],
@@ -165,8 +165,8 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["cosine"],
             &["below 0.01"],
             &["normal", "uv"],
-            "At a cosine this small, the usual formulas in single precision seldom compute the \
-             weights accurately enough, so an exam needs to test only the other quantities.",
+            "At a cosine this small, the usual formulas seldom compute the weights accurately \
+             enough in single precision. So it is enough if an exam tests the other quantities.",
         ),
         not_asked(
             &["place"],
@@ -484,7 +484,7 @@ const START: Aspect<ShapeCall> = Aspect {
         "behind, up to 3 sizes away",
         "behind, up to 30 sizes away",
         "on the surface",
-        "leads away",
+        "points away",
         "just in front or behind",
     ],
     class: |call| {

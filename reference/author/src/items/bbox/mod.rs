@@ -32,7 +32,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
     domain: Some(&BOX),
     untested: &[(
         "Neither the box nor `times` is ever empty (`min > max`).",
-        "A promise about the arguments, so there is nothing to test.",
+        "This is a promise about the arguments, so there is nothing to test.",
     )],
     points: POINTS,
     ..AuthoredTask::NEW

@@ -43,7 +43,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
     domain: Some(&BUILD),
     untested: &[(
         "You may reorder the primitives and the nodes.",
-        "A permission: every item accepts any order.",
+        "This is a permission: every item accepts any order.",
     )],
     finish: |seed, items| {
         let control = control(seed);

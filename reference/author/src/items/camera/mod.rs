@@ -39,11 +39,11 @@ pub static TASK: AuthoredTask = AuthoredTask {
     untested: &[
         (
             "[`Ray::new`] sets both.",
-            "A way to do what the previous sentence asks.",
+            "This is one way to do what the previous sentence asks.",
         ),
         (
             "Convert them with `as_vec2()` before you divide.",
-            "A way to do what the other sentences ask.",
+            "This helps to do what the other sentences ask.",
         ),
     ],
     points: POINTS,

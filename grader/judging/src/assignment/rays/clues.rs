@@ -315,10 +315,9 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::HIT],
-            clue: "Your code returns a hit, but no correct traversal finds one here. If it is the hit of a \
-                primitive, that primitive is in no leaf, or in a leaf that must not be entered, or its hit is \
-                outside ray.range: why was it tested? If it isn't, what does your code return when \
-                nothing is hit?",
+            clue: "Your code returns a hit where no correct traversal finds one. If a primitive is hit there, it \
+                is in no leaf, or in a leaf that must not be entered, or outside ray.range. If none is, what \
+                does your code return when nothing is hit?",
             section: "traversal.md#the-algorithm",
         },
         SymptomClue {

@@ -29,8 +29,8 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
 /// folder, or by the name or an identifier of somebody who has only one submission. `all` contains
 /// each submission's id and information.
 pub fn find_submission(who: &str, all: &[(&str, &EntryInfo)]) -> Result<usize, String> {
-    let is_named = |(id, info): &(&str, &EntryInfo)| are_equal(id, who) || info.from == who;
-    if let Some(index) = all.iter().position(is_named) {
+    let by_id = all.iter().position(|(id, _)| are_equal(id, who));
+    if let Some(index) = by_id.or_else(|| all.iter().position(|(_, info)| info.from == who)) {
         return Ok(index);
     }
     let is_theirs = |index: &usize| {

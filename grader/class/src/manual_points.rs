@@ -93,7 +93,7 @@ impl ManualPointsList {
 
     /// Checks that each row belongs to exactly one of these people, and that no two rows belong to
     /// the same person and task. `people` contains each person once per submission. `missing` lists
-    /// the people on the rosters who submitted nothing.
+    /// the people on the lists who submitted nothing.
     pub fn check_students(&self, people: &[&Person], missing: &[Person]) -> Result<(), Error> {
         let ids = person_ids(people);
         let mut rows: BTreeMap<(usize, &str), usize> = BTreeMap::new();
@@ -104,7 +104,7 @@ impl ManualPointsList {
             let Some((first, id)) = found.next() else {
                 let remedy = match missing.iter().find(|person| points.is_for(person)) {
                     Some(person) => format!(
-                        "to give points anyway, add an empty folder named {:?} to the class",
+                        "to give points anyway, add an empty submission by {:?}, named like the others",
                         person.display_name()
                     ),
                     None => "use the email address, the student number, the account name or the \

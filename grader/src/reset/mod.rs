@@ -127,7 +127,7 @@ impl FileChange {
         let part = &self.part;
         let Some(after) = &self.after else {
             return Ok(format!(
-                "{}: nothing to reset, since there are no changes in {part}\n",
+                "{}: nothing to reset, since {part} is unchanged\n",
                 display_path(&path)
             ));
         };

@@ -231,7 +231,7 @@ fn score_answers(
         }
         FailureKind::Panicked(panic) => {
             let (location, message) = (&panic.location, &panic.message);
-            let text = if location.contains(HARNESS) {
+            let text = if location.replace('\\', "/").contains(HARNESS) {
                 // The location would look like a mistake in the given code.
                 message.clone()
             } else {
@@ -308,7 +308,9 @@ fn wrong_answers(
 pub fn unwritten_score(item: &Item, file: &str, method: u32) -> ItemScore {
     ItemScore {
         verdict: Verdict::Unimplemented,
-        message: format!("{file}:{method} is unchanged from the version that was handed out"),
+        message: format!(
+            "{file}:{method}: this method is unchanged from the version that was handed out"
+        ),
         at: Some(CodeLocation {
             file: file.to_owned(),
             line: method,

@@ -19,6 +19,8 @@ const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
 /// The profile for benches. It configures packages that aren't in the bundle.
 const STAFF_PROFILE: &str = "bench";
+/// The package with settings of its own in a profile that isn't in the bundle.
+const STAFF_PACKAGE: &str = "author";
 
 /// Adds the cargo aliases and the manifests of the root and of `student`, without the entries for
 /// staff. Also trims the manifests that are already in the bundle.
@@ -50,6 +52,11 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     // Cargo warns about profile settings for missing packages.
     if let Some(profiles) = manifest["profile"].as_table_like_mut() {
         profiles.remove(STAFF_PROFILE);
+        for (_, profile) in profiles.iter_mut() {
+            if let Some(packages) = profile.get_mut("package").and_then(Item::as_table_like_mut) {
+                packages.remove(STAFF_PACKAGE);
+            }
+        }
     }
     bundle.insert("Cargo.toml", manifest.to_string());
 

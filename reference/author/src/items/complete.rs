@@ -13,8 +13,8 @@ use crate::seed::Seed;
 /// The maximum number of times each item is drawn again.
 const ATTEMPTS: usize = 96;
 
-/// Draws the items of a task. In a final exam, every question differs from all questions in the
-/// practice exam.
+/// Draws the items of a task. In a final exam, the questions of an item differ from those of the
+/// same item in the practice exam.
 pub(super) fn draw_items(
     seed: Seed,
     task: &AuthoredTask,

@@ -138,6 +138,27 @@ fn its_lock_file_is_a_subset_of_the_workspaces() {
     }
 }
 
+/// Cargo warns about a profile's settings for a package that doesn't exist.
+#[test]
+fn its_profiles_name_only_packages_in_its_lock_file() {
+    let parse = |path: &str| -> toml::Table { BUNDLE.text(path).unwrap().parse().unwrap() };
+    let lock = parse("Cargo.lock");
+    let locked = lock["package"].as_array().unwrap().iter();
+    let locked: Vec<&str> = locked
+        .map(|package| package["name"].as_str().unwrap())
+        .collect();
+    let manifest = parse("Cargo.toml");
+    for (profile, settings) in manifest["profile"].as_table().unwrap() {
+        let packages = settings.get("package").and_then(toml::Value::as_table);
+        for name in packages.into_iter().flat_map(toml::Table::keys) {
+            assert!(
+                name == "*" || locked.contains(&name.as_str()),
+                "{profile}: {name}"
+            );
+        }
+    }
+}
+
 #[test]
 fn refuses_to_write_into_a_folder_that_is_not_empty() {
     let folder = TempDir::new().unwrap();

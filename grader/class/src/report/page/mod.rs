@@ -92,6 +92,16 @@ fn content_security_policy() -> String {
 }
 
 /// Renders a section with a heading. `id` identifies the heading.
+/// Returns a share in percent. It is only 0 or 100 if the count is 0 or complete.
+fn percent(count: usize, all: usize) -> usize {
+    let rounded = (100 * count + all / 2) / all;
+    match count {
+        0 => 0,
+        count if count == all => 100,
+        _ => rounded.clamp(1, 99),
+    }
+}
+
 fn section(id: &str, title: &str, contents: &Markup) -> Markup {
     html! { section aria-labelledby=(id) { h2 id=(id) { (title) } (contents) } }
 }
@@ -196,7 +206,7 @@ fn failure_rates(summary: &ClassSummary) -> Markup {
                 th scope="row" { code { (sanitized(&rate.id)) } }
                 @for (section, graded) in &summary.sections {
                     @let count = rate.counts.get(section).copied().unwrap_or(0);
-                    td .number { (count) " (" ((100 * count + graded / 2) / graded) " %)" }
+                    td .number { (count) " (" (percent(count, *graded)) " %)" }
                 }
             } } }
         } };

@@ -71,7 +71,9 @@ fn the_picture_and_the_slider_are_seen_together_and_messages_move_neither() {
 
     submission.write("camera.rs", &correct);
     submission.insert_into_camera("assert!(pixel.x != 3, \"not here\");");
-    wait(&mut tab, "!document.getElementById('messages').hidden");
+    let is_shown = |id: &str| format!("!document.getElementById('{id}').hidden");
+    let settled = format!("{} && !({})", is_shown("messages"), is_shown("errors"));
+    wait(&mut tab, &settled);
     assert_eq!(boxes(&mut tab)[..2], before, "a panic");
 }
 

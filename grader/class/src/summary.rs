@@ -107,7 +107,7 @@ pub struct Outlier {
     pub id: String,
     /// The names of its people.
     pub names: String,
-    /// The reasons why the submission needs attention, as text.
+    /// The reasons that the submission needs attention, as text.
     pub why: String,
     /// Whether the submission has a report.
     #[serde(skip)]

@@ -1,7 +1,8 @@
 //! Suggestions for misspelt names.
 
 /// Returns the known name that is nearest to a misspelt name. Returns `None` if even the nearest
-/// name differs by more than one edit per three characters, which is too many for a typo.
+/// name differs by more than one edit per three characters (rounded up), which is too many for a
+/// typo.
 pub fn nearest_name<'a>(
     misspelt: &str,
     known: impl IntoIterator<Item = &'a str>,

@@ -1,5 +1,6 @@
-//! Draws a camera ray. If the ray's direction is wrong, the drawing shows where the ray goes
-//! through the sensor. Otherwise, it shows the ray's origin, length and range from the side.
+//! Draws a camera ray. If there is no ray or its direction is wrong, the drawing shows where the
+//! ray goes through the sensor. Otherwise, it shows the ray's origin, length and range from the
+//! side.
 
 mod front;
 mod side;

@@ -129,8 +129,8 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
 }
 
 /// Draws a position for a shape of this size. No coordinate of the shape exceeds the largest
-/// coordinate of a scene, and the shape's distance from the origin is at most 5,000 times its size.
-/// Some positions are on an axis.
+/// coordinate of a scene, and no coordinate of the position exceeds 5,000 times the size. Some
+/// positions are on an axis.
 pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
     let furthest = (FURTHEST - size).min(5000.0 * size);
     let mut position = match rng.index(PLACES.len()) {

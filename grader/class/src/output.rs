@@ -18,7 +18,7 @@ use crate::hand_back::{ARCHIVE, hand_back};
 use crate::hand_in_again::{FOLDER, write_messages};
 use crate::list_kind::{ListCopies, ListKind};
 use crate::outcome::{EntryResult, exam_tasks};
-use crate::regrade_diff::{Changes, find_drifts, find_regrade_changes};
+use crate::regrade_diff::{Changes, find_regrade_changes, find_score_changes};
 use crate::report::{grades, page, text};
 use crate::run::Run;
 use crate::similar_pairs::{SimilarPair, read_similar_pairs};
@@ -63,7 +63,7 @@ impl ClassContext<'_> {
         } = self;
         let similar = read_similar_pairs(lists)?;
         let regrade = find_regrade_changes(store, run, &results)?;
-        let resubmitted = find_drifts(store, &results, REPLACED)?;
+        let resubmitted = find_score_changes(store, &results, REPLACED)?;
         let (manual, tasks) = (&self.findings.manual, exam_tasks(&run.items));
         let rows = count_points(results, self.policy, manual, &tasks)?;
         let class = &GradedClass {
@@ -125,7 +125,7 @@ fn write_results(
     store.write("class.html", page)?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
     if let Some(regrade) = &changes.regrade {
-        store.write("drift.json", json(&regrade.drifts))?;
+        store.write("drift.json", json(&regrade.scores))?;
     }
     Ok(summary)
 }

@@ -18,7 +18,7 @@ pub struct Changes {
     /// The changes made by a regrade. `None` in a folder's first round.
     pub regrade: Option<RegradeChanges>,
     /// The scores that changed because the submission changed.
-    pub resubmitted: Vec<Drift>,
+    pub resubmitted: Vec<ScoreChange>,
     /// Sentences about the entries that are no longer in the input.
     pub removed: Vec<String>,
     /// The final grades that changed. `None` if there are no earlier grades to compare with.
@@ -29,7 +29,7 @@ pub struct Changes {
 #[derive(Clone, Debug)]
 pub struct RegradeChanges {
     /// The scores that changed.
-    pub drifts: Vec<Drift>,
+    pub scores: Vec<ScoreChange>,
     /// The settings that changed.
     pub causes: Vec<&'static str>,
 }
@@ -44,24 +44,24 @@ pub fn find_regrade_changes(
         return Ok(None);
     };
     Ok(Some(RegradeChanges {
-        drifts: find_drifts(store, results, PREVIOUS)?,
+        scores: find_score_changes(store, results, PREVIOUS)?,
         causes: before.differences(&run.settings),
     }))
 }
 
 /// Compares each result with its entry's earlier score in the file [`PREVIOUS`] or
 /// [`REPLACED`](crate::store::REPLACED).
-pub fn find_drifts(
+pub fn find_score_changes(
     store: &Store,
     results: &[EntryResult],
     earlier: &str,
-) -> Result<Vec<Drift>, Error> {
-    let mut drifts = Vec::new();
+) -> Result<Vec<ScoreChange>, Error> {
+    let mut changes = Vec::new();
     for result in results {
         let was = store.earlier_score(&result.id, earlier)?;
-        drifts.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
+        changes.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
     }
-    Ok(drifts)
+    Ok(changes)
 }
 
 /// Returns a sentence about each entry in the stores that isn't among `ids`, including its people
@@ -87,7 +87,7 @@ pub fn find_removed(stores: &[&Store], ids: &[&str]) -> Result<Vec<String>, Erro
 
 /// A score that changed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Drift {
+pub struct ScoreChange {
     /// The entry's id.
     pub id: String,
     /// The points before the regrade.
@@ -98,7 +98,7 @@ pub struct Drift {
     pub items: Vec<ItemChange>,
 }
 
-impl Drift {
+impl ScoreChange {
     /// Returns whether the total points changed, rather than only their distribution among the
     /// items.
     pub fn changes_points(&self) -> bool {
@@ -121,10 +121,10 @@ pub struct ItemChange {
 }
 
 /// Compares the scores of an entry. Returns `None` if nothing changed.
-fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<Drift> {
+fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> Option<ScoreChange> {
     let items = now.map_or_else(Vec::new, |now| item_changes(was, now));
     let is_same = now.is_some_and(|now| now.points == was.points) && items.is_empty();
-    (!is_same).then(|| Drift {
+    (!is_same).then(|| ScoreChange {
         id: id.to_owned(),
         was: was.points,
         now: now.map(|now| now.points),
@@ -196,8 +196,8 @@ mod tests {
     fn reports_item_changes_even_if_the_total_is_unchanged() {
         let was = score(&[("a", 2, "pass"), ("b", 0, "wrong"), ("c", 1, "partial")]);
         let now = score(&[("a", 0, "timed_out"), ("b", 2, "pass"), ("d", 1, "partial")]);
-        let drift = compare_scores("x", &was, Some(&now)).unwrap();
-        let changes: Vec<_> = drift
+        let change = compare_scores("x", &was, Some(&now)).unwrap();
+        let changes: Vec<_> = change
             .items
             .iter()
             .map(|c| (c.item.as_str(), c.was, c.now))
@@ -209,7 +209,7 @@ mod tests {
             ("c", Some(1), None),
         ];
         assert_eq!(changes, wanted);
-        assert_eq!(drift.items[1].why, "pass; it was wrong");
+        assert_eq!(change.items[1].why, "pass; it was wrong");
     }
 
     #[test]
@@ -234,8 +234,8 @@ mod tests {
         );
         assert_eq!(why(&partial, &wrong), "wrong: 3 of 4 answers are wrong");
         let other = score(&[("b", 1, "partial")]);
-        let drift = compare_scores("x", &other, Some(&wrong)).unwrap();
-        let reasons: Vec<&str> = drift.items.iter().map(|item| item.why.as_str()).collect();
+        let change = compare_scores("x", &other, Some(&wrong)).unwrap();
+        let reasons: Vec<&str> = change.items.iter().map(|item| item.why.as_str()).collect();
         assert_eq!(
             reasons,
             ["wrong: 3 of 4 answers are wrong", "no longer in the exam"]
@@ -243,16 +243,16 @@ mod tests {
     }
 
     #[test]
-    fn a_total_that_differs_is_a_drift_even_if_no_item_does() {
+    fn a_total_that_differs_is_a_change_even_if_no_item_does() {
         let was = score(&[("a", 2, "pass")]);
         assert_eq!(compare_scores("x", &was, Some(&was.clone())), None);
         let now = ScoreSummary {
             points: 1,
             ..was.clone()
         };
-        let drift = compare_scores("x", &was, Some(&now)).unwrap();
+        let change = compare_scores("x", &was, Some(&now)).unwrap();
         assert_eq!(
-            (drift.was, drift.now, drift.items),
+            (change.was, change.now, change.items),
             (2, Some(1), Vec::new())
         );
         let gone = compare_scores("x", &was, None).unwrap();

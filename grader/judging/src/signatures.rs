@@ -141,7 +141,7 @@ impl ObservedAnswer {
     }
 
     /// Returns whether the answer is a panic of a kind that few mistakes cause.
-    pub fn is_telling_panic(&self) -> bool {
+    pub fn is_unusual_panic(&self) -> bool {
         matches!(self, ObservedAnswer::PanickedBy(_))
     }
 
@@ -293,8 +293,8 @@ mod tests {
                 assert_eq!(one.matches(other), number == other_number);
             }
         }
-        assert!(index.is_telling_panic());
-        assert!(!ObservedAnswer::Panicked.is_telling_panic());
+        assert!(index.is_unusual_panic());
+        assert!(!ObservedAnswer::Panicked.is_unusual_panic());
         assert!(!ObservedAnswer::NoHit.is_uninformative());
         assert!(ObservedAnswer::NoHit.is_miss());
         assert!(!index.is_miss());

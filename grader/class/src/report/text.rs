@@ -9,7 +9,7 @@ use crate::final_grades::GradeChanges;
 use crate::gradebook::{CellChange, FilledGradebook};
 use crate::hand_back::HandBack;
 use crate::names::joined;
-use crate::regrade_diff::{Changes, Drift, ItemChange, RegradeChanges};
+use crate::regrade_diff::{Changes, ItemChange, RegradeChanges, ScoreChange};
 use crate::summary::{Cause, ClassSummary, attention_groups};
 use grader::printing::{counted, wrap};
 
@@ -161,7 +161,7 @@ pub fn render_changes(changes: &Changes) -> String {
     let resubmitted = with_changed_points(&changes.resubmitted);
     if !resubmitted.is_empty() {
         let rest = " (replaced.json has the earlier score)";
-        text += &section("changed submissions", rest, drift_lines(&resubmitted, ""));
+        text += &section("changed submissions", rest, change_lines(&resubmitted, ""));
     }
     let grades = changes.grades.iter().filter(|grades| !grades.is_empty());
     text.extend(grades.map(render_grade_changes));
@@ -178,14 +178,14 @@ fn render_regrade(regrade: &RegradeChanges) -> String {
         [] => "no setting changed".to_owned(),
         causes => format!("changed settings: {}", causes.join(", ")),
     };
-    let drifts = with_changed_points(&regrade.drifts);
-    let title = format!("regraded: {} changed", count_or_no(drifts.len(), "score"));
-    let count = regrade.drifts.len() - drifts.len();
+    let changes = with_changed_points(&regrade.scores);
+    let title = format!("regraded: {} changed", count_or_no(changes.len(), "score"));
+    let count = regrade.scores.len() - changes.len();
     let same = format!(
         "{count} more with the same total, but different points for some items, in drift.json"
     );
     let same = (count > 0).then_some(same);
-    let lines = drift_lines(&drifts, ", in drift.json").chain(same);
+    let lines = change_lines(&changes, ", in drift.json").chain(same);
     section(&title, &format!(" ({causes})"), lines)
 }
 
@@ -202,14 +202,14 @@ fn render_grade_changes(grades: &GradeChanges) -> String {
 }
 
 /// Returns the scores whose total changed.
-pub fn with_changed_points(drifts: &[Drift]) -> Vec<&Drift> {
-    let drifts = drifts.iter();
-    drifts.filter(|drift| drift.changes_points()).collect()
+pub fn with_changed_points(changes: &[ScoreChange]) -> Vec<&ScoreChange> {
+    let changes = changes.iter();
+    changes.filter(|change| change.changes_points()).collect()
 }
 
 /// Returns a score's points after a change.
-pub fn points_now(drift: &Drift) -> String {
-    let now = drift.now.map(|now| now.to_string());
+pub fn points_now(change: &ScoreChange) -> String {
+    let now = change.now.map(|now| now.to_string());
     now.unwrap_or_else(|| "no score".to_owned())
 }
 
@@ -221,18 +221,18 @@ pub fn points_of_item(change: &ItemChange) -> [String; 2] {
 
 /// Returns lines about the first scores that changed, and a line with the number of changes that
 /// aren't listed. `location` says where to find them.
-fn drift_lines(drifts: &[&Drift], location: &str) -> impl Iterator<Item = String> {
+fn change_lines(changes: &[&ScoreChange], location: &str) -> impl Iterator<Item = String> {
     let mut lines = Vec::new();
-    for drift in drifts.iter().take(MAX_LINES) {
-        let now = points_now(drift);
-        lines.push(format!("{}: {} → {now}", one_line(&drift.id), drift.was));
-        lines.extend(drift.items.iter().map(|change| {
+    for change in changes.iter().take(MAX_LINES) {
+        let now = points_now(change);
+        lines.push(format!("{}: {} → {now}", one_line(&change.id), change.was));
+        lines.extend(change.items.iter().map(|change| {
             let [was, now] = points_of_item(change);
             let (item, why) = (one_line(&change.item), one_line(&change.why));
             format!("    {item} {was} → {now}: {why}")
         }));
     }
-    lines.into_iter().chain(more(drifts.len(), location))
+    lines.into_iter().chain(more(changes.len(), location))
 }
 
 /// Returns a line about changes that aren't listed, if any.

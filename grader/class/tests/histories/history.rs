@@ -368,7 +368,7 @@ impl History {
         model.check_success(&expected)?;
         if observed.round() > 1 {
             let file = fs::read_to_string(folder.join("drift.json")).unwrap_or_default();
-            model.check_drifts(&file, &expected)?;
+            model.check_score_changes(&file, &expected)?;
         }
         self.check_leftovers(target)?;
         if target == Target::Whole {

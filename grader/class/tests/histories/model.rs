@@ -125,23 +125,23 @@ impl Model {
 
     /// Compares the list of changes after a regrade with the scores that changed. `now` contains
     /// the scores of the class.
-    pub fn check_drifts(
+    pub fn check_score_changes(
         &self,
         file: &str,
         now: &BTreeMap<&str, Option<ScoreId>>,
     ) -> Result<(), String> {
         let list: Vec<Value> = serde_json::from_str(file).map_err(|error| error.to_string())?;
-        let found = list.iter().filter_map(|drift| drift["id"].as_str());
+        let found = list.iter().filter_map(|change| change["id"].as_str());
         let found: BTreeSet<&str> = found.collect();
         let points = |id: &str, known: ScoreId| -> Vec<u32> {
             let score = score(id, known.version, known.exam);
             score.items().map(|item| item.points).collect()
         };
-        let drifts = self.drifts(now);
+        let changes = self.score_changes(now);
         let is_changed = |(id, was): &&(String, ScoreId)| {
             now[id.as_str()].is_none_or(|now| points(id, now) != points(id, *was))
         };
-        let expected = drifts.iter().filter(is_changed).map(|(id, _)| id.as_str());
+        let expected = changes.iter().filter(is_changed).map(|(id, _)| id.as_str());
         let expected: BTreeSet<&str> = expected.collect();
         if found == expected {
             Ok(())
@@ -154,7 +154,7 @@ impl Model {
 
     /// Returns the ids of the class's entries whose scores a regrade changed, together with the
     /// previous scores.
-    fn drifts(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
+    fn score_changes(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
         let ids = class.keys().copied();
         let entries = &self.observed.entries;
         let before = ids.filter_map(|id| Some((id.to_owned(), entries.get(id)?.previous?)));

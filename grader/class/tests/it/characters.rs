@@ -13,7 +13,7 @@ use class::manual_points::ManualPoints;
 use class::outcome::{
     EntryOutcome, EntryResult, FileNotes, Hint, ItemScore, ScoreSummary, TaskScore,
 };
-use class::regrade_diff::{Changes, Drift, ItemChange, RegradeChanges};
+use class::regrade_diff::{Changes, ItemChange, RegradeChanges, ScoreChange};
 use class::report::grades::grades_table;
 use class::report::page::render_page;
 use class::report::preview::render_preview;
@@ -152,7 +152,7 @@ fn preview_with(text: &str) -> String {
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let class = class_with(text);
     let summary = ClassSummary::new(&class);
-    let drifts = vec![Drift {
+    let changes = vec![ScoreChange {
         id: text.to_owned(),
         was: 1,
         now: None,
@@ -165,10 +165,10 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
     }];
     let changes = Changes {
         regrade: Some(RegradeChanges {
-            drifts: drifts.clone(),
+            scores: changes.clone(),
             causes: Vec::new(),
         }),
-        resubmitted: drifts,
+        resubmitted: changes,
         removed: vec![text.to_owned()],
         grades: Some(GradeChanges {
             causes: Vec::new(),

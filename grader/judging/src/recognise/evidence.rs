@@ -72,8 +72,8 @@ impl<'a> Evidence<'a> {
         let hints: BTreeSet<&str> = causes.iter().map(|&mistake| self.hint(mistake)).collect();
         causes.retain(|&mistake| {
             let mut answers = self.wrong_answers(mistake);
-            let is_telling_panic = answers.any(|answer| answer.is_telling_panic());
-            let items = self.affected(mistake).count() + usize::from(is_telling_panic);
+            let is_unusual_panic = answers.any(|answer| answer.is_unusual_panic());
+            let items = self.affected(mistake).count() + usize::from(is_unusual_panic);
             self.is_informative(mistake) || hints.len() == 1 && items >= min_items
         });
         causes

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::submissions::report_link;
 use super::{sanitized, section};
-use crate::regrade_diff::{Changes, Drift};
+use crate::regrade_diff::{Changes, ScoreChange};
 use crate::report::text::{points_now, points_of_item, with_changed_points};
 use grader::printing::counted;
 
@@ -16,7 +16,7 @@ pub(super) fn changes(changes: &Changes) -> Markup {
             "regraded", "Scores that the regrade changed", &html! {
                 @if regrade.causes.is_empty() { p { "No setting changed." } }
                 @else { p { "Changed settings: " (regrade.causes.join(", ")) "." } }
-                (drifts(&with_changed_points(&regrade.drifts)))
+                (score_changes(&with_changed_points(&regrade.scores)))
             },
         )) }
         @if let Some(grades) = changes.grades.as_ref().filter(|grades| !grades.is_empty()) { (section(
@@ -27,7 +27,7 @@ pub(super) fn changes(changes: &Changes) -> Markup {
             },
         )) }
         @if !resubmitted.is_empty() {
-            (section("resubmitted", "Changed submissions", &drifts(&resubmitted)))
+            (section("resubmitted", "Changed submissions", &score_changes(&resubmitted)))
         }
         @if !changes.removed.is_empty() {
             (section("removed", "No longer in the input", &list(&changes.removed)))
@@ -39,15 +39,15 @@ fn list(texts: &[String]) -> Markup {
     html! { ul { @for text in texts { li { (sanitized(text)) } } } }
 }
 
-fn drifts(drifts: &[&Drift]) -> Markup {
+fn score_changes(changes: &[&ScoreChange]) -> Markup {
     html! {
-        @if drifts.is_empty() { p { "No score changed." } }
-        ul { @for drift in drifts { li {
-            a href=(report_link(&drift.id)) { (sanitized(&drift.id)) }
-            ": " strong { (drift.was) " → " (points_now(drift)) }
-            @if !drift.items.is_empty() { details {
-                summary { (counted(drift.items.len(), "item")) }
-                ul { @for item in &drift.items { li {
+        @if changes.is_empty() { p { "No score changed." } }
+        ul { @for change in changes { li {
+            a href=(report_link(&change.id)) { (sanitized(&change.id)) }
+            ": " strong { (change.was) " → " (points_now(change)) }
+            @if !change.items.is_empty() { details {
+                summary { (counted(change.items.len(), "item")) }
+                ul { @for item in &change.items { li {
                     @let [was, now] = points_of_item(item);
                     code { (sanitized(&item.item)) } " " (was) " → " (now) ": " (sanitized(&item.why))
                 } } }

@@ -89,6 +89,6 @@ fn names_known(correct: &str, mistakes: &[Mistake], answers: &str) -> bool {
     named.split(['|', ' ']).any(|id| id == "known")
 }
 
-mod alone;
 mod beside_others;
 mod pairs;
+mod single_mistakes;

@@ -16,7 +16,7 @@ use seccompiler::{
 use super::super::launch_request::Profile;
 use super::while_doing;
 
-mod lists;
+mod allowed;
 
 /// The system calls that a filter lists, by number. A call matches if it has no rules or if one of
 /// its rules is satisfied.
@@ -69,7 +69,7 @@ fn compile_filter(
 
 /// Returns the calls that a probe may make: it computes, creates threads, and uses its pipes.
 fn probe_calls() -> Result<CallRules, seccompiler::Error> {
-    let mut calls = unconditional(&[lists::COMMON, lists::COMMON_X86]);
+    let mut calls = unconditional(&[allowed::COMMON, allowed::COMMON_X86]);
     let thread = libc::CLONE_THREAD as u64;
     calls.insert(
         libc::SYS_clone,
@@ -124,10 +124,10 @@ fn probe_calls() -> Result<CallRules, seccompiler::Error> {
 /// cannot use the network or create namespaces.
 fn compiler_calls() -> Result<CallRules, seccompiler::Error> {
     let mut calls = unconditional(&[
-        lists::COMMON,
-        lists::COMMON_X86,
-        lists::COMPILER,
-        lists::COMPILER_X86,
+        allowed::COMMON,
+        allowed::COMMON_X86,
+        allowed::COMPILER,
+        allowed::COMPILER_X86,
     ]);
     let namespaces = [
         libc::CLONE_NEWNS,

@@ -51,8 +51,8 @@ pub fn render_warnings(class: &RecognisedClass) -> String {
     for ids in several_of_one_person(&class.entries) {
         let ids = joined(ids.into_iter().map(sentence), " and ");
         text += &format!(
-            "\n  {ids} belong to the same person: keep the one that counts, or set [attempts] in the \
-             policy\n"
+            "\n  {ids} belong to the same person: remove all but one, or let the policy choose with \
+             [attempts]\n"
         );
     }
     if !class.unmatched.is_empty() {

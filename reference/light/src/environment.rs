@@ -28,8 +28,8 @@ pub fn uniform_sphere(random: Vec2) -> Vec3 {
     // starter: todo!("part two, environment: which direction belongs to {random:?}?")
     let height = 1.0 - 2.0 * random.x;
     let radius = (1.0 - height * height).max(0.0).sqrt();
-    let (sin, cos) = sin_cos(TAU * random.y);
-    Vec3::new(radius * cos, height, radius * sin)
+    let (sin_phi, cos_phi) = sin_cos(TAU * random.y);
+    Vec3::new(radius * cos_phi, height, radius * sin_phi)
     // end solution
 }
 

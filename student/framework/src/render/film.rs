@@ -45,6 +45,7 @@ impl Tone {
 }
 
 /// Returns the luminance of a colour in linear red, green and blue. See ITU-R Recommendation BT.709.
+#[inline]
 pub fn luminance(colour: Vec3) -> f32 {
     colour.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }

@@ -1,4 +1,5 @@
-//! Coordinate frames around a direction, and sampling of directions.
+//! Coordinate frames around a direction, and sampling of directions. The functions are small and
+//! part of every path, so they are inlined into part two's crate.
 
 use std::f32::consts::TAU;
 
@@ -18,6 +19,7 @@ impl Frame {
     /// Creates a frame with the given z-axis, which must be a unit vector.
     ///
     /// See Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+    #[inline]
     pub fn from_z(z: Vec3) -> Self {
         let sign = 1.0_f32.copysign(z.z);
         let a = -1.0 / (sign + z.z);
@@ -30,11 +32,13 @@ impl Frame {
     }
 
     /// Converts a direction from this frame to world space.
+    #[inline]
     pub fn to_world(self, v: Vec3) -> Vec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
     /// Converts a direction from world space to this frame.
+    #[inline]
     pub fn to_local(self, v: Vec3) -> Vec3 {
         Vec3::new(v.dot(self.x), v.dot(self.y), v.dot(self.z))
     }
@@ -44,6 +48,7 @@ impl Frame {
 /// numbers.
 ///
 /// Malley's method: samples a disc uniformly and projects the point up to the hemisphere.
+#[inline]
 pub fn sample_cosine_hemisphere(random: Vec2) -> Vec3 {
     let radius = random.x.sqrt();
     let (sin, cos) = sin_cos(TAU * random.y);

@@ -40,6 +40,7 @@ pub fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> f32 {
 }
 
 /// Returns how far rounding can move a point on a ray from `eye` to `position`.
+#[inline]
 pub fn coordinate_error(eye: Vec3, position: Vec3) -> f32 {
     RELATIVE_ERROR * eye.abs().max(position.abs()).max_element()
 }

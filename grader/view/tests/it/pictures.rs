@@ -2,12 +2,12 @@
 //! camera.
 
 use framework::render::film::{Film, Tone};
-use framework::render::integrator::{Integrator, PathSettings};
-use framework::render::renderer::render;
+use framework::render::renderer::{Lighting, PathSettings, render};
 use framework::scene::Scene;
 use framework::submission::World;
 use glam::{UVec2, uvec2};
 use reference::world::Student;
+use reference_light::integrator::Light;
 use serde_json::json;
 
 use crate::harness::{Submission, Viewer, workspace};
@@ -18,7 +18,8 @@ fn rendered(scene: &str, film: UVec2, samples: u32, seed: u64, stops: f32) -> Ve
     let scene = scene.on_film(film);
     let world = World::new(&Student, &scene);
     let settings = PathSettings { bounces: 8, seed };
-    let pixels = render(&Integrator::new(&scene, &world, settings), film, samples);
+    let path_tracer = Light.path_tracer(&scene, &world, settings);
+    let pixels = render(&*path_tracer, film, samples);
     let film = Film { size: film, pixels };
     let tone = Tone::Light { stops };
     film.pixels_top_down()

@@ -7,6 +7,9 @@ use crate::build::diagnostics::Diagnostic;
 use crate::handed_out::{ChangedDeclaration, TaskFile, changed_declaration};
 use crate::submission::{Submission, TaskFileError};
 
+/// The beginning of the advice on a change that makes other files fail to compile.
+pub const RESTORE_LABEL: &str = "Restore ";
+
 /// The reason a file isn't part of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotCompiled {
@@ -95,13 +98,13 @@ pub(super) fn explain(incomplete: &mut BTreeMap<&'static str, NotCompiled>, erro
     }
 }
 
-/// Records each file that the errors mention, together with all errors in that file. Returns
-/// whether any of these files had not been recorded before.
+/// Records each file that the errors mention, together with all errors in that file. Returns how
+/// many of these files had not been recorded before.
 pub(super) fn blame(
     errors: &[Diagnostic],
     submission: &Submission,
     not_compiled: &mut BTreeMap<&'static str, NotCompiled>,
-) -> bool {
+) -> usize {
     let task_files = submission.handed_out.files;
     let before = not_compiled.len();
     for (file, text) in &submission.files {
@@ -117,16 +120,55 @@ pub(super) fn blame(
         let text = text.as_ref().ok().filter(|_| is_elsewhere);
         let changed = text.and_then(|text| changed_declaration(file, text));
         if let (NotCompiled::Error { text, .. }, Some(changed)) = (&mut why, changed) {
-            let ChangedDeclaration { now, handed_out } = changed;
-            *text += &format!(
-                "\n\nThe given code relies on the starter's declaration of {}. Restore it:\n  now         \
-                 {now}\n  handed out  {handed_out}",
-                file.name
-            );
+            *text += &how_to_restore(file, &changed);
         }
         not_compiled.entry(file.name).or_insert(why);
     }
-    not_compiled.len() > before
+    not_compiled.len() - before
+}
+
+/// Returns the reason for a file that causes all of these errors, although they may be in other
+/// files.
+pub(super) fn because_of(
+    file: &TaskFile,
+    submission: &Submission,
+    errors: &[Diagnostic],
+) -> NotCompiled {
+    /// The maximum number of errors to show. Many have the same cause.
+    const MAX_ERRORS: usize = 3;
+    let task_files = submission.handed_out.files;
+    let about_source = errors.iter().filter(|error| error.is_about_source());
+    let (mut shown, others): (Vec<&Diagnostic>, Vec<_>) =
+        about_source.partition(|error| error.blamed_file(task_files) == Some(file.name));
+    shown.extend(others);
+    let shown = shown.into_iter().take(MAX_ERRORS);
+    let mut why = NotCompiled::of_errors(file.name, shown)
+        .unwrap_or_else(|| NotCompiled::Compiler(String::new()));
+    if let NotCompiled::Error { text, line } = &mut why {
+        let mut own = errors.iter().filter_map(|error| error.line_in(file.name));
+        *line = line.or_else(|| own.next());
+        let mut files = submission.files.iter();
+        let own = files.find(|(other, _)| other.name == file.name);
+        let own = own.and_then(|(_, own)| own.as_ref().ok());
+        *text += &match own.and_then(|own| changed_declaration(file, own)) {
+            Some(changed) => how_to_restore(file, &changed),
+            None => format!(
+                "\n\n{RESTORE_LABEL}what you have changed or removed in {0}, such as a field, a method or a \
+                 `derive`. The other files compile with the starter's {0}.",
+                file.name
+            ),
+        };
+    }
+    why
+}
+
+fn how_to_restore(file: &TaskFile, changed: &ChangedDeclaration) -> String {
+    let ChangedDeclaration { now, handed_out } = changed;
+    format!(
+        "\n\n{RESTORE_LABEL}the starter's declaration in {}, which the given code relies on:\n  now         \
+         {now}\n  handed out  {handed_out}",
+        file.name
+    )
 }
 
 /// Records the same reason for all remaining files.

@@ -29,10 +29,13 @@ use std::time::Instant;
 use judging::assignment::Task;
 use judging::content_hash::ContentHash;
 
-use crate::build::blame::{blame, blame_all, explain, incomplete_files, unreadable_files};
+use crate::build::blame::{
+    because_of, blame, blame_all, explain, incomplete_files, unreadable_files,
+};
 use crate::build::build_dir::{BuildDir, remove_abandoned};
 use crate::build::compile::{compile, compile_starter};
 use crate::build::dependencies::Dependencies;
+use crate::build::diagnostics::Diagnostic;
 use crate::build::rustc::Rustc;
 use crate::build::source_crate::CompileOutcome;
 use crate::build::substitution::{ReferenceParts, Substitution};
@@ -45,10 +48,13 @@ use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
 
-pub use crate::build::blame::NotCompiled;
+pub use crate::build::blame::{NotCompiled, RESTORE_LABEL};
 pub use crate::build::programs::{Build, SubstitutedProgram};
 pub use crate::build::self_test::SelfTestError;
 pub use crate::build::toolchain::file_fingerprint;
+
+/// A compiled program and the compiler's warnings.
+type Compiled = (PathBuf, Vec<Diagnostic>);
 
 /// Maximum number of attempts to compile a submission.
 const MAX_ATTEMPTS: usize = 3;
@@ -195,6 +201,8 @@ impl Builder {
             report_errors(&not_compiled);
         }
         let attempts = if compiled.is_some() { 0 } else { MAX_ATTEMPTS };
+        // The files that were rejected before the first attempt, and that attempt's errors.
+        let mut first = None;
         for attempt in 0..attempts {
             let files = with_starter_files(submission, &not_compiled);
             let folder = build_dir.path().join(attempt.to_string());
@@ -204,14 +212,26 @@ impl Builder {
                     break;
                 }
                 CompileOutcome::Errors(errors) => {
-                    if !blame(&errors, submission, &mut not_compiled) {
-                        blame_all(submission, errors[0].text(), &mut not_compiled);
+                    let before = not_compiled.clone();
+                    let named = blame(&errors, submission, &mut not_compiled);
+                    let (rejected, errors) = first.get_or_insert((before, errors));
+                    // A change in one file can cause errors in several others, or only in given
+                    // files and in the starter's version of another file.
+                    if named != 1 {
+                        let folder = build_dir.path().join(format!("{attempt} one of"));
+                        let found = self.culprit(submission, rejected, errors, &folder, rustc)?;
+                        if let Some((culprit, outcome)) = found {
+                            not_compiled = culprit;
+                            compiled = Some(outcome);
+                        } else if named == 0 {
+                            blame_all(submission, errors[0].text(), &mut not_compiled);
+                        }
                     }
                 }
                 CompileOutcome::Failed(why) => blame_all(submission, &why, &mut not_compiled),
             }
             report_errors(&not_compiled);
-            if not_compiled.len() == submission.files.len() {
+            if compiled.is_some() || not_compiled.len() == submission.files.len() {
                 break;
             }
         }
@@ -243,6 +263,33 @@ impl Builder {
             rustc: self.rustc.clone(),
             build_dir,
         })
+    }
+
+    /// Searches for a file that is the only cause of these errors: with the starter's version of
+    /// this file and of the `rejected` files, the submission compiles. Returns all files that don't
+    /// compile, along with the program without them.
+    fn culprit(
+        &self,
+        submission: &Submission,
+        rejected: &BTreeMap<&'static str, NotCompiled>,
+        errors: &[Diagnostic],
+        folder: &Path,
+        rustc: &Rustc,
+    ) -> Result<Option<(BTreeMap<&'static str, NotCompiled>, Compiled)>, Error> {
+        for (file, _) in &submission.files {
+            let mut not_compiled = rejected.clone();
+            if not_compiled.contains_key(file.name) {
+                continue;
+            }
+            not_compiled.insert(file.name, because_of(file, submission, errors));
+            let files = with_starter_files(submission, &not_compiled);
+            let folder = folder.join(file.name);
+            let outcome = compile(&files, submission.handed_out, &folder, rustc);
+            if let CompileOutcome::Done { path, warnings } = outcome.at("build in", &folder)? {
+                return Ok(Some((not_compiled, (path, warnings))));
+            }
+        }
+        Ok(None)
     }
 
     /// Returns the submission's files that can be graded with the reference's parts.

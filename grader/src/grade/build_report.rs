@@ -39,7 +39,10 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
                 missing,
                 "are missing, but other code may need them, so put them back",
             ),
-            (changed, "were changed (this alone doesn't cost any points)"),
+            (
+                changed,
+                "were changed, and items of any task may fail because of that",
+            ),
         ] {
             if !methods.is_empty() {
                 let names: Vec<&str> = methods.iter().map(|method| method.name).collect();

@@ -4,6 +4,7 @@ use judging::assignment::Assignment;
 use judging::sanitize::sanitize;
 use judging::section::Section;
 
+use crate::build::RESTORE_LABEL;
 use crate::build::compiler_help::SECTION_LABEL;
 use crate::inputs::task_selection::TaskSelection;
 use crate::machine::printing::wrap;
@@ -107,8 +108,8 @@ fn labelled(rows: impl Iterator<Item = (&'static str, String)>) -> String {
     rows.collect()
 }
 
-/// Returns the step for a file that doesn't compile: its first error and, if there is one, the
-/// section that explains it.
+/// Returns the step for a file that doesn't compile: its first error and, if any, the section that
+/// explains it and what to restore.
 fn compile_step(score: &Score, file: &str, message: &str) -> String {
     let mut files = score.build.not_compiled.iter();
     let Some(report) = files.find(|report| report.file == file) else {
@@ -125,7 +126,10 @@ fn compile_step(score: &Score, file: &str, message: &str) -> String {
     let error = lines.next().unwrap_or_default();
     let read = lines.find(|line| line.starts_with(SECTION_LABEL));
     let read = read.map_or(String::new(), |read| format!("\n{read}"));
-    format!("make {file}{line} compile: {error}{read}")
+    let lines = report.message.lines();
+    let restore = lines.skip_while(|line| !line.starts_with(RESTORE_LABEL));
+    let restore: String = restore.map(|line| format!("\n{line}")).collect();
+    format!("make {file}{line} compile: {error}{read}{restore}")
 }
 
 /// Returns a task's title and the handout's chapter about it, if any.

@@ -11,6 +11,7 @@ mod limited_reader;
 mod names;
 mod search;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -18,6 +19,7 @@ use judging::assignment::TaskInfo;
 use judging::sanitize::sanitize_line;
 
 use crate::handed_out::{HandedOut, TaskFile, TaskMethod, is_unwritten};
+use crate::machine::files;
 
 use choice::{Candidate, Lookalike};
 use search::Search;
@@ -86,6 +88,8 @@ impl Submission {
             let mut own = Submission::choose(folder_name(path), search)?;
             let notes = own.notes_on_own_copies(&copies);
             own.ignored_copies.extend(notes);
+            own.ignored_copies
+                .extend(own.notes_on_misplaced_files(path));
             return Ok(own);
         }
         Submission::collect(path, handed_out)
@@ -200,6 +204,38 @@ impl Submission {
             ))
         };
         copies.map(note).collect()
+    }
+
+    /// Returns a note on each of the student's task files that is next to the package's folder
+    /// `src`, or in a folder inside it. Cargo doesn't compile these files.
+    fn notes_on_misplaced_files(&self, package: &Path) -> Vec<String> {
+        let source = package.join("src");
+        let inside = files::read_dir(&source).unwrap_or_default();
+        let mut folders: Vec<PathBuf> = inside.into_iter().filter(|path| path.is_dir()).collect();
+        folders.sort();
+        folders.insert(0, package.to_owned());
+        let shown = |path: &Path| {
+            let path = path.strip_prefix(package).unwrap_or(path);
+            let parts = path.iter().map(|part| part.to_string_lossy());
+            let parts = std::iter::once(Cow::from(&self.name)).chain(parts);
+            display_name(&parts.collect::<Vec<_>>().join("/"))
+        };
+        let mut notes = Vec::new();
+        for (folder, file) in folders
+            .iter()
+            .flat_map(|folder| self.handed_out.files.iter().map(move |file| (folder, file)))
+        {
+            let path = folder.join(file.name);
+            let text = files::read_if_exists(&path).ok().flatten();
+            let is_own =
+                |text: &str| Some(text) != self.text(file.name) && !is_unwritten(file, text);
+            if text.is_some_and(|text| is_own(&text)) {
+                let graded = shown(&source.join(file.name));
+                notes.push(format!("{} is not graded: only {graded} is", shown(&path)));
+            }
+        }
+        notes.truncate(MAX_NOTES);
+        notes
     }
 
     /// Returns the text of the task file with this name, if any.

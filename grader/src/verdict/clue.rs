@@ -11,6 +11,10 @@ pub const KEPT_STATE: &str = "Your code answers the same question correctly in i
                               keeps state from one call to the next, for example in a `static` or \
                               a `Cell`. An answer must depend only on the arguments of its call.";
 
+/// The clue for a panic in one of the submission's lines whose message says nothing about the cause.
+pub const UNKNOWN_PANIC: &str = "What does that line require? Work out for the question shown which \
+                                 value doesn't meet the requirement.";
+
 /// Returns the clue for an item without an answer.
 pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
     let TaskInfo {
@@ -25,8 +29,8 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
              this task needs to wait."
         ),
         Fault::TimedOut(TimeLimit::Cpu | TimeLimit::Wall) => format!(
-            "Find the loop or the recursion in {file} that never ends when `{method}` is called for this \
-             question: what changes from one iteration to the next, and what should end it?"
+            "Find the loop or the recursion in {file} that doesn't end, or takes far too long, when `{method}` \
+             is called for this question: what changes from one iteration to the next, and what should end it?"
         ),
         Fault::OutOfMemory => format!(
             "Find the list that `{method}` in {file} keeps adding to. What should make it stop?"
@@ -34,7 +38,10 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
         Fault::Crashed(Crash::StackOverflow) => match clues.if_stack_overflows {
             Some(clue) => clue.to_owned(),
             None => {
-                format!("Find the call in {file} that can receive the same arguments as its caller.")
+                format!(
+                    "Does `{method}` in {file} call itself? Find the call that can receive the same \
+                     arguments as its caller. If no method calls itself, look for a very large array."
+                )
             }
         },
         Fault::Crashed(Crash::Exited(_)) => {
@@ -63,6 +70,9 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
     }
     // The first message is from a vector, the second from an array of three numbers.
     let is_axis = message == "index out of bounds" || message.contains("the len is 3 ");
+    let is_too_large = ["add", "multiply", "shift"]
+        .iter()
+        .any(|operation| message.starts_with(&format!("attempt to {operation}")));
     Some(match PanicKind::of(message)? {
         PanicKind::Index if is_axis => {
             "Compare the index with the length: is the index one too far, or was it meant for another \
@@ -72,9 +82,13 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
             "Compare the index with the length: is the index one too far, is the list empty, or was the index \
              meant for another list?"
         }
+        PanicKind::Arithmetic if is_too_large => {
+            "The result is too large for the type of these whole numbers. Convert them to `f32`, or to a larger \
+             type, before you calculate with them."
+        }
         PanicKind::Arithmetic => {
             "`usize` and `u32` have no values below zero, and no whole number can be divided by zero. \
-             Which of the numbers in that line can be 0 here?"
+             Which of the numbers can be 0 here?"
         }
         PanicKind::NoValue => {
             "That line assumes that there is a value. When is there none, and what should your code return \
@@ -109,6 +123,19 @@ mod tests {
     }
 
     #[test]
+    fn only_a_result_below_zero_or_a_division_is_blamed_on_a_zero() {
+        for (message, can_be_zero) in [
+            ("attempt to subtract with overflow", true),
+            ("attempt to divide by zero", true),
+            ("attempt to add with overflow", false),
+            ("attempt to multiply with overflow", false),
+        ] {
+            let clue = of_panic(message).unwrap();
+            assert_eq!(clue.contains("zero"), can_be_zero, "{message}: {clue}");
+        }
+    }
+
+    #[test]
     fn a_stack_overflow_in_a_build_leads_to_the_split() {
         let clue = |task: &str| {
             let task = RAYS.assignment.find(task).unwrap();
@@ -116,7 +143,10 @@ mod tests {
         };
         let build = clue("build");
         assert!(build.contains("one side of its split is empty"), "{build}");
-        let traverse = "Find the call in bvh.rs that can receive the same arguments as its caller.";
-        assert_eq!(clue("traverse"), traverse);
+        let traverse = clue("traverse");
+        assert!(
+            traverse.contains("`hit` in bvh.rs call itself"),
+            "{traverse}"
+        );
     }
 }

@@ -220,10 +220,13 @@ fn score_answers(
         }
         FailureKind::Panicked(panic) if panic.is_unimplemented() => {
             score.verdict = Verdict::Unimplemented;
-            score.message = format!(
-                "{} still contains `todo!`",
-                sanitize(&panic.location, MAX_TEXT_CHARS)
-            );
+            let location = sanitize(&panic.location, MAX_TEXT_CHARS);
+            let stub = if panic.message.starts_with("not yet") {
+                "todo!"
+            } else {
+                "unimplemented!"
+            };
+            score.message = format!("{location} still contains `{stub}`");
             score.at = CodeLocation::from_panic(&panic.location, handed_out);
             score.look = None;
             score.section = item.section.as_ref().map(Section::whole_chapter);
@@ -234,12 +237,20 @@ fn score_answers(
             let text = if location.replace('\\', "/").contains(HARNESS) {
                 // The location would look like a mistake in the given code.
                 message.clone()
+            } else if let Some(library) = library_of(location) {
+                // The path differs between machines, and isn't in the student's code.
+                format!("a call to {library} panicked: {message}")
             } else {
                 format!("panicked at {location}: {message}")
             };
             score.message = sanitize(&text, MAX_TEXT_CHARS);
             score.at = CodeLocation::from_panic(&panic.location, handed_out);
             score.clue = clue::of_panic(message).map(str::to_owned);
+            if score.clue.is_none() && score.at.is_some() {
+                // The item's advice is about wrong answers.
+                score.clue = Some(clue::UNKNOWN_PANIC.to_owned());
+                score.section = item.section.as_ref().map(Section::whole_chapter);
+            }
             let panicked = partial(Verdict::Panicked);
             (panicked, "a panic".to_owned(), "an answer".to_owned())
         }
@@ -251,6 +262,19 @@ fn score_answers(
     };
     score.verdict = verdict;
     score.evidence = Some(evidence(item, (question, failure.element), [got, wanted]));
+}
+
+/// Returns the name of the library that a panic's location is in, or `None` if it is in the
+/// submission or the given code.
+fn library_of(location: &str) -> Option<String> {
+    let location = location.replace('\\', "/");
+    if location.starts_with("/rustc/") {
+        return Some("the standard library".to_owned());
+    }
+    // The path of a crate's sources is `registry/src/INDEX/NAME-VERSION`.
+    let (_, source) = location.split_once("/registry/src/")?;
+    let (name, _version) = source.split('/').nth(1)?.rsplit_once('-')?;
+    Some(format!("the crate {name}"))
 }
 
 /// Returns the evidence for an element of a question, with the submitted and the expected answer.
@@ -333,6 +357,7 @@ pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
         at: None,
         look: None,
         clue: None,
+        symptom: None,
         symptom_clue: None,
         section: None,
         clue_section: None,

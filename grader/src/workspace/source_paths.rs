@@ -15,9 +15,17 @@ pub struct SourcePaths {
 }
 
 impl SourcePaths {
-    /// Finds the folder of a submission's task files.
+    /// Finds the folder of a submission's task files. If several folders contain task files, it is
+    /// the one with the most, as in [`Submission::collect`](crate::submission::Submission::collect).
     pub fn of(submission: &Path, handed_out: &'static HandedOut) -> Self {
-        let below = handed_out.folders_in(submission).next();
+        let count = |below: &&str| {
+            let folder = submission.join(below);
+            let names = handed_out.file_names();
+            names.filter(|name| folder.join(name).is_file()).count()
+        };
+        let folders: Vec<&str> = handed_out.folders_in(submission).collect();
+        // Of folders with equally many files, this returns the first.
+        let below = folders.into_iter().rev().max_by_key(count);
         SourcePaths {
             folder: below.map(|below| submission.join(below).components().collect()),
             handed_out,
@@ -87,5 +95,10 @@ mod tests {
         );
         let archive = SourcePaths::of(&folder.path().join("a.zip"), &RAYS);
         assert_eq!(archive.in_text(text), text);
+
+        // A stray file in another folder doesn't change where the others are.
+        std::fs::write(folder.path().join("camera.rs"), "").unwrap();
+        std::fs::write(folder.path().join("src/camera.rs"), "").unwrap();
+        assert_eq!(SourcePaths::of(folder.path(), &RAYS), paths);
     }
 }

@@ -88,11 +88,49 @@ fn a_changed_signature_costs_its_own_task_though_a_given_file_fails_to_compile()
     assert_eq!(graded.verdicts("sphere"), ["not_compiled"]);
     assert_other_tasks_keep_their_points(&graded);
     let text = graded.report();
-    let advice = "  │ The given code relies on the starter's declaration of sphere.rs. Restore it:
+    let advice =
+        "  │ Restore the starter's declaration in sphere.rs, which the given code relies on:
   │   now         pub fn bbox(&self) -> Option<BBox>
   │   handed out  pub fn bbox(&self) -> BBox
 ";
     assert!(text.contains(advice), "{text}");
+}
+
+/// The compiler's errors are in given files, in the starter's version of another file, or in several
+/// task files, and some of them name no task file at all.
+#[test]
+fn a_change_that_breaks_other_files_costs_its_own_task_only() {
+    let changes = [
+        (
+            "bbox.rs",
+            "#[derive(Clone, Copy, Debug, PartialEq)]",
+            "#[derive(Clone, Debug, PartialEq)]",
+        ),
+        ("bbox.rs", "pub fn hit(", "fn hit("),
+        (
+            "bbox.rs",
+            "pub fn enclose_point(",
+            "pub fn enclose_a_point(",
+        ),
+        (
+            "bvh.rs",
+            "pub primitives: Vec<Primitive>",
+            "primitives: Vec<Primitive>",
+        ),
+    ];
+    for (index, (file, from, to)) in changes.into_iter().enumerate() {
+        let changed = Submission::reference(&format!("declaration-{index}"));
+        let graded = changed.with_replaced(file, from, to).grade();
+        let score = graded.score();
+        let not_compiled = score["build"]["not_compiled"].as_array().unwrap();
+        let files: Vec<&str> = not_compiled
+            .iter()
+            .filter_map(|file| file["file"].as_str())
+            .collect();
+        assert_eq!(files, [file], "{from} -> {to}");
+        let report = graded.report();
+        assert!(report.contains("│ Restore "), "{report}");
+    }
 }
 
 #[test]
@@ -102,7 +140,10 @@ fn an_error_in_ones_own_code_is_not_laid_to_a_changed_declaration() {
         ("let root = ", "let root: u8 = "),
     ]);
     let report = graded.report();
-    assert!(!report.contains("The given code relies"), "{report}");
+    assert!(
+        !report.contains("which the given code relies on"),
+        "{report}"
+    );
 }
 
 /// With the typo, the file contains no `struct Sphere`, but the compiler's message is more helpful.
@@ -180,7 +221,7 @@ fn a_helper_in_another_task_file_and_a_changed_given_method_cost_nothing() {
     let note = &graded.score()["build"]["notes"][0];
     assert_eq!(
         note,
-        "bbox.rs: given methods were changed (this alone doesn't cost any points): center"
+        "bbox.rs: given methods were changed, and items of any task may fail because of that: center"
     );
 }
 

@@ -249,21 +249,18 @@ fn write_failing_items(
 /// Returns the end of a sentence that says how many of these items are waiting for an item of
 /// another task.
 fn waiting<'a>(items: impl Iterator<Item = &'a ItemScore>) -> String {
-    let blockers: Vec<&str> = items
-        .filter_map(|item| {
-            let Verdict::Blocked { by } = &item.verdict else {
-                return None;
-            };
-            Some(by.as_str())
-        })
-        .collect();
-    let names: BTreeSet<&str> = blockers.iter().copied().collect();
-    match blockers.len() {
+    let blockers = items.map(|item| match &item.verdict {
+        Verdict::Blocked { by } => Some(by.as_str()),
+        _ => None,
+    });
+    let blockers: Vec<Option<&str>> = blockers.collect();
+    let names: BTreeSet<&str> = blockers.iter().copied().flatten().collect();
+    let names = names.into_iter().collect::<Vec<_>>().join(" and ");
+    match blockers.iter().flatten().count() {
         0 => String::new(),
-        count => {
-            let names = names.into_iter().collect::<Vec<_>>().join(" and ");
-            format!(", {count} of them waiting for {names}")
-        }
+        1 if blockers.len() == 1 => format!(", waiting for {names}"),
+        count if count == blockers.len() => format!(", all waiting for {names}"),
+        count => format!(", {count} of them waiting for {names}"),
     }
 }
 

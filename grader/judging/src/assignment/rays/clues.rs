@@ -219,7 +219,7 @@ pub(super) const BBOX: TaskClues = TaskClues {
 /// The clues for building a tree.
 pub(super) const BUILD: TaskClues = TaskClues {
     if_stack_overflows: Some(
-        "Find the call in bvh.rs that receives as many primitives as its caller. Either that node should have \
+        "Is there a call in bvh.rs that receives as many primitives as its caller? Then that node should have \
          become a leaf, or one side of its split is empty: do you use the same rule to count the two sides \
          as to move the primitives? `--replay` shows the smallest set of primitives that still overflows the stack.",
     ),

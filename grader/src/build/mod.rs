@@ -55,6 +55,8 @@ pub use crate::build::toolchain::file_fingerprint;
 
 /// A compiled program and the compiler's warnings.
 type Compiled = (PathBuf, Vec<Diagnostic>);
+/// The files that aren't compiled, each with the reason.
+type Rejected = BTreeMap<&'static str, NotCompiled>;
 
 /// Maximum number of attempts to compile a submission.
 const MAX_ATTEMPTS: usize = 3;
@@ -176,7 +178,7 @@ impl Builder {
     pub fn build_with_progress(
         &self,
         submission: &Submission,
-        mut report_errors: impl FnMut(&BTreeMap<&'static str, NotCompiled>),
+        mut report_errors: impl FnMut(&Rejected),
     ) -> Result<Build, Error> {
         let started_at = Instant::now();
         let build_dir = BuildDir::new_in(&self.folder)?;
@@ -271,11 +273,11 @@ impl Builder {
     fn culprit(
         &self,
         submission: &Submission,
-        rejected: &BTreeMap<&'static str, NotCompiled>,
+        rejected: &Rejected,
         errors: &[Diagnostic],
         folder: &Path,
         rustc: &Rustc,
-    ) -> Result<Option<(BTreeMap<&'static str, NotCompiled>, Compiled)>, Error> {
+    ) -> Result<Option<(Rejected, Compiled)>, Error> {
         for (file, _) in &submission.files {
             let mut not_compiled = rejected.clone();
             if not_compiled.contains_key(file.name) {

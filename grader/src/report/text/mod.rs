@@ -249,9 +249,11 @@ fn write_failing_items(
 /// Returns the end of a sentence that says how many of these items are waiting for an item of
 /// another task.
 fn waiting<'a>(items: impl Iterator<Item = &'a ItemScore>) -> String {
-    let blockers = items.map(|item| match &item.verdict {
-        Verdict::Blocked { by } => Some(by.as_str()),
-        _ => None,
+    let blockers = items.map(|item| {
+        let Verdict::Blocked { by } = &item.verdict else {
+            return None;
+        };
+        Some(by.as_str())
     });
     let blockers: Vec<Option<&str>> = blockers.collect();
     let names: BTreeSet<&str> = blockers.iter().copied().flatten().collect();

@@ -24,7 +24,7 @@ pub const FILES: [&str; 5] = [
 /// The first line of the worked examples at the end of a file.
 const EXAMPLES: &str = "#[cfg(test)]\n";
 
-/// What students get of part two.
+/// The form in which students get part two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LightFiles {
     /// The solution: students write part one, and its pictures are in full light.

@@ -28,9 +28,8 @@ use crate::world::{Material, Surface, World};
 ///   there is none. [`World::light_pdf`] is its density.
 /// - The second is the one that `Lambertian::scatter` returns for the random numbers
 ///   `numbers.direct`.
-/// - The radiance is the light that a surface emits or that comes from the environment, which
-///   [`World::emitted`] returns for the ray that leaves the surface in this direction. Another
-///   surface can be in the way.
+/// - The radiance is the light that arrives from this direction straight from a light or the
+///   environment, if nothing is in the way: see [`World::emitted`].
 /// - A direction with a density of zero, or with `evaluate` zero, adds nothing.
 /// - Only matte surfaces look for direct light. The result is zero for all others, because a
 ///   direction toward a light is never one in which they reflect.
@@ -52,12 +51,15 @@ pub fn direct(world: &World, surface: &Surface, numbers: &RandomNumbers) -> Vec3
     for direction in directions.into_iter().flatten() {
         let incoming = surface.to_local(direction);
         let value = lambertian.evaluate(surface.out, incoming);
-        let scattering_pdf = lambertian.pdf(surface.out, incoming);
-        if value == Vec3::ZERO || scattering_pdf == 0.0 {
+        if value == Vec3::ZERO {
             continue;
         }
-        let pdf = world.light_pdf(from, direction) + scattering_pdf;
-        light += value * world.emitted(&surface.leave(direction)) / pdf;
+        let radiance = world.emitted(surface, direction);
+        if radiance == Vec3::ZERO {
+            continue;
+        }
+        let pdf = world.light_pdf(from, direction) + lambertian.pdf(surface.out, incoming);
+        light += value * radiance / pdf;
     }
     light
     // end solution

@@ -79,22 +79,25 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Returns the radiance that arrives along a ray straight from a light or the environment,
-    /// without being scattered.
+    /// Returns the radiance that arrives at a surface from a direction straight from a light or the
+    /// environment, without being scattered.
     ///
-    /// The ray is only traced as far as the nearest light in its direction, since nothing behind
-    /// that light can be seen, and not at all if there is nothing to be seen.
-    pub fn emitted(&self, ray: &Ray) -> Vec3 {
-        let Some((light, distance)) = self.sources.lights.nearest(ray.origin, ray.dir) else {
-            let radiance = self.environment(ray.dir);
-            let is_dark = radiance == Vec3::ZERO || self.hits.intersect(ray).is_some();
-            return if is_dark { Vec3::ZERO } else { radiance };
+    /// A ray is only traced as far as the nearest light in this direction, since nothing behind that
+    /// light can be seen, and only if there is something to be seen.
+    pub fn emitted(&self, at: &Surface, direction: Vec3) -> Vec3 {
+        let nearest = self.sources.lights.nearest(at.position, direction);
+        let radiance = match nearest {
+            Some((light, _)) => light.emitted(direction),
+            None => self.environment(direction),
         };
-        let radiance = light.emitted(ray.dir);
-        let margin = light.margin(ray.origin, distance, ray.dir);
-        let to_light = ray.within(ray.range.min, distance - margin);
-        let is_dark = radiance == Vec3::ZERO || to_light.range.is_empty();
-        if is_dark || self.hits.intersect(&to_light).is_some() {
+        if radiance == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let mut ray = at.leave(direction);
+        if let Some((light, distance)) = nearest {
+            ray.range.max = distance - light.margin(at.position, distance, direction);
+        }
+        if ray.range.is_empty() || self.hits.intersect(&ray).is_some() {
             return Vec3::ZERO;
         }
         radiance

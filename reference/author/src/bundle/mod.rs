@@ -53,7 +53,7 @@ const STUDENT_ONLY: [(&str, &str); 9] = [
     ),
 ];
 
-/// What to put into a bundle besides the assignment.
+/// Options for the contents of a bundle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BundleOptions<'a> {
     /// The folder with the built book, if it is to be included.

@@ -120,7 +120,7 @@ pub struct SampleTracer<'a> {
     is_invalid: Cell<bool>,
     /// The last ray and its hit. Direct light and the path itself often ask for the same ray, one
     /// after the other.
-    last: Cell<Option<(Ray, Option<Surface<'a>>)>>,
+    last: RefCell<Option<(Ray, Option<Surface<'a>>)>>,
 }
 
 impl<'a> SampleTracer<'a> {
@@ -130,7 +130,7 @@ impl<'a> SampleTracer<'a> {
             tracer,
             stats: RefCell::new(stats),
             is_invalid: Cell::new(false),
-            last: Cell::new(None),
+            last: RefCell::new(None),
         }
     }
 
@@ -152,17 +152,17 @@ impl Intersect for SampleTracer<'_> {
         if self.is_invalid.get() {
             return None;
         }
-        if let Some((last, hit)) = self.last.get()
-            && last == *ray
+        if let Some((last, hit)) = &*self.last.borrow()
+            && last == ray
         {
-            return hit;
+            return *hit;
         }
         let hit = self.tracer.intersect(ray, &mut self.stats.borrow_mut());
         let hit = hit.unwrap_or_else(|InvalidSample| {
             self.is_invalid.set(true);
             None
         });
-        self.last.set(Some((*ray, hit)));
+        *self.last.borrow_mut() = Some((*ray, hit));
         hit
     }
 }

@@ -1,4 +1,4 @@
-//! What a picture shows, and how it is computed.
+//! The view of a picture, and its renderer.
 
 use super::error::{RenderError, SubmissionPanic, call};
 use super::options::Options;
@@ -10,7 +10,7 @@ use crate::render::renderer::{Lighting, PathSettings, Renderer};
 use crate::scene::Scene;
 use crate::submission::World;
 
-/// What a picture shows, and how it is computed.
+/// The view of a picture, and its renderer.
 pub(super) struct Picture<'a> {
     pub(super) view: ViewMode,
     /// `None` for a view of first hits.

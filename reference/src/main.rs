@@ -1,4 +1,5 @@
-//! Renders a scene with your code: `cargo render scenes/cornell-box.json`.
+//! Renders a scene in clay with this part alone: `cargo run --release --package student --
+//! cornell-box`. `cargo render` also needs part two, in `light`, and shows its light.
 
 use std::process::ExitCode;
 
@@ -8,5 +9,5 @@ use reference::world::Student;
 // end solution
 
 fn main() -> ExitCode {
-    framework::harness::cli::main(&Student)
+    framework::harness::cli::main(&Student, None)
 }

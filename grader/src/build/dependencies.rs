@@ -79,25 +79,33 @@ impl Dependencies {
         })
     }
 
-    /// Returns the dependencies together with a crate from this workspace. The crate's package is
-    /// in `folder`. Everything is built in one cargo call, so that all crates share the same build
+    /// Returns the dependencies together with crates from this workspace. `packages` are their names
+    /// and folders. Everything is built in one cargo call, so that all crates share the same build
     /// of `framework`.
-    pub fn with_package(
-        name: &str,
-        folder: &Path,
+    pub fn with_packages(
+        packages: &[(&str, &str)],
         workspace: &Workspace,
         toolchain: &Toolchain,
     ) -> Result<Self, Error> {
-        let mut sources = vec![folder.join("Cargo.toml")];
-        list_sources(&folder.join("src"), &mut sources)?;
         let mut hash = ContentHash::default().with(cache_key(workspace, toolchain)?.as_bytes());
-        for file in sources {
-            hash.add(&files::read(&file)?);
+        for (_, folder) in packages {
+            let folder = workspace.root().join(folder);
+            let mut sources = vec![folder.join("Cargo.toml")];
+            list_sources(&folder.join("src"), &mut sources)?;
+            for file in sources {
+                hash.add(&files::read(&file)?);
+            }
         }
-        let cache = cache_folder(workspace).join(format!("{}-{name}", &hash.hex()[..16]));
-        prepare_once(&cache, &[&EXTERNS[..], &[name]].concat(), || {
-            let packages = [&FRAMEWORK_PACKAGES[..], &["--package", name]].concat();
-            build(&packages, workspace, toolchain)
+        let names: Vec<&str> = packages.iter().map(|(name, _)| *name).collect();
+        let cache = format!("{}-{}", &hash.hex()[..16], names.join("-"));
+        let cache = cache_folder(workspace).join(cache);
+        let crates: Vec<String> = names.iter().map(|name| name.replace('-', "_")).collect();
+        let crates = crates.iter().map(String::as_str);
+        let externs: Vec<&str> = EXTERNS.into_iter().chain(crates).collect();
+        prepare_once(&cache, &externs, || {
+            let selected = names.iter().flat_map(|name| ["--package", name]);
+            let selected: Vec<&str> = FRAMEWORK_PACKAGES.into_iter().chain(selected).collect();
+            build(&selected, workspace, toolchain)
         })
     }
 }

@@ -118,15 +118,14 @@ impl Builder {
         Ok(builder)
     }
 
-    /// Finds the compiler and builds the dependencies, along with a crate from this workspace that
-    /// programs can then import. The crate's package is in `folder`. Not for grading.
-    pub fn prepare_with_package(
-        name: &str,
-        folder: &Path,
+    /// Finds the compiler and builds the dependencies, along with crates from this workspace that
+    /// programs can then import. `packages` are their names and folders. Not for grading.
+    pub fn prepare_with_packages(
+        packages: &[(&str, &str)],
         workspace: &Workspace,
     ) -> Result<Self, Error> {
         let toolchain = Toolchain::find()?;
-        let dependencies = Dependencies::with_package(name, folder, workspace, &toolchain)?;
+        let dependencies = Dependencies::with_packages(packages, workspace, &toolchain)?;
         Ok(Builder::new(toolchain, dependencies, workspace))
     }
 

@@ -5,10 +5,11 @@ use std::fs;
 
 use crate::workspace::Workspace;
 
-/// The manifests of the given code that the grader compiles with a submission.
-const MANIFESTS: [(&str, &str); 3] = [
+/// The manifests of the code that students get besides the grader.
+const MANIFESTS: [(&str, &str); 4] = [
     ("student/framework", "student/framework/Cargo.toml"),
     ("student/protocol", "student/protocol/Cargo.toml"),
+    ("student/light", "student/light/Cargo.toml"),
     ("student", "student/Cargo.toml"),
 ];
 

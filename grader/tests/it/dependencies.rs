@@ -30,7 +30,7 @@ fn dependencies(package: &str) -> BTreeSet<String> {
 }
 
 /// The packages, each with a dependency it must have and dependencies it must not have.
-const RULES: [(&str, &str, &str); 9] = [
+const RULES: [(&str, &str, &str); 11] = [
     // The protocol is the only one of the students' crates that the grader links.
     (
         "grader",
@@ -49,9 +49,16 @@ const RULES: [(&str, &str, &str); 9] = [
     (
         "view_probe",
         "framework",
-        "grader judging student reference",
+        "grader judging student light reference",
     ),
     ("student", "framework", OF_STAFF),
+    // Without the command that renders pictures, part two doesn't need part one.
+    (
+        "light",
+        "framework",
+        "student grader judging class reference author view view_probe",
+    ),
+    ("reference-light", "framework", "reference student"),
     ("framework", "protocol", OF_STAFF),
     ("protocol", "glam", OF_STAFF),
 ];
@@ -96,7 +103,12 @@ fn crates_shared_with_submissions_have_the_same_features() {
 
 #[test]
 fn student_manifests_inherit_nothing_from_the_workspace() {
-    for package in ["student", "student/framework", "student/protocol"] {
+    for package in [
+        "student",
+        "student/framework",
+        "student/light",
+        "student/protocol",
+    ] {
         let manifest = workspace().join(package).join("Cargo.toml");
         let text = std::fs::read_to_string(manifest).unwrap();
         let inherits = text.contains("workspace") || text.contains("[profile");

@@ -74,6 +74,10 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "submission")]
     pub reference: bool,
 
+    /// Draw the shaded view with the reference's code for part two (course staff)
+    #[arg(long)]
+    pub reference_light: bool,
+
     /// Show the code in a submission, which is a folder or an archive (course staff)
     #[arg(long, value_name = "PATH")]
     pub submission: Option<PathBuf>,

@@ -15,15 +15,29 @@ use serde::Serialize;
 use crate::error::ViewError;
 use crate::recording::RECORDED;
 
-/// The name and the folder of the package that is linked with the submission.
-const PROBE: (&str, &str) = ("view_probe", "grader/view/probe");
-/// The `main` function of both programs.
-const ENTRY: &str = "
+/// The name and the folder of a package that is linked with the submission.
+pub type Package = (&'static str, &'static str);
+
+/// The package that answers the viewer's requests.
+const PROBE: Package = ("view_probe", "grader/view/probe");
+/// The student's code for part two, which draws the shaded view.
+pub const LIGHT: Package = ("light", "student/light");
+/// The reference's code for part two.
+pub const REFERENCE_LIGHT: Package = ("reference-light", "reference/light");
+
+/// Returns the `main` function of both programs.
+fn entry(light: Package) -> String {
+    let (name, _) = light;
+    let name = name.replace('-', "_");
+    format!(
+        "
 /// Answers the viewer's requests.
-fn main() -> std::process::ExitCode {
-    view_probe::main(&world::Student)
+fn main() -> std::process::ExitCode {{
+    view_probe::main(&world::Student, &{name}::integrator::Light)
+}}
+"
+    )
 }
-";
 
 /// The submission to view, and the compiler.
 #[derive(Clone, Debug)]
@@ -66,22 +80,22 @@ pub struct FileError {
 }
 
 impl Programs {
-    /// Prepares the compiler, in a sandbox if `isolation` requires one.
+    /// Prepares the compiler, in a sandbox if `isolation` requires one. The package `light` draws the
+    /// shaded view.
     pub fn prepare(
         workspace: &Workspace,
         handed_out: &'static HandedOut,
         folder: PathBuf,
         is_package: bool,
+        light: Package,
         isolation: IsolationRequest,
     ) -> Result<Self, ViewError> {
-        let (package, path) = PROBE;
-        let path = workspace.root().join(path);
-        let builder = Builder::prepare_with_package(package, &path, workspace);
+        let builder = Builder::prepare_with_packages(&[PROBE, light], workspace);
         let builder = builder.map_err(ViewError::machine)?;
         Ok(Programs {
             builder: with_requested_level(builder, isolation).map_err(ViewError::machine)?,
-            drawing: with_probe(handed_out, |file| *file),
-            recording: with_probe(handed_out, with_recording),
+            drawing: with_probe(handed_out, light, |file| *file),
+            recording: with_probe(handed_out, light, with_recording),
             folder,
             is_package,
         })
@@ -173,12 +187,13 @@ fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>)
 /// what `given` returns for it. The new assignment is never freed.
 fn with_probe(
     handed_out: &HandedOut,
+    light: Package,
     given: impl Fn(&GivenFile) -> GivenFile,
 ) -> &'static HandedOut {
     let given: Vec<GivenFile> = handed_out.given.iter().map(given).collect();
     Box::leak(Box::new(HandedOut {
         given: given.leak(),
-        entry: ENTRY,
+        entry: entry(light).leak(),
         substitutions: &[],
         ..*handed_out
     }))

@@ -24,7 +24,7 @@ use crate::composer;
 use crate::error::ViewError;
 use crate::exam_question::subject_of_question;
 use crate::http;
-use crate::program::Programs;
+use crate::program::{LIGHT, Programs, REFERENCE_LIGHT};
 use crate::routes::Routes;
 use crate::session::{Resources, Session, Worker};
 use crate::shared_session::SharedSession;
@@ -172,7 +172,18 @@ fn programs(
         },
         None => (workspace.root().join(handed_out.student), true),
     };
-    Programs::prepare(workspace, handed_out, folder, is_package, isolation)
+    let light = if arguments.reference || arguments.reference_light {
+        REFERENCE_LIGHT
+    } else {
+        LIGHT
+    };
+    let (_, light_folder) = light;
+    if !workspace.root().join(light_folder).is_dir() {
+        return Err(ViewError::Usage(format!(
+            "there is no folder {light_folder} here"
+        )));
+    }
+    Programs::prepare(workspace, handed_out, folder, is_package, light, isolation)
 }
 
 fn available_cores() -> usize {

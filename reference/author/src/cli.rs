@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::authoring::Authoring;
 use crate::generated_file::Mode;
+use crate::light::LightFiles;
 use crate::package::Platform;
 
 /// The default output folders for the book with all chapters and for the book with only the
@@ -96,6 +97,10 @@ pub struct BundleArgs {
     /// The students' book to include as handout/book, as built by `cargo book --students`
     #[arg(long, value_name = "FOLDER")]
     pub book: Option<PathBuf>,
+    /// Part two's files: solved, so that part one's pictures are in full light, or stubs to be
+    /// written
+    #[arg(long, value_name = "FILES", value_enum, default_value_t)]
+    pub light: LightFiles,
     /// Leave out the files that students write, so that they can unpack the archive over an older
     /// version
     #[arg(long, conflicts_with = "check")]

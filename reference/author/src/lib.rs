@@ -19,7 +19,7 @@
 //! | assignments as data | [`authoring`] |
 //! | an exam's items | [`items`] |
 //! | what the contract allows | [`domains`] |
-//! | trees with decoys; other generated files | [`tree`], [`starter`] |
+//! | trees with decoys; other generated files | [`tree`], [`starter`], [`light`] |
 //! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`long_runs`] |
 
 pub mod authoring;
@@ -34,6 +34,7 @@ pub mod generated_file;
 pub mod handout;
 pub mod hints;
 pub mod items;
+pub mod light;
 pub mod long_runs;
 pub mod oracle;
 pub mod package;

@@ -1,6 +1,7 @@
-//! Turns a task file of the reference, in which the solutions are marked, into one of two things:
+//! Turns a task file of the reference, in which the solutions are marked, into one of three things:
 //!
 //! - [`starter`]: the file that students get, with stubs instead of the solutions
+//! - [`solution`]: the file with the solutions, but without the marks
 //! - [`Replacement::given_code`]: the given code that turns a variant, which is another solution,
 //!   into a complete file
 //!
@@ -15,4 +16,4 @@ mod starter;
 pub use given_code::GivenCodeError;
 pub use marks::{MarkError, MarkProblem};
 pub use replacement::{ReadError, Replacement, replacements};
-pub use starter::starter;
+pub use starter::{solution, starter};

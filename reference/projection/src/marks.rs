@@ -67,6 +67,12 @@ fn classify(line: &str) -> LineKind<'_> {
     }
 }
 
+/// Returns the lines of a marked file that aren't marks.
+pub(crate) fn lines_without_marks(source: &str) -> impl Iterator<Item = &str> {
+    let is_mark = |line: &&str| !matches!(classify(line), LineKind::Other);
+    source.lines().filter(move |line| !is_mark(line))
+}
+
 /// Returns the lines of a marked file that aren't part of a solution.
 pub(crate) fn lines_without_solutions(source: &str) -> Result<Vec<Line<'_>>, MarkError> {
     let error = |line, problem| Err(MarkError { line, problem });

@@ -1,6 +1,6 @@
 //! The starter: the reference's files with stubs instead of the solutions.
 
-use crate::marks::{Line, MarkError, lines_without_solutions};
+use crate::marks::{Line, MarkError, lines_without_marks, lines_without_solutions};
 
 /// Returns the starter's text for a marked file of the reference.
 pub fn starter(reference: &str) -> Result<String, MarkError> {
@@ -14,9 +14,26 @@ pub fn starter(reference: &str) -> Result<String, MarkError> {
     Ok(starter)
 }
 
+/// Returns the solved text for a marked file of the reference, without the marks.
+pub fn solution(reference: &str) -> Result<String, MarkError> {
+    // Report wrong marks.
+    lines_without_solutions(reference)?;
+    let lines = lines_without_marks(reference);
+    Ok(lines.flat_map(|line| [line, "\n"]).collect())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::starter;
+    use super::{solution, starter};
+
+    #[test]
+    fn the_solution_has_no_marks() {
+        let source = "fn f() {\n    // solution\n    // starter: todo!(\"1\")\n    // Why.\n    \
+                      let x = 1;\n    // end solution\n}\n";
+        let solved = "fn f() {\n    // Why.\n    let x = 1;\n}\n";
+        assert_eq!(solution(source).unwrap(), solved);
+        assert!(solution("// solution\n").is_err());
+    }
 
     #[test]
     fn replaces_a_solution_by_its_starter_lines() {

@@ -47,7 +47,7 @@ fn moves_and_rays() {
     let viewer = Viewer::start(&Submission::reference(), arguments);
     let folder = TempDir::new().expect("a folder can be created");
     let mut build = Command::new(env!("CARGO"));
-    build.args(["build", "-q", "--package", "reference"]);
+    build.args(["build", "-q", "--package", "reference-light"]);
     if !cfg!(debug_assertions) {
         build.arg("--release");
     }
@@ -97,7 +97,7 @@ fn moves_and_rays() {
 
 /// Returns the rate reported by `cargo render`, in millions of rays per second.
 fn rate_of_render(folder: &Path) -> f64 {
-    let program = Path::new(env!("CARGO_BIN_EXE_view")).with_file_name("reference");
+    let program = Path::new(env!("CARGO_BIN_EXE_view")).with_file_name("reference-light");
     let mut command = Command::new(program);
     command.args([SCENE, "--size", SIZE, "--samples", &SAMPLES.to_string()]);
     command.arg("--out");

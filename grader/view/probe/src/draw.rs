@@ -1,9 +1,12 @@
 //! Draws pixels and records single rays and paths.
 
+use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
 use framework::harness::attempt::attempt;
-use framework::render::renderer::{RenderStats, Renderer};
+use framework::harness::lighting::written_path_tracer;
+use framework::render::clay::Clay;
+use framework::render::renderer::{Lighting, PathSettings, RenderStats, Renderer};
 use glam::{UVec2, Vec2};
 use protocol::{Panic, Trace};
 
@@ -21,8 +24,44 @@ const MAX_JUDGED: u32 = 500;
 
 /// The renderers of a scene.
 pub(crate) struct Renderers<'a> {
-    pub(crate) light: Box<dyn Renderer + 'a>,
-    pub(crate) clay: Box<dyn Renderer + 'a>,
+    stage: &'a OpenScene<'a>,
+    lighting: &'a dyn Lighting,
+    /// The path tracer, or the reason why there is none. It is only created for the shaded view, so
+    /// that no other view needs part two.
+    path_tracer: OnceCell<Result<Box<dyn Renderer + 'a>, Panic>>,
+    clay: Clay<'a>,
+}
+
+impl<'a> Renderers<'a> {
+    pub(crate) fn new(stage: &'a OpenScene, lighting: &'a dyn Lighting, clay: Clay<'a>) -> Self {
+        Renderers {
+            stage,
+            lighting,
+            path_tracer: OnceCell::new(),
+            clay,
+        }
+    }
+
+    /// Returns the renderer of the shaded view, which is clay if part two isn't written yet.
+    fn light(&self) -> &dyn Renderer {
+        let path_tracer = self.path_tracer.get_or_init(|| {
+            let OpenScene {
+                scene, world, aim, ..
+            } = self.stage;
+            let (bounces, seed) = (aim.settings.bounces, aim.settings.seed);
+            let settings = PathSettings { bounces, seed };
+            written_path_tracer(self.lighting, scene, world, settings)
+        });
+        match path_tracer {
+            Ok(path_tracer) => &**path_tracer,
+            Err(_) => &self.clay,
+        }
+    }
+
+    /// Returns the reason why there is no path tracer, if one was needed.
+    fn no_light(&self) -> Option<Panic> {
+        self.path_tracer.get()?.as_ref().err().cloned()
+    }
 }
 
 /// Draws pixels until all are drawn or the time is up.
@@ -40,7 +79,7 @@ pub(crate) fn draw(stage: &OpenScene, renderers: &Renderers, request: &Draw) -> 
         Quantity::Light { sample } => {
             Values::Light(pixels.each(Default::default(), |pass, pixel| {
                 renderers
-                    .light
+                    .light()
                     .sample_radiance(pixel, sample + pass, &mut stats)
             }))
         }
@@ -63,6 +102,7 @@ pub(crate) fn draw(stage: &OpenScene, renderers: &Renderers, request: &Draw) -> 
         panics: pixels.panics,
         rays: stats.rays,
         invalid_paths: stats.invalid_paths,
+        no_light: renderers.no_light(),
     }
 }
 
@@ -186,7 +226,7 @@ pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow)
             None
         }
         Target::Path { pixel, sample } => {
-            Some(renderers.light.sample_radiance(pixel, sample, &mut stats))
+            Some(renderers.light().sample_radiance(pixel, sample, &mut stats))
         }
         Target::Clay { pixel, sample } => {
             Some(renderers.clay.sample_radiance(pixel, sample, &mut stats))

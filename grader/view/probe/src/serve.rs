@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use framework::harness::attempt::attempt;
 use framework::render::clay::Clay;
-use framework::render::integrator::{Integrator, PathSettings};
+use framework::render::renderer::Lighting;
 use framework::submission::Submission;
 use protocol::wire::{self, WireError};
 
@@ -18,15 +18,16 @@ use crate::open_scene::{OpenScene, Opening};
 /// trusted, so this only guards against bugs.
 const MAX_REQUEST_BYTES: usize = 2 << 30;
 
-/// Responds to requests from standard input until the input ends.
-pub fn main(submission: &dyn Submission) -> ExitCode {
+/// Responds to requests from standard input until the input ends. `light` is part two's code, which
+/// draws the shaded view.
+pub fn main(submission: &dyn Submission, light: &dyn Lighting) -> ExitCode {
     framework::harness::probe::run(|requests, responses| {
         let mut pipe = Pipe {
             requests: BufReader::with_capacity(1 << 16, requests),
             responses: BufWriter::with_capacity(1 << 16, responses),
             nonce: 0,
         };
-        match serve(submission, &mut pipe) {
+        match serve(submission, light, &mut pipe) {
             Err(WireError::EndOfStream) => Ok(()),
             other => other,
         }
@@ -34,7 +35,11 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
 }
 
 /// Responds to requests. Returns only on an error, including the end of the stream.
-fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> {
+fn serve(
+    submission: &dyn Submission,
+    light: &dyn Lighting,
+    pipe: &mut Pipe,
+) -> Result<(), WireError> {
     let mut opening: Option<Opening> = None;
     let mut stage: Option<OpenScene> = None;
     let mut request = pipe.receive()?;
@@ -66,7 +71,7 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
                 Response::Aimed
             }
             (other, Some(stage)) => {
-                request = serve_aimed(stage, other, pipe)?;
+                request = serve_aimed(stage, light, other, pipe)?;
                 continue;
             }
             (_, None) => Response::NotOpen,
@@ -78,14 +83,14 @@ fn serve(submission: &dyn Submission, pipe: &mut Pipe) -> Result<(), WireError> 
 
 /// Responds to requests until one would change the scene or the camera, and returns that request.
 /// This way, the path tracer, which lists the scene's lights, is only created once per camera.
-fn serve_aimed(stage: &OpenScene, first: Request, pipe: &mut Pipe) -> Result<Request, WireError> {
-    let (scene, world) = (&stage.scene, &stage.world);
-    let (bounces, seed) = (stage.aim.settings.bounces, stage.aim.settings.seed);
-    let settings = PathSettings { bounces, seed };
-    let renderers = Renderers {
-        light: Box::new(Integrator::new(scene, world, settings)),
-        clay: Box::new(Clay::new(scene, world, seed)),
-    };
+fn serve_aimed(
+    stage: &OpenScene,
+    light: &dyn Lighting,
+    first: Request,
+    pipe: &mut Pipe,
+) -> Result<Request, WireError> {
+    let clay = Clay::new(&stage.scene, &stage.world, stage.aim.settings.seed);
+    let renderers = Renderers::new(stage, light, clay);
     let mut request = first;
     loop {
         let response = match &request {

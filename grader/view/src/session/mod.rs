@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use framework::scene::Camera;
 use glam::{UVec2, Vec3};
 use grader::submission::Submission;
-use protocol::{ElementOutcome, Trace};
+use protocol::{ElementOutcome, Panic, Trace};
 use view_probe::messages::{MarkedTests, OpenOutcome, TreeSize};
 use view_probe::scene_data::{Aim, PathSettings};
 
@@ -71,6 +71,8 @@ pub struct Session {
     /// Whether each request draws a single pixel, in order to find the one that ends the program.
     is_careful: bool,
     invalid_paths: u64,
+    /// The reason why the shaded view is drawn in clay.
+    no_light: Option<Panic>,
     pub(crate) light: Layer<Vec3>,
     pub(crate) clay: Layer<Vec3>,
     pub(crate) hits: Layer<Option<Trace>>,
@@ -134,6 +136,7 @@ impl Session {
             faults: 0,
             is_careful: false,
             invalid_paths: 0,
+            no_light: None,
             light: Layer::new(film, samples),
             clay: Layer::new(film, samples),
             hits: Layer::new(film, 1),
@@ -243,6 +246,7 @@ impl Session {
         self.is_careful = false;
         self.shown.panics.clear();
         self.invalid_paths = 0;
+        self.no_light = None;
         self.started_at = now;
         self.timings = Default::default();
         self.shown.version += 1;

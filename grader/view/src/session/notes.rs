@@ -76,6 +76,17 @@ impl Session {
         let is_ready = matches!(self.drawing, BuildState::Ready(_));
         let fault = self.fault.iter().filter(|_| is_ready).cloned();
         let mut notes: Vec<Note> = fault.chain(texts).collect();
+        if let (Some(panic), View::Shaded) = (&self.no_light, self.shown.view) {
+            let why = if panic.is_unimplemented() {
+                "not written yet".to_owned()
+            } else {
+                format!("panicked: {}", panic.message)
+            };
+            notes.push(Note {
+                text: format!("Part two: {why}, so the picture is drawn in clay."),
+                location: Some(panic.location.clone()),
+            });
+        }
         let (Some(opened), Some(submission)) = (&self.opened, &self.submission) else {
             return notes;
         };

@@ -81,6 +81,9 @@ impl Session {
             self.add_panic(panic, pixel, indices.len() as u64);
         }
         self.invalid_paths += drawn.invalid_paths;
+        if drawn.no_light.is_some() {
+            self.no_light.clone_from(&drawn.no_light);
+        }
         let layer = LayerKind::of(draw.quantity);
         self.timings[layer as usize].add(drawn.rays, now);
         self.is_dirty = true;

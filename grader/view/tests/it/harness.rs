@@ -169,6 +169,7 @@ impl Viewer {
     /// Starts the viewer like [`Viewer::start`], or returns its error message.
     pub fn try_start(submission: &Submission, arguments: &str) -> Result<Self, String> {
         let mut command = view();
+        command.arg("--reference-light");
         command.arg("--submission").arg(submission.path());
         Viewer::run(command.args(arguments.split_whitespace()))
     }

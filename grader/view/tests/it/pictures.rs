@@ -2,15 +2,15 @@
 //! camera.
 
 use framework::render::film::{Film, Tone};
-use framework::render::integrator::{Integrator, PathSettings};
-use framework::render::renderer::render;
+use framework::render::renderer::{Lighting, PathSettings, render};
 use framework::scene::Scene;
 use framework::submission::World;
 use glam::{UVec2, uvec2};
 use reference::world::Student;
+use reference_light::integrator::Light;
 use serde_json::json;
 
-use crate::harness::{Submission, Viewer, workspace};
+use crate::harness::{Submission, Viewer, view, workspace};
 
 /// Renders a scene the way `cargo render` does.
 fn rendered(scene: &str, film: UVec2, samples: u32, seed: u64, stops: f32) -> Vec<[u8; 3]> {
@@ -18,7 +18,8 @@ fn rendered(scene: &str, film: UVec2, samples: u32, seed: u64, stops: f32) -> Ve
     let scene = scene.on_film(film);
     let world = World::new(&Student, &scene);
     let settings = PathSettings { bounces: 8, seed };
-    let pixels = render(&Integrator::new(&scene, &world, settings), film, samples);
+    let path_tracer = Light.path_tracer(&scene, &world, settings);
+    let pixels = render(&*path_tracer, film, samples);
     let film = Film { size: film, pixels };
     let tone = Tone::Light { stops };
     film.pixels_top_down()
@@ -39,6 +40,25 @@ fn a_picture_is_that_of_the_render_command_pixel_for_pixel() {
     viewer.command(&json!({ "exposure": -1.5 }));
     viewer.wait_for(|state| state["is_picture_complete"] == true && state["complete_samples"] == 9);
     assert!(viewer.picture() == rendered("spheres.json", film, 9, 7, -1.5));
+}
+
+#[test]
+fn until_part_two_is_written_the_picture_is_drawn_in_clay() {
+    let submission = Submission::reference();
+    let arguments = "flat --size 40x30 --samples 2";
+    let mut command = view();
+    command.arg("--submission").arg(submission.path());
+    // The workspace's own part two has stubs.
+    let viewer = Viewer::run(command.args(arguments.split_whitespace())).unwrap();
+    let state = viewer.wait_for_picture();
+    let notes = state["notes"].to_string();
+    assert!(notes.contains("Part two: not written yet"), "{notes}");
+    let shaded = viewer.picture();
+    viewer.command(&json!({ "view": "clay" }));
+    let state =
+        viewer.wait_for(|state| state["view"] == "clay" && state["is_picture_complete"] == true);
+    assert!(!state["notes"].to_string().contains("Part two"), "{state}");
+    assert!(viewer.picture() == shaded);
 }
 
 #[test]

@@ -11,6 +11,7 @@ use grader::files::{self, AtPath};
 use grader::handed_out::HandedOut;
 
 use crate::bundle::{Bundle, archive, crates};
+use crate::light::LightFiles;
 
 /// The folder for the check, relative to the workspace's root. Compiled files stay there for the
 /// next check.
@@ -20,12 +21,17 @@ const SCRIPT: &str = ".ci/bundle";
 
 /// Archives an assignment's bundle, with and without the students' own files, and runs the script
 /// on both archives. The bundle comes from the workspace at `root`.
-pub fn check(root: &Path, handed_out: &HandedOut, bundle: &Bundle) -> Result<()> {
+pub fn check(
+    root: &Path,
+    handed_out: &HandedOut,
+    light: LightFiles,
+    bundle: &Bundle,
+) -> Result<()> {
     let root = &root.canonicalize().at("read", root)?;
     let folder = root.join(TEST_FOLDER);
     let [all, update] = ["pathtracing.zip", "update.zip"].map(|name| folder.join(name));
     files::write_with_parents(&all, archive::zip(bundle)?)?;
-    let without_students_files = bundle.clone().without_students_files(handed_out);
+    let without_students_files = bundle.clone().without_students_files(handed_out, light);
     files::write(&update, archive::zip(&without_students_files)?)?;
 
     // The home folder contains only the crates the bundle needs.

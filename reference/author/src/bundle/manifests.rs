@@ -11,9 +11,9 @@ use crate::bundle::Bundle;
 
 /// The cargo aliases that work without the `reference` and `author` crates.
 const ALIASES: [&str; 5] = ["grade", "handin", "render", "view", "examples"];
-/// The manifest of the only crate whose tests are in the bundle. These tests are the worked
+/// The manifests of the only crates whose tests are in the bundle. These tests are the worked
 /// examples.
-const STUDENT_MANIFEST: &str = "student/Cargo.toml";
+const STUDENT_MANIFESTS: [&str; 2] = ["student/Cargo.toml", "student/light/Cargo.toml"];
 /// The manifest keys for tests and benches, which aren't in the bundle.
 const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
@@ -22,18 +22,20 @@ const STAFF_PROFILE: &str = "bench";
 /// The package with settings of its own in a profile that isn't in the bundle.
 const STAFF_PACKAGE: &str = "author";
 
-/// Adds the cargo aliases and the manifests of the root and of `student`, without the entries for
+/// Adds the cargo aliases and the manifests of the root and of the students' crates, without the entries for
 /// staff. Also trims the manifests that are already in the bundle.
 pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     let text = |path: &str| files::read_to_string(root.join(path));
-    bundle.insert(STUDENT_MANIFEST, text(STUDENT_MANIFEST)?);
+    for path in STUDENT_MANIFESTS {
+        bundle.insert(path, text(path)?);
+    }
     let paths: Vec<String> = bundle.files.keys().cloned().collect();
     for path in paths.iter().filter(|path| path.ends_with("Cargo.toml")) {
         let mut manifest = parse(path, bundle.text(path).unwrap_or_default())?;
         for key in TEST_KEYS {
             manifest.remove(key);
         }
-        if path != STUDENT_MANIFEST {
+        if !STUDENT_MANIFESTS.contains(&path.as_str()) {
             leave_out_tests(&mut manifest);
         }
         // Only staff commands need default features.

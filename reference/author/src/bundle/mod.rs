@@ -22,6 +22,7 @@ use anyhow::{Result, bail};
 use grader::given_files;
 use grader::handed_out::HandedOut;
 
+use crate::light::LightFiles;
 use crate::starter;
 
 /// The files that only students see: their paths in the bundle and their contents.
@@ -52,6 +53,15 @@ const STUDENT_ONLY: [(&str, &str); 9] = [
     ),
 ];
 
+/// Options for the contents of a bundle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BundleOptions<'a> {
+    /// The folder with the built book, if it is to be included.
+    pub book: Option<&'a Path>,
+    /// Part two's files.
+    pub light: LightFiles,
+}
+
 /// The files of a bundle or package.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bundle {
@@ -61,9 +71,10 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    /// Collects an assignment's bundle from the workspace at `root`. The bundle includes the built
-    /// book if there is one. Fails if the book has chapters for instructors.
-    pub fn collect(root: &Path, handed_out: &HandedOut, book: Option<&Path>) -> Result<Self> {
+    /// Collects an assignment's bundle from the workspace at `root`. Fails if the book has chapters
+    /// for instructors.
+    pub fn collect(root: &Path, handed_out: &HandedOut, options: BundleOptions) -> Result<Self> {
+        let BundleOptions { book, light } = options;
         let mut bundle = Bundle::default();
         folders::copy(root, &mut bundle)?;
         test_modules::remove(&mut bundle);
@@ -83,13 +94,14 @@ impl Bundle {
         for (path, text) in STUDENT_ONLY {
             bundle.insert(path, text);
         }
-        // These files are generated rather than read from `student/src`, where staff may have
-        // solved the assignment.
-        for file in starter::generated_files(root, handed_out)? {
+        // These files are generated rather than read from `student`, where staff may have solved the
+        // assignment.
+        let starter = starter::generated_files(root, handed_out)?;
+        for file in starter.into_iter().chain(light.generate(root)?) {
             bundle.insert(file.path, file.contents);
         }
         manifests::add_trimmed(root, &mut bundle)?;
-        version::add(root, handed_out, &mut bundle)?;
+        version::add(root, handed_out, light, &mut bundle)?;
         bundle.insert(given_files::LIST, given_files::list(&bundle.files));
         let lock = lock::lock_file(root, &bundle)?;
         bundle.insert("Cargo.lock", lock);
@@ -102,9 +114,9 @@ impl Bundle {
     }
 
     /// Removes the files that students write, so that the bundle can be unpacked over an older one.
-    pub fn without_students_files(mut self, handed_out: &HandedOut) -> Self {
+    pub fn without_students_files(mut self, handed_out: &HandedOut, light: LightFiles) -> Self {
         self.files
-            .retain(|path, _| !version::is_students_own(path, handed_out));
+            .retain(|path, _| !version::is_students_own(path, handed_out, light));
         self
     }
 

@@ -14,6 +14,7 @@ use judging::exam::Exam;
 
 use crate::authoring::Authoring;
 use crate::bundle::Bundle;
+use crate::light::{self, LightFiles};
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
@@ -54,7 +55,14 @@ pub enum Leak {
 impl Secrets {
     /// Collects the secrets of an assignment in the workspace at `root`, except lines that also
     /// occur in the bundle's given files.
-    pub fn gather(root: &Path, authoring: &Authoring, bundle: &Bundle) -> Result<Self> {
+    ///
+    /// Lines of part two's solution are only secret if students get its stubs.
+    pub fn gather(
+        root: &Path,
+        authoring: &Authoring,
+        light: LightFiles,
+        bundle: &Bundle,
+    ) -> Result<Self> {
         let handed_out = authoring.handed_out;
         let mut secrets = Secrets {
             lines: HashMap::new(),
@@ -91,11 +99,17 @@ impl Secrets {
                 secrets.add(&source, wrong.text(file.name).unwrap_or_default());
             }
         }
+        if light == LightFiles::Stubs {
+            secrets.read(root, light::REFERENCE)?;
+        }
+        let files = light.generate(root)?;
+        let light = files.iter().map(|file| file.contents.as_str());
         let given = bundle
             .text_files()
             .filter(|(path, _)| GIVEN_FOLDERS.iter().any(|given| path.starts_with(given)));
+        let given = given.map(|(_, text)| text).chain(light);
         let given: HashSet<String> = given
-            .flat_map(|(_, text)| text.lines().filter_map(normalize))
+            .flat_map(|text| text.lines().filter_map(normalize))
             .collect();
         secrets.lines.retain(|line, _| !given.contains(line));
         Ok(secrets)

@@ -14,17 +14,23 @@ use toml_edit::{DocumentMut, Item, value};
 
 use crate::bundle::Bundle;
 use crate::bundle::manifests::parse;
+use crate::light::LightFiles;
 
 /// The number of digits in a version.
 const DIGITS: usize = 12;
 
 /// Adds the version to all manifests in a bundle. The bundle must not have a lock file yet.
-pub(super) fn add(root: &Path, handed_out: &HandedOut, bundle: &mut Bundle) -> Result<()> {
+pub(super) fn add(
+    root: &Path,
+    handed_out: &HandedOut,
+    light: LightFiles,
+    bundle: &mut Bundle,
+) -> Result<()> {
     let mut hash = ContentHash::default();
     // The dependencies are part of what students get.
     hash.add(&files::read(root.join("Cargo.lock"))?);
     let given = bundle.files.iter();
-    for (path, contents) in given.filter(|(path, _)| !is_students_own(path, handed_out)) {
+    for (path, contents) in given.filter(|(path, _)| !is_students_own(path, handed_out, light)) {
         hash.add(path.as_bytes());
         hash.add(contents);
     }
@@ -51,9 +57,10 @@ pub(super) fn find(manifest: &str) -> Option<String> {
 }
 
 /// Returns whether students write this file.
-pub(super) fn is_students_own(path: &str, handed_out: &HandedOut) -> bool {
+pub(super) fn is_students_own(path: &str, handed_out: &HandedOut, light: LightFiles) -> bool {
     let name = path.strip_prefix("student/src/");
-    name.is_some_and(|name| handed_out.task_file(name).is_some())
+    let is_own = |name| handed_out.task_file(name).is_some();
+    name.is_some_and(is_own) || light.is_students_own(path)
 }
 
 /// Appends the bundle's version to the version in a `package` table, if there is one.

@@ -8,22 +8,30 @@ use grader::files;
 use super::{CommandResult, report};
 use crate::authoring::Authoring;
 use crate::bundle::secrets::Secrets;
-use crate::bundle::{self, Bundle, archive};
+use crate::bundle::{self, Bundle, BundleOptions, archive};
 use crate::cli::{BundleArgs, PackageArgs};
+use crate::light::LightFiles;
 use crate::package::{self, CourseFiles, Platform, trial};
 
 /// Writes or checks the students' bundle.
 pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> CommandResult {
     let handed_out = authoring.handed_out;
-    let mut bundle = Bundle::collect(root, handed_out, args.book.as_deref())?;
+    let (book, light) = (args.book.as_deref(), args.light);
+    let mut bundle = Bundle::collect(root, handed_out, BundleOptions { book, light })?;
     // Use the full bundle here, because lines of the starter aren't secret.
-    let secrets = Secrets::gather(root, authoring, &bundle)?;
+    let secrets = Secrets::gather(root, authoring, light, &bundle)?;
     if args.update {
-        bundle = bundle.without_students_files(handed_out);
+        bundle = bundle.without_students_files(handed_out, light);
     }
     report_leaks(&bundle, &secrets)?;
     if args.check {
-        bundle::check::check(root, handed_out, &bundle)?;
+        bundle::check::check(root, handed_out, light, &bundle)?;
+    }
+    if light == LightFiles::Solved {
+        println!(
+            "this publishes the solution of part two, which draws the pictures: `--light stubs` hands \
+             out both parts to be written"
+        );
     }
     if let Some(out) = &args.out {
         archive::write(&bundle, out)?;
@@ -74,7 +82,8 @@ pub(super) fn package(
             println!("{} files: {}", package.files.len(), out.display());
         }
         Platform::Github => {
-            report_leaks(package, &Secrets::gather(root, authoring, package)?)?;
+            let light = LightFiles::default();
+            report_leaks(package, &Secrets::gather(root, authoring, light, package)?)?;
             archive::write(package, out)?;
         }
     }

@@ -36,7 +36,11 @@ pub(super) fn handout(
 fn make_book(root: &Path, authoring: &Authoring, folder: &Path, students: bool) -> CommandResult {
     if students {
         handout::book::build_for_students(
-            &crate::bundle::Bundle::collect(root, authoring.handed_out, None)?,
+            &crate::bundle::Bundle::collect(
+                root,
+                authoring.handed_out,
+                crate::bundle::BundleOptions::default(),
+            )?,
             folder,
         )?;
     } else {

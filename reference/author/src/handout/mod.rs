@@ -24,10 +24,11 @@ use crate::handout::pages::{Page, pages};
 
 /// The folders to search for names used in the handout. They contain the code students see, and the
 /// code that writes files students see.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "student/src",
     "student/protocol/src",
     "student/framework/src",
+    "student/light/src",
     "reference/src",
     "grader/src",
     "grader/judging/src",

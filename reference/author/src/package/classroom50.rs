@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::Result;
 use grader::handed_out::HandedOut;
 
-use crate::bundle::{Bundle, archive};
+use crate::bundle::{Bundle, BundleOptions, archive};
 use crate::package::grader_files;
 
 /// The file name and the contents of the script that the runner starts.
@@ -17,7 +17,7 @@ const ENTRY_POINT: (&str, &str) = (
 
 /// Collects all files for the folder.
 pub(super) fn package(root: &Path, handed_out: &HandedOut, policy: &str) -> Result<Bundle> {
-    let students = Bundle::collect(root, handed_out, None)?;
+    let students = Bundle::collect(root, handed_out, BundleOptions::default())?;
     let mut grader = Bundle::default();
     for (path, contents) in grader_files(&students) {
         grader.insert(path, contents.clone());

@@ -7,7 +7,7 @@ use anyhow::Result;
 use grader::handed_out::HandedOut;
 
 use crate::bundle::folders::copy_tree;
-use crate::bundle::{Bundle, crates};
+use crate::bundle::{Bundle, BundleOptions, crates};
 use crate::package::{grader_files, package_path};
 
 /// The two scripts that Gradescope runs, and the script that both of them call.
@@ -32,7 +32,7 @@ pub(super) fn package(
     exam: &str,
     policy: &str,
 ) -> Result<Bundle> {
-    let students = Bundle::collect(root, handed_out, None)?;
+    let students = Bundle::collect(root, handed_out, BundleOptions::default())?;
     let mut package = Bundle::default();
     for (path, contents) in grader_files(&students) {
         package.insert(package_path(path), contents.clone());

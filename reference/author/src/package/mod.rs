@@ -18,7 +18,7 @@ use grader::handed_out::HandedOut;
 use grader::policy::{self, Policy};
 
 use crate::authoring::Authoring;
-use crate::bundle::{Bundle, archive};
+use crate::bundle::{Bundle, BundleOptions, archive};
 
 /// A platform that grades submissions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -86,7 +86,7 @@ pub fn collect(
              --exam FILE"
         ),
         (Platform::Classroom50, None) => classroom50::package(root, handed_out, &course.policy),
-        (Platform::Github, None) => Bundle::collect(root, handed_out, None),
+        (Platform::Github, None) => Bundle::collect(root, handed_out, BundleOptions::default()),
         (Platform::Classroom50, Some(_)) => {
             bail!("students can read classroom50's folder: {NOT_SECRET}")
         }

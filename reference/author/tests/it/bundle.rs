@@ -11,15 +11,16 @@ use std::path::Path;
 use author::authoring;
 use author::bundle::archive::{unzip, zip};
 use author::bundle::secrets::{Leak, Secrets};
-use author::bundle::{Bundle, archive};
+use author::bundle::{Bundle, BundleOptions, archive};
 use author::exams;
+use author::light::{self, LightFiles};
 use grader::handed_out::RAYS;
 use tempfile::TempDir;
 
 use crate::harness::{BUNDLE, author_fails, author_succeeds, root, text};
 
 fn secrets() -> Secrets {
-    Secrets::gather(&root(), &authoring::RAYS, &BUNDLE).unwrap()
+    Secrets::gather(&root(), &authoring::RAYS, LightFiles::Solved, &BUNDLE).unwrap()
 }
 
 /// Returns the arguments of `cargo author bundle --out OUT`, followed by more arguments.
@@ -74,6 +75,48 @@ fn line_with(path: &str, part: &str) -> String {
         .to_owned()
 }
 
+/// Unpacks the bundle with these files of part two, and returns what is found in it.
+fn leaks_with(light: LightFiles, name: &str) -> (Bundle, Vec<Leak>) {
+    let folder = TempDir::new().unwrap();
+    let archive = folder.path().join("pathtracing.zip");
+    author_succeeds(&bundle_to(&archive, &["--light".as_ref(), name.as_ref()]));
+    let bundle = unzip(&fs::read(archive).unwrap()).unwrap();
+    let secrets = Secrets::gather(&root(), &authoring::RAYS, light, &bundle).unwrap();
+    let leaks = secrets.search(&bundle);
+    (bundle, leaks)
+}
+
+#[test]
+fn a_bundle_has_part_two_solved_or_as_stubs_and_no_other_solution() {
+    let path = "student/light/src/material.rs";
+    let reference = text("reference/light/src/material.rs");
+    for (light, name) in [(LightFiles::Solved, "solved"), (LightFiles::Stubs, "stubs")] {
+        let (mut bundle, leaks) = leaks_with(light, name);
+        assert_eq!(leaks, [], "{name}");
+        let is_solved = light == LightFiles::Solved;
+        for file in light::FILES {
+            let text = bundle.text(&format!("student/light/src/{file}")).unwrap();
+            assert_eq!(!text.contains("todo!("), is_solved, "{name}: {file}");
+            assert_eq!(!text.contains("#[cfg(test)]"), is_solved, "{name}: {file}");
+        }
+        assert!(bundle.files.contains_key("student/light/src/main.rs"));
+        // The solution is found if it is in the place of the stubs.
+        bundle.insert(path, &*reference);
+        let secrets = Secrets::gather(&root(), &authoring::RAYS, light, &bundle).unwrap();
+        assert_eq!(secrets.search(&bundle).is_empty(), is_solved, "{name}");
+    }
+}
+
+#[test]
+fn an_update_with_stubs_leaves_part_two_to_the_student() {
+    let light = LightFiles::Stubs;
+    for file in light::FILES {
+        let path = format!("student/light/src/{file}");
+        assert!(light.is_students_own(&path) && !LightFiles::Solved.is_students_own(&path));
+    }
+    assert!(!light.is_students_own("student/light/src/world.rs"));
+}
+
 #[test]
 fn finds_a_final_exam_under_any_file_name() {
     let mut exam = exams::load_practice(&root(), &authoring::RAYS).unwrap();
@@ -101,7 +144,15 @@ fn a_built_book_is_added_beside_its_sources() {
     let book = TempDir::new().unwrap();
     let index = book.path().join("index.html");
     fs::write(index, "<title>Path tracing</title>\n").unwrap();
-    let bundle = Bundle::collect(&root(), &RAYS, Some(book.path())).unwrap();
+    let bundle = Bundle::collect(
+        &root(),
+        &RAYS,
+        BundleOptions {
+            book: Some(book.path()),
+            ..BundleOptions::default()
+        },
+    )
+    .unwrap();
     assert!(bundle.files.contains_key("handout/book/index.html"));
     assert_eq!(bundle.files.len(), BUNDLE.files.len() + 1);
 }

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use author::authoring;
-use author::bundle::Bundle;
+use author::bundle::{Bundle, BundleOptions};
 use author::exams::assemble;
 use author::seed::Seed;
 use grader::handed_out::RAYS;
@@ -22,7 +22,7 @@ const BUILDING: [&str; 4] = ["calibrate", "mistakes", "mutants", "prove"];
 
 /// The students' bundle, collected once for all tests.
 pub static BUNDLE: LazyLock<Bundle> =
-    LazyLock::new(|| Bundle::collect(&root(), &RAYS, None).unwrap());
+    LazyLock::new(|| Bundle::collect(&root(), &RAYS, BundleOptions::default()).unwrap());
 
 /// Returns the root folder of the workspace.
 pub fn root() -> PathBuf {

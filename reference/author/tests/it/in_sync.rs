@@ -4,15 +4,19 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
+use author::light;
 use grader::handed_out::RAYS;
 use grader::probe::Budget;
 use grader::task_session::{MAX_CRASHES, MAX_TIMEOUTS};
 
 use crate::harness::{author_succeeds, root, text};
 
-/// Returns the starter's files in both of its folders.
+/// The folders with generated starters. The first two are copies of the same.
+const STARTERS: [&str; 3] = ["student/src", "grader/starter", "student/light/src"];
+
+/// Returns the starters' files in all folders.
 fn starter_files() -> Vec<PathBuf> {
-    ["student/src", "grader/starter"]
+    STARTERS
         .iter()
         .flat_map(|folder| fs::read_dir(root().join(folder)).expect("the starter is committed"))
         .map(|entry| entry.expect("the folder can be listed").path())
@@ -64,7 +68,9 @@ fn the_handout_has_the_limits_of_the_grader() {
 fn the_starter_has_every_file_in_each_folder_and_no_marks() {
     let files = starter_files();
     let with_main = RAYS.files.len() + RAYS.given.len() + 1;
-    assert_eq!(files.len(), 2 * with_main, "{files:?}");
+    // Part two also has its crate, its program, its world and its integrator.
+    let of_light = light::FILES.len() + 4;
+    assert_eq!(files.len(), 2 * with_main + of_light, "{files:?}");
     for file in files {
         let text = fs::read_to_string(&file).unwrap();
         for mark in ["// solution", "// end solution", "// starter:"] {

@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 use author::authoring;
 use author::bundle::archive;
 use author::bundle::secrets::Secrets;
+use author::light::LightFiles;
 use author::package::{CourseFiles, Platform, collect};
 use grader::doctor::package::problems;
 use grader::handed_out::RAYS;
@@ -52,7 +53,7 @@ fn packages_that_students_can_read_hold_no_solution_and_no_final_exam() {
     }
     let package = collect(&root(), &RAYS, Platform::Classroom50, without_exam()).unwrap();
     let unpacked = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
-    let secrets = Secrets::gather(&root(), &authoring::RAYS, &BUNDLE).unwrap();
+    let secrets = Secrets::gather(&root(), &authoring::RAYS, LightFiles::Solved, &BUNDLE).unwrap();
     assert_eq!(secrets.search(&unpacked), []);
     let size: usize = package.files.values().map(Vec::len).sum();
     assert!(size < 10 << 20, "classroom50 takes 10 MiB: {size}");

@@ -8,11 +8,12 @@ use std::path::Path;
 use std::{env, fs};
 
 use author::bundle::secrets::{Leak, Secrets};
-use author::bundle::{Bundle, archive};
+use author::bundle::{Bundle, BundleOptions, archive};
 use author::cli::{CheckArgs, Command, MistakesArgs, ProveArgs, RecordArgs};
 use author::commands;
 use author::exams::{final_exam_text, load_practice};
 use author::items::shares_a_question;
+use author::light::LightFiles;
 use author::package::{self, CourseFiles, Platform};
 use author::starter;
 use class::cli::ClassArguments;
@@ -224,8 +225,8 @@ fn the_starter_of_the_toy_is_a_projection_of_its_solution() {
 
 #[test]
 fn the_bundle_and_the_package_of_the_toy_hold_its_starter_and_no_solution() {
-    let bundle = Bundle::collect(&root(), TOY.handed_out, None).unwrap();
-    let secrets = Secrets::gather(&root(), &TOY, &bundle).unwrap();
+    let bundle = Bundle::collect(&root(), TOY.handed_out, BundleOptions::default()).unwrap();
+    let secrets = Secrets::gather(&root(), &TOY, LightFiles::Solved, &bundle).unwrap();
     assert_eq!(toy_leaks(&secrets, &bundle), 0);
     assert_eq!(
         bundle.text("student/src/mirror.rs"),

@@ -5,6 +5,7 @@ pub mod answer;
 pub mod attempt;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod lighting;
 pub mod probe;
 mod system;
 #[cfg(feature = "cli")]

@@ -77,7 +77,8 @@ fn sky(direction: Vec3) -> f32 {
 mod tests {
     use std::f32::consts::{FRAC_1_SQRT_2, PI};
 
-    use glam::{uvec2, vec3};
+    use glam::{uvec2, vec2, vec3};
+    use protocol::Trace;
 
     use super::*;
     use crate::tests::{CORRECT, SphereSubmission, scene};
@@ -142,14 +143,28 @@ mod tests {
 
     #[test]
     fn an_unusable_hit_is_counted_and_black() {
-        let nowhere = SphereSubmission {
-            alter: |trace| trace.position = Vec3::NAN,
+        let scene = scene(0.0, GREY, &sphere(vec3(0.0, 0.0, -3.0), 2.0));
+        let alterations: [fn(&mut Trace); 4] = [
+            |trace| trace.position = Vec3::NAN,
+            |trace| trace.normal = Vec3::ZERO,
+            |trace| trace.uv = vec2(f32::INFINITY, 0.0),
+            |trace| trace.shape = 77,
+        ];
+        for alter in alterations {
+            let world = World::new(&SphereSubmission { alter, ..CORRECT }, &scene);
+            let mut stats = RenderStats::default();
+            let shown = Clay::new(&scene, &world, 1).pixel_radiance(uvec2(4, 4), 3, &mut stats);
+            assert_eq!((shown, stats.rays, stats.invalid_paths), (Vec3::ZERO, 3, 3));
+        }
+    }
+
+    #[test]
+    fn the_length_of_a_normal_makes_no_difference() {
+        let long = SphereSubmission {
+            alter: |trace| trace.normal *= 4.0,
             ..CORRECT
         };
-        let scene = scene(0.0, GREY, &sphere(vec3(0.0, 0.0, -3.0), 2.0));
-        let world = World::new(&nowhere, &scene);
-        let mut stats = RenderStats::default();
-        let shown = Clay::new(&scene, &world, 1).pixel_radiance(uvec2(4, 4), 3, &mut stats);
-        assert_eq!((shown, stats.rays, stats.invalid_paths), (Vec3::ZERO, 3, 3));
+        let near = sphere(vec3(0.0, 0.0, -3.0), 1.0);
+        assert_eq!(central_pixel(&long, &near), central_pixel(&CORRECT, &near));
     }
 }

@@ -44,6 +44,12 @@ impl Tone {
     }
 }
 
+/// Returns the luminance of a colour in linear red, green and blue. See ITU-R Recommendation BT.709.
+#[inline]
+pub fn luminance(colour: Vec3) -> f32 {
+    colour.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+}
+
 /// Applies the sRGB transfer function (IEC 61966-2-1), which encodes linear light for a screen.
 fn srgb(linear: f32) -> f32 {
     if linear <= 0.003_130_8 {

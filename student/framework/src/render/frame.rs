@@ -1,4 +1,5 @@
-//! Coordinate frames around a direction, and sampling of directions.
+//! Coordinate frames around a direction, and sampling of directions. The functions are small and
+//! part of every path, so they are inlined into part two's crate.
 
 use std::f32::consts::TAU;
 
@@ -8,7 +9,7 @@ use crate::math::sin_cos;
 
 /// An orthonormal frame: three perpendicular unit vectors.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub struct Frame {
     x: Vec3,
     y: Vec3,
     z: Vec3,
@@ -18,7 +19,8 @@ impl Frame {
     /// Creates a frame with the given z-axis, which must be a unit vector.
     ///
     /// See Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
-    pub(crate) fn from_z(z: Vec3) -> Self {
+    #[inline]
+    pub fn from_z(z: Vec3) -> Self {
         let sign = 1.0_f32.copysign(z.z);
         let a = -1.0 / (sign + z.z);
         let b = z.x * z.y * a;
@@ -30,12 +32,14 @@ impl Frame {
     }
 
     /// Converts a direction from this frame to world space.
-    pub(crate) fn to_world(self, v: Vec3) -> Vec3 {
+    #[inline]
+    pub fn to_world(self, v: Vec3) -> Vec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
     /// Converts a direction from world space to this frame.
-    pub(crate) fn to_local(self, v: Vec3) -> Vec3 {
+    #[inline]
+    pub fn to_local(self, v: Vec3) -> Vec3 {
         Vec3::new(v.dot(self.x), v.dot(self.y), v.dot(self.z))
     }
 }
@@ -44,7 +48,8 @@ impl Frame {
 /// numbers.
 ///
 /// Malley's method: samples a disc uniformly and projects the point up to the hemisphere.
-pub(crate) fn sample_cosine_hemisphere(random: Vec2) -> Vec3 {
+#[inline]
+pub fn sample_cosine_hemisphere(random: Vec2) -> Vec3 {
     let radius = random.x.sqrt();
     let (sin, cos) = sin_cos(TAU * random.y);
     Vec3::new(radius * cos, radius * sin, (1.0 - random.x).sqrt())

@@ -2,10 +2,9 @@
 
 pub mod clay;
 pub mod film;
-mod frame;
-pub mod integrator;
-pub mod light;
-mod offset;
+pub mod frame;
+pub mod offset;
 pub mod renderer;
 pub mod sampler;
-mod tracer;
+pub mod sphere_light;
+pub mod tracer;

@@ -21,7 +21,7 @@ const MIN_COSINE: f32 = 1e-3;
 /// far before `position` a ray that arrives in this direction must end. If the ray started or ended
 /// closer to `position`, rounding could put that point on either side of the surface. `eye` is the
 /// origin of the ray that found `position`.
-pub(super) fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> f32 {
+pub fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> f32 {
     let (normal, term) = match *shape {
         Shape::Triangle { vertices, .. } => {
             triangle(vertices.map(|vertex| vertex.position), eye, position)
@@ -35,9 +35,14 @@ pub(super) fn along_ray(shape: &Shape, eye: Vec3, position: Vec3, dir: Vec3) -> 
             (normal, distance * distance / radius)
         }
     };
-    let coordinates = eye.abs().max(position.abs()).max_element();
-    let error = RELATIVE_ERROR * (coordinates + term);
+    let error = coordinate_error(eye, position) + RELATIVE_ERROR * term;
     error / normal.dot(dir).abs().max(MIN_COSINE)
+}
+
+/// Returns how far rounding can move a point on a ray from `eye` to `position`.
+#[inline]
+pub fn coordinate_error(eye: Vec3, position: Vec3) -> f32 {
+    RELATIVE_ERROR * eye.abs().max(position.abs()).max_element()
 }
 
 /// Returns the normal of a triangle and the largest term in the formulas for its hits.

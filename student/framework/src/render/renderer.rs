@@ -4,6 +4,9 @@ use std::time::Duration;
 
 use glam::{UVec2, Vec3};
 
+use crate::scene::Scene;
+use crate::submission::World;
+
 /// Computes a picture sample by sample. Each sample only depends on its pixel and its number.
 pub trait Renderer: Sync {
     /// Returns the radiance of one sample of a pixel.
@@ -35,6 +38,27 @@ pub trait Renderer: Sync {
         }
         sum / samples.max(1) as f32
     }
+}
+
+/// Part two's code, which computes the light in a picture.
+pub trait Lighting: Sync {
+    /// Creates a path tracer. `world` must be made from `scene`.
+    fn path_tracer<'a>(
+        &self,
+        scene: &'a Scene,
+        world: &'a World,
+        settings: PathSettings,
+    ) -> Box<dyn Renderer + 'a>;
+}
+
+/// The settings for tracing paths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathSettings {
+    /// The maximum number of times that a path is scattered: 0 shows only emitters and the
+    /// environment, 1 adds direct light.
+    pub bounces: u32,
+    /// The seed for all random numbers.
+    pub seed: u64,
 }
 
 /// An error returned if a sample's path contains an unusable hit from the submission, such as a hit

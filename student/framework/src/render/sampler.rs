@@ -25,19 +25,21 @@ pub enum Purpose {
     Survival,
 }
 
-/// The random numbers for one bounce, each in `[0, 1)`. Each is used only once.
+/// The random numbers for one bounce, each in `[0, 1)` and for one use.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RandomNumbers {
+pub struct RandomNumbers {
     /// The light to sample.
-    pub(crate) light: f32,
+    pub light: f32,
     /// The point on that light.
-    pub(crate) on_light: Vec2,
+    pub on_light: Vec2,
+    /// The scattered direction in which a matte surface looks for direct light.
+    pub direct: Vec2,
     /// The direction in which a matte surface scatters the path.
-    pub(crate) scatter: Vec2,
+    pub scatter: Vec2,
     /// Whether glass reflects or refracts.
-    pub(crate) reflect: f32,
+    pub reflect: f32,
     /// Whether the path goes on.
-    pub(crate) survive: f32,
+    pub survive: f32,
 }
 
 /// The random numbers for one path.
@@ -67,11 +69,17 @@ impl Sampler {
     }
 
     /// Returns the random numbers for a bounce.
-    pub(crate) fn numbers(&self, bounce: u32) -> RandomNumbers {
+    ///
+    /// A matte surface looks for direct light in the same direction in which it scatters the path.
+    /// There is either light in this direction or another surface, so the errors of both partly
+    /// cancel. With two independent directions, a picture under an even sky has twice the variance.
+    pub fn numbers(&self, bounce: u32) -> RandomNumbers {
+        let scatter = self.pair(bounce, Purpose::Direction);
         RandomNumbers {
             light: self.one(bounce, Purpose::Light),
             on_light: self.pair(bounce, Purpose::PointOnLight),
-            scatter: self.pair(bounce, Purpose::Direction),
+            direct: scatter,
+            scatter,
             reflect: self.one(bounce, Purpose::ReflectOrRefract),
             survive: self.one(bounce, Purpose::Survival),
         }

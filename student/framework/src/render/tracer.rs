@@ -1,5 +1,6 @@
 //! Traces rays with the submission's code and checks its hits before they are used.
 
+use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
 use glam::{UVec2, Vec2, Vec3};
@@ -7,40 +8,51 @@ use protocol::{Interval, Ray, Shape};
 
 use crate::render::offset;
 use crate::render::renderer::{InvalidSample, RenderStats};
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 use crate::submission::World;
 
 /// A scene, both as data and in a submission's own types.
 #[derive(Clone, Copy)]
-pub(super) struct Tracer<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) world: &'a World,
+pub struct Tracer<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The same scene in the submission's types.
+    pub world: &'a World,
 }
 
 /// The surface at the point where a path hits it.
-pub(super) struct Surface<'a> {
-    pub(super) shape: &'a Shape,
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<'a> {
+    /// The shape.
+    pub shape: &'a Shape,
+    /// The shape's material.
+    pub material: &'a Material,
     /// The origin of the ray that hit the surface.
-    pub(super) eye: Vec3,
+    pub eye: Vec3,
     /// The direction from the surface back to `eye`.
-    pub(super) out: Vec3,
-    pub(super) position: Vec3,
+    pub out: Vec3,
+    /// The point that the ray hit.
+    pub position: Vec3,
     /// The unit normal on the side that the ray comes from.
-    pub(super) normal: Vec3,
+    pub normal: Vec3,
     /// Whether the submission's normal points to the side that the ray comes from.
-    pub(super) outside: bool,
-    pub(super) uv: Vec2,
+    pub outside: bool,
+    /// The texture coordinates.
+    pub uv: Vec2,
 }
 
 impl<'a> Tracer<'a> {
     /// Returns the ray from the camera through a position in a pixel, in world space.
-    pub(super) fn camera_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
+    pub fn camera_ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         let ray = self.world.camera.ray(pixel, offset);
         self.scene.camera.placement.to_world(&ray)
     }
 
     /// Returns the surface that a ray hits first, according to the submission's code.
-    pub(super) fn intersect(
+    ///
+    /// # Errors
+    /// Fails if the ray or the submission's hit is unusable.
+    pub fn intersect(
         &self,
         ray: &Ray,
         stats: &mut RenderStats,
@@ -59,7 +71,9 @@ impl<'a> Tracer<'a> {
         };
         // In a scene, a shape's number is its index.
         let shape = self.scene.shapes.get(trace.shape as usize);
-        let (Some(shape), Some(normal)) = (shape, trace.normal.try_normalize()) else {
+        let material = self.scene.material_of(trace.shape);
+        let normal = trace.normal.try_normalize();
+        let (Some(shape), Some(material), Some(normal)) = (shape, material, normal) else {
             return Err(InvalidSample);
         };
         if !trace.position.is_finite() || !trace.uv.is_finite() {
@@ -68,6 +82,7 @@ impl<'a> Tracer<'a> {
         let outside = ray.dir.dot(normal) < 0.0;
         Ok(Some(Surface {
             shape,
+            material,
             eye: ray.origin,
             out: -ray.dir,
             position: trace.position,
@@ -81,12 +96,110 @@ impl<'a> Tracer<'a> {
 impl Surface<'_> {
     /// Returns the ray that leaves the surface in direction `dir` and ends at distance `max`. It
     /// starts far enough away not to hit the surface itself.
-    pub(super) fn leave(&self, dir: Vec3, max: f32) -> Ray {
+    pub fn leave(&self, dir: Vec3, max: f32) -> Ray {
         let min = offset::along_ray(self.shape, self.eye, self.position, dir);
         Ray {
             origin: self.position,
             dir,
             range: Interval::new(min, max),
+        }
+    }
+}
+
+/// Finds the surface that a ray hits first.
+pub trait Intersect {
+    /// Returns the surface that the ray hits first, or `None` if it hits nothing.
+    fn intersect(&self, ray: &Ray) -> Option<Surface<'_>>;
+}
+
+/// Traces the rays of one sample, which is discarded at the end if one of them had an unusable hit.
+/// So the code that follows a path needs no error handling.
+pub struct SampleTracer<'a> {
+    tracer: &'a Tracer<'a>,
+    stats: RefCell<&'a mut RenderStats>,
+    is_invalid: Cell<bool>,
+    /// The last ray and its hit. Direct light and the path itself often ask for the same ray, one
+    /// after the other.
+    last: RefCell<Option<(Ray, Option<Surface<'a>>)>>,
+}
+
+impl<'a> SampleTracer<'a> {
+    /// Starts a sample.
+    pub fn new(tracer: &'a Tracer<'a>, stats: &'a mut RenderStats) -> Self {
+        SampleTracer {
+            tracer,
+            stats: RefCell::new(stats),
+            is_invalid: Cell::new(false),
+            last: RefCell::new(None),
+        }
+    }
+
+    /// Returns the sample's radiance.
+    ///
+    /// # Errors
+    /// Fails if a ray had an unusable hit, or if the radiance isn't finite.
+    pub fn finish(self, radiance: Vec3) -> Result<Vec3, InvalidSample> {
+        if self.is_invalid.get() || !radiance.is_finite() {
+            return Err(InvalidSample);
+        }
+        Ok(radiance)
+    }
+}
+
+impl Intersect for SampleTracer<'_> {
+    /// Returns `None` from the first unusable hit on, so that the path soon ends.
+    fn intersect(&self, ray: &Ray) -> Option<Surface<'_>> {
+        if self.is_invalid.get() {
+            return None;
+        }
+        if let Some((last, hit)) = &*self.last.borrow()
+            && last == ray
+        {
+            return *hit;
+        }
+        let hit = self.tracer.intersect(ray, &mut self.stats.borrow_mut());
+        let hit = hit.unwrap_or_else(|InvalidSample| {
+            self.is_invalid.set(true);
+            None
+        });
+        *self.last.borrow_mut() = Some((*ray, hit));
+        hit
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::{CORRECT, SphereSubmission, scene};
+
+    #[test]
+    fn a_sample_with_an_unusable_hit_or_radiance_is_discarded() {
+        let scene = scene(
+            0.0,
+            r#""grey": { "lambertian": { "albedo": [0.5, 0.5, 0.5] } }"#,
+            r#"{ "sphere": { "center": [0, 0, -3], "radius": 1, "material": "grey" } }"#,
+        );
+        let nowhere = SphereSubmission {
+            alter: |trace| trace.position = Vec3::NAN,
+            ..CORRECT
+        };
+        let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
+        for (submission, radiance, is_valid) in [
+            (CORRECT, Vec3::ONE, true),
+            (CORRECT, Vec3::NAN, false),
+            (nowhere, Vec3::ONE, false),
+        ] {
+            let world = World::new(&submission, &scene);
+            let tracer = Tracer {
+                scene: &scene,
+                world: &world,
+            };
+            let mut stats = RenderStats::default();
+            let sample = SampleTracer::new(&tracer, &mut stats);
+            let hits = [sample.intersect(&ray), sample.intersect(&ray)].map(|hit| hit.is_some());
+            let is_usable = (submission.alter as usize) == (CORRECT.alter as usize);
+            assert_eq!(hits, [is_usable; 2]);
+            assert_eq!(sample.finish(radiance).is_ok(), is_valid);
         }
     }
 }

@@ -1,16 +1,14 @@
 //! The light that arrives from far away in directions where no shape is in the way.
 
-use std::f32::consts::{PI, TAU};
 #[cfg(feature = "cli")]
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{UVec2, Vec2, Vec3, vec2};
+use glam::{UVec2, Vec3};
 #[cfg(feature = "cli")]
 use image::{ImageFormat, ImageReader};
 
 use super::MAX_FILM_SIDE;
-use crate::math::{acos, atan2, sin_cos};
 
 /// The light of the environment.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,16 +17,6 @@ pub enum Environment {
     Constant(Vec3),
     /// A picture of all directions.
     Map(EnvironmentMap),
-}
-
-impl Environment {
-    /// Returns the radiance that arrives from a direction, which must be a unit vector.
-    pub fn radiance(&self, direction: Vec3) -> Vec3 {
-        match self {
-            Environment::Constant(radiance) => *radiance,
-            Environment::Map(map) => map.pixel(map.pixel_at(direction)),
-        }
-    }
 }
 
 /// A picture of all directions, as an equirectangular projection. The rows are evenly spaced in
@@ -75,9 +63,6 @@ impl EnvironmentMap {
                 "pixel {x},{y} of the map, counted from the top left, {why}"
             ));
         }
-        if radiance.iter().all(|pixel| *pixel == Vec3::ZERO) {
-            return Err("the map is black: leave the environment out".to_owned());
-        }
         Ok(EnvironmentMap {
             size,
             radiance: radiance.into(),
@@ -105,6 +90,10 @@ impl EnvironmentMap {
         let picture = picture.into_rgb32f();
         let size = UVec2::new(picture.width(), picture.height());
         let pixels = picture.pixels().map(|pixel| scale * Vec3::from(pixel.0));
+        if pixels.clone().all(|pixel| pixel == Vec3::ZERO) {
+            let message = "the map is black: leave the environment out";
+            return Err(in_file(message.to_owned()));
+        }
         EnvironmentMap::new(size, pixels.collect()).map_err(in_file)
     }
 
@@ -116,39 +105,6 @@ impl EnvironmentMap {
     /// Returns the pixels, row by row from the top.
     pub fn pixels(&self) -> &[Vec3] {
         &self.radiance
-    }
-
-    /// Returns the radiance of a pixel, counted from the top left.
-    pub(crate) fn pixel(&self, pixel: UVec2) -> Vec3 {
-        self.radiance[self.index(pixel)]
-    }
-
-    pub(crate) fn index(&self, pixel: UVec2) -> usize {
-        (pixel.y * self.size.x + pixel.x) as usize
-    }
-
-    /// Returns the pixel that shows a direction, which must be a unit vector.
-    pub(crate) fn pixel_at(&self, direction: Vec3) -> UVec2 {
-        let around = atan2(direction.z, direction.x) / TAU;
-        let across = vec2(
-            around.rem_euclid(1.0),
-            acos(direction.y.clamp(-1.0, 1.0)) / PI,
-        );
-        let pixel = across * self.size.as_vec2();
-        // Rounding can make the fractions 1.
-        pixel.as_uvec2().min(self.size - 1)
-    }
-
-    /// Returns the direction shown at a position in the map, and the sine of the angle between the
-    /// y-axis and that direction. The position is in pixels from the top left.
-    pub(crate) fn direction(&self, position: Vec2) -> (Vec3, f32) {
-        let part = position / self.size.as_vec2();
-        let (sin_around, cos_around) = sin_cos(TAU * part.x);
-        let (sine, cosine) = sin_cos(PI * part.y);
-        (
-            Vec3::new(sine * cos_around, cosine, sine * sin_around),
-            sine,
-        )
     }
 }
 
@@ -183,22 +139,5 @@ mod tests {
             assert_eq!(with(pixel), expected);
         }
         assert!(error(uvec2(3, 2), &[Vec3::ONE; 6]).contains("3 × 2 pixels"));
-        assert!(error(size, &[Vec3::ZERO; 8]).contains("black"));
-    }
-
-    #[test]
-    fn each_pixel_shows_the_directions_within_it() {
-        let size = uvec2(16, 8);
-        let map = EnvironmentMap::new(size, vec![Vec3::ONE; 128]).expect("the map is usable");
-        for (x, y) in (0..16).flat_map(|x| (0..8).map(move |y| (x, y))) {
-            for inside in [0.01, 0.5, 0.99] {
-                let (direction, _) = map.direction(vec2(x as f32 + inside, y as f32 + inside));
-                assert!(direction.is_normalized());
-                assert_eq!(map.pixel_at(direction), uvec2(x, y));
-            }
-        }
-        assert_eq!(map.pixel_at(Vec3::Y).y, 0);
-        assert_eq!(map.pixel_at(Vec3::NEG_Y).y, 7);
-        assert_eq!(map.pixel_at(Vec3::Z).x, 4);
     }
 }

@@ -93,7 +93,7 @@ impl Material {
 }
 
 /// Returns the albedo of a chequerboard at `uv`.
-pub(crate) fn checker(a: Vec3, b: Vec3, scale: f32, uv: Vec2) -> Vec3 {
+pub fn checker(a: Vec3, b: Vec3, scale: f32, uv: Vec2) -> Vec3 {
     let square = (uv * scale).floor();
     // Use floats, because far from zero the sum of two integers would overflow.
     let odd = (square.x + square.y).rem_euclid(2.0);

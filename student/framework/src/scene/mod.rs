@@ -26,9 +26,7 @@ use protocol::Shape;
 pub use camera::{Camera, Placement};
 pub use environment::{Environment, EnvironmentMap};
 pub use error::SceneError;
-pub use material::Material;
-
-pub(crate) use material::checker;
+pub use material::{Material, checker};
 
 /// The maximum number of primitives in a leaf of a tree that is built for a picture.
 const MAX_LEAF_SIZE: usize = 4;

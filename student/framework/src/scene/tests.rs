@@ -248,3 +248,15 @@ fn no_message_uses_the_terms_of_the_parsers_library() {
         check_words(&valid.replacen(part, value, 1));
     }
 }
+
+#[test]
+fn the_extent_covers_shapes_and_camera() {
+    let near = Scene::from_text(&scene(CAMERA, RED, SPHERE)).expect("the scene is valid");
+    assert_eq!(near.extent(), 5.0);
+    let mut far = near.clone();
+    far.camera.placement.position.z = 1.0;
+    far.shapes.clear();
+    assert_eq!(far.extent(), 1.0);
+    far.camera.placement.position.z = -50.0;
+    assert_eq!(far.extent(), 50.0);
+}

@@ -39,7 +39,7 @@ impl Request {
             Request::Boxes(queries) => queries.boxes.len() * SPAN_BYTES,
         };
         // The lists of all panics, plus a few numbers.
-        of_lists + MAX_PANICS * (PANIC_BYTES + 5) + 64
+        of_lists + (MAX_PANICS + 1) * (PANIC_BYTES + 5) + 64
     }
 }
 
@@ -93,7 +93,10 @@ impl Response {
                 let missing = opened.missing.iter().map(|(_, panic)| panic);
                 missing.chain(of_outcome(&opened.tree)).collect()
             }
-            Response::Drawn(drawn) => drawn.panics.iter().map(|(panic, _)| panic).collect(),
+            Response::Drawn(drawn) => {
+                let panics = drawn.panics.iter().map(|(panic, _)| panic);
+                panics.chain(&drawn.no_light).collect()
+            }
             Response::Tree(tree) => of_outcome(tree).into_iter().collect(),
             Response::Followed(followed) => followed.panic.iter().collect(),
             Response::Received

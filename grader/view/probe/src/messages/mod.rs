@@ -271,6 +271,8 @@ pub struct DrawnPixels {
     pub rays: u64,
     /// The number of paths that are black because a hit was unusable.
     pub invalid_paths: u64,
+    /// The reason why the shaded view is drawn in clay: part two isn't written yet.
+    pub no_light: Option<Panic>,
 }
 
 /// The values of pixels. The value of a pixel with a panic is meaningless.

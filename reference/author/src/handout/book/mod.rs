@@ -12,7 +12,7 @@ use mdbook_driver::MDBook;
 use mdbook_driver::book::{Book, BookItem};
 use mdbook_driver::errors::Error;
 
-use crate::bundle::{Bundle, archive};
+use crate::bundle::{Bundle, BundleOptions, archive};
 
 use self::formulas::render_formulas;
 use self::pages::{inline_figures, problems};
@@ -104,12 +104,20 @@ mod tests {
             "{found:?}"
         );
 
-        let bundle = Bundle::collect(&root, &RAYS, None).unwrap();
+        let bundle = Bundle::collect(&root, &RAYS, BundleOptions::default()).unwrap();
         build_for_students(&bundle, students.path()).unwrap();
         assert_eq!(mentions(students.path()), [""; 0]);
         assert!(students.path().join("sphere.html").is_file());
         assert!(!students.path().join("gradescope.html").exists());
         // The bundle accepts this book, because it has no chapters for instructors.
-        Bundle::collect(&root, &RAYS, Some(students.path())).unwrap();
+        Bundle::collect(
+            &root,
+            &RAYS,
+            BundleOptions {
+                book: Some(students.path()),
+                ..BundleOptions::default()
+            },
+        )
+        .unwrap();
     }
 }

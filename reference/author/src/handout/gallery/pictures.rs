@@ -11,7 +11,7 @@ use judging::section::CHAPTERS;
 
 use super::{Chapter, gallery};
 use crate::authoring::Authoring;
-use crate::bundle::{Bundle, archive};
+use crate::bundle::{Bundle, BundleOptions, archive};
 use crate::generated_file::Mode;
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
@@ -76,7 +76,7 @@ impl Workspace {
     /// time.
     fn create(root: &Path, authoring: &'static Authoring) -> Result<Self> {
         let folder = root.join(FOLDER);
-        let bundle = Bundle::collect(root, authoring.handed_out, None)?;
+        let bundle = Bundle::collect(root, authoring.handed_out, BundleOptions::default())?;
         archive::write_files(&bundle, &folder)?;
         let reference = Sources::reference(root, authoring.handed_out)?;
         Ok(Workspace { folder, reference })

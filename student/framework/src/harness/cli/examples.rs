@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::env;
 use std::io;
+use std::path::Path;
 use std::process::{Command, ExitCode, Output, Stdio};
 use std::time::Duration;
 
@@ -44,7 +45,8 @@ pub fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> io::Result<ExitCode> {
-    let list = cargo_test()
+    let packages = packages(&arguments.names);
+    let list = cargo_test(&packages)
         .arg("--list")
         .stderr(Stdio::inherit())
         .output()?;
@@ -64,7 +66,7 @@ fn run(arguments: &Arguments) -> io::Result<ExitCode> {
          it)"
             .to_owned(),
     );
-    let status = cargo_test()
+    let status = cargo_test(&packages)
         .args(["--include-ignored", "--format", "pretty"])
         .args(arguments.nocapture.then_some("--nocapture"))
         .args(names)
@@ -75,11 +77,32 @@ fn run(arguments: &Arguments) -> io::Result<ExitCode> {
 
 /// Returns the cargo command, to which arguments for the test harness can be appended. The command
 /// uses the release profile, so that it shares compiled dependencies with `cargo render`.
-fn cargo_test() -> Command {
+fn cargo_test(packages: &[&str]) -> Command {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
-    command.args(["test", "-q", "--release", "-p", "student", "--lib", "--"]);
+    command.args(["test", "-q", "--release", "--lib"]);
+    command.args(packages.iter().flat_map(|package| ["-p", package]));
+    command.arg("--");
     command
+}
+
+/// The packages with examples, and the folders of their sources, relative to this package.
+const PACKAGES: [(&str, &str); 2] = [("student", "../src"), ("light", "../light/src")];
+
+/// Returns the packages to test: that of the named files, or all if a name isn't that of a file. So
+/// a part that doesn't compile yet doesn't keep the other part's examples from running.
+fn packages(names: &[String]) -> Vec<&'static str> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let has = |sources: &str, name: &String| {
+        let file = format!("{}.rs", file_of_task(name));
+        folder.join(sources).join(file).is_file()
+    };
+    let is_file = |name: &String| PACKAGES.iter().any(|(_, sources)| has(sources, name));
+    let are_files = !names.is_empty() && names.iter().all(is_file);
+    let of_names = PACKAGES
+        .into_iter()
+        .filter(|(_, sources)| !are_files || names.iter().any(|name| has(sources, name)));
+    of_names.map(|(package, _)| package).collect()
 }
 
 /// Returns the paths of the examples, such as `sphere::tests::from_outside`.
@@ -94,6 +117,7 @@ fn example_paths(list: &Output) -> Vec<String> {
 fn file_of_task(name: &str) -> &str {
     match name.trim_end_matches(".rs") {
         "build" | "traverse" => "bvh",
+        "lambertian" | "specular" => "material",
         name => name,
     }
 }
@@ -126,7 +150,18 @@ fn exit_code(code: Option<i32>) -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::{filter, unknown_name};
+    use super::{filter, packages, unknown_name};
+
+    #[test]
+    fn a_file_selects_the_package_that_it_is_in() {
+        let of =
+            |names: &[&str]| packages(&names.iter().map(ToString::to_string).collect::<Vec<_>>());
+        assert_eq!(of(&["sphere", "traverse"]), ["student"]);
+        assert_eq!(of(&["specular"]), ["light"]);
+        assert_eq!(of(&["sphere", "lights.rs"]), ["student", "light"]);
+        assert_eq!(of(&["sphere", "from_outside"]), ["student", "light"]);
+        assert_eq!(of(&[]), ["student", "light"]);
+    }
 
     #[test]
     fn a_files_name_means_the_examples_in_it() {

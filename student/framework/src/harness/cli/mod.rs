@@ -8,6 +8,7 @@ mod files;
 mod image_file;
 mod options;
 mod parallel;
+mod picture;
 mod pixel;
 mod progress;
 mod slow;
@@ -30,16 +31,17 @@ use crate::harness::cli::canvas::{Canvas, Event};
 use crate::harness::cli::error::{RenderError, call};
 use crate::harness::cli::options::Options;
 use crate::harness::cli::parallel::RenderPool;
+use crate::harness::cli::picture::Picture;
 use crate::harness::cli::progress::Progress;
-use crate::harness::view::{self, ViewMode};
-use crate::render::film::{Film, Tone};
-use crate::render::renderer::{RenderStats, Renderer};
+use crate::harness::view;
+use crate::render::film::Film;
+use crate::render::renderer::{Lighting, RenderStats, Renderer};
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 
-/// Runs the command. Exit codes: 0 for success, 1 if the submission's code panicked, 2 for invalid
+/// Runs the command. Without part two, `light`, there is no shaded view. Exit codes: 0 for success, 1 if the submission's code panicked, 2 for invalid
 /// input, 130 after Ctrl-C.
-pub fn main(submission: &dyn Submission) -> ExitCode {
+pub fn main(submission: &dyn Submission, light: Option<&dyn Lighting>) -> ExitCode {
     let options = match Options::try_parse() {
         Ok(options) => options,
         Err(error) => {
@@ -53,7 +55,7 @@ pub fn main(submission: &dyn Submission) -> ExitCode {
     let events = Events::new();
     let ran = events
         .keep_picture_on_ctrl_c()
-        .and_then(|()| run(submission, &options, &events));
+        .and_then(|()| run(submission, light, &options, &events));
     match ran {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -98,6 +100,7 @@ impl Events {
 /// A scene, converted to the submission's types, and everything needed to render it.
 struct Job<'a> {
     options: &'a Options,
+    picture: &'a Picture<'a>,
     scene: &'a Scene,
     world: &'a World,
     tree: &'a Tree,
@@ -105,7 +108,12 @@ struct Job<'a> {
     out: &'a Path,
 }
 
-fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Result<(), RenderError> {
+fn run(
+    submission: &dyn Submission,
+    light: Option<&dyn Lighting>,
+    options: &Options,
+    events: &Events,
+) -> Result<(), RenderError> {
     let path = files::find_scene(&options.scene)?;
     let loading = format!("loading {}", path.display());
     let (scene, names) = stages::show(&loading, || Scene::load_with_names(&path))?;
@@ -115,37 +123,40 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
 
     let (world, tree) = &stages::build(submission, scene)?;
     stages::try_methods(submission, scene, world, tree)?;
-    if let Some(pixel) = options.pixel {
-        return pixel::print(pixel, options, scene, &names, world);
-    }
     // Trace one ray first, so that if the submission still contains a stub, the stub's panic is the
     // only message.
     let corner = UVec2::ZERO;
     call(Some(corner), || first_hit(scene, world, corner))?;
+    let picture = &Picture::new(options, light, scene, world)?;
+    if let Some(pixel) = options.pixel {
+        let renderer = picture.renderer.as_deref();
+        return pixel::print(pixel, options, scene, &names, world, renderer);
+    }
     if let Some(note) = slow::note(submission, scene, tree) {
         eprintln!("{note}");
     }
     let job = Job {
         options,
+        picture,
         scene,
         world,
         tree,
         pool,
         out,
     };
-    let renderer = options.renderer(scene, world);
-    if let (true, Some(renderer)) = (options.bench, &renderer) {
-        let measured = bench::measure(&job, renderer.as_ref())?;
+    let renderer = picture.renderer.as_deref();
+    if let (true, Some(renderer)) = (options.bench, renderer) {
+        let measured = bench::measure(&job, renderer)?;
         println!("{}", measured.compare(&files::bench_file(&path, pool))?);
         return Ok(());
     }
     let started = Instant::now();
     let (film, stats) = match renderer {
-        Some(renderer) => render_light(&job, renderer.as_ref(), events)?,
+        Some(renderer) => render_light(&job, renderer, events)?,
         None => render_hits(&job)?,
     };
     let time = started.elapsed();
-    image_file::write(&film, options.tone(), out)?;
+    image_file::write(&film, picture.tone(options), out)?;
     println!("{}", progress::summary(out, film.size, stats, time));
     if stats.invalid_paths > 0 {
         let paths = match stats.invalid_paths {
@@ -164,7 +175,7 @@ fn run(submission: &dyn Submission, options: &Options, events: &Events) -> Resul
 /// Renders a picture of first hits.
 fn render_hits(job: &Job) -> Result<(Film, RenderStats), RenderError> {
     let Job {
-        options,
+        picture: Picture { view, .. },
         scene,
         world,
         ..
@@ -176,10 +187,10 @@ fn render_hits(job: &Job) -> Result<(Film, RenderStats), RenderError> {
         first_hit(scene, world, pixel)
     };
     let hits = job.pool.render(&progress, first)?;
-    let raw = image_file::holds_numbers(job.out).then(|| view::raw_values(options.view, &hits));
+    let raw = image_file::holds_numbers(job.out).then(|| view::raw_values(*view, &hits));
     let pixels = raw
         .flatten()
-        .unwrap_or_else(|| view::picture(options.view, &hits, job.tree, scene.extent()));
+        .unwrap_or_else(|| view::picture(*view, &hits, job.tree, scene.extent()));
     Ok((Film { size, pixels }, progress.stats()))
 }
 
@@ -201,7 +212,7 @@ fn render_light(
             receiver,
             has_picture,
         } = events;
-        let (tone, finished) = (options.tone(), sender.clone());
+        let (tone, finished) = (job.picture.tone(options), sender.clone());
         has_picture.store(true, Ordering::Relaxed);
         let rendering = scope.spawn(move || {
             let sample = |pixel, sample, stats: &mut RenderStats| {
@@ -227,17 +238,6 @@ fn first_hit(scene: &Scene, world: &World, pixel: UVec2) -> Option<Trace> {
     world
         .bvh
         .closest_hit(&scene.camera.placement.to_world(&ray))
-}
-
-impl Options {
-    fn tone(&self) -> Tone {
-        match self.view {
-            ViewMode::Shaded | ViewMode::Clay => Tone::Light {
-                stops: self.exposure,
-            },
-            ViewMode::Normals | ViewMode::Depth | ViewMode::Uv | ViewMode::Bvh => Tone::Data,
-        }
-    }
 }
 
 #[cfg(test)]

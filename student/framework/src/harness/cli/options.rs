@@ -6,11 +6,7 @@ use clap::Parser;
 use glam::UVec2;
 
 use crate::harness::view::ViewMode;
-use crate::render::clay::Clay;
-use crate::render::integrator::{Integrator, PathSettings};
-use crate::render::renderer::Renderer;
-use crate::scene::{MAX_FILM_SIDE, Scene};
-use crate::submission::World;
+use crate::scene::MAX_FILM_SIDE;
 
 /// Renders a scene with your code
 #[derive(Debug, Parser)]
@@ -52,9 +48,9 @@ pub(super) struct Options {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
 
-    /// Quantity to show in the picture
-    #[arg(long, value_enum, default_value_t = ViewMode::Shaded)]
-    pub(super) view: ViewMode,
+    /// Quantity to show in the picture [default: shaded, or clay until your path tracer is written]
+    #[arg(long, value_enum)]
+    pub(super) view: Option<ViewMode>,
 
     /// Exposure: each stop doubles the brightness (PNG only)
     #[arg(
@@ -75,26 +71,6 @@ pub(super) struct Options {
     /// the result with that of the last run
     #[arg(long, conflicts_with_all = ["out", "out_option", "pixel", "view", "samples"])]
     pub(super) bench: bool,
-}
-
-impl Options {
-    /// Returns the renderer for the view, or `None` for a view of first hits. `world` must be made
-    /// from `scene`.
-    pub(super) fn renderer<'a>(
-        &self,
-        scene: &'a Scene,
-        world: &'a World,
-    ) -> Option<Box<dyn Renderer + 'a>> {
-        let Options { bounces, seed, .. } = *self;
-        match self.view {
-            ViewMode::Shaded => {
-                let settings = PathSettings { bounces, seed };
-                Some(Box::new(Integrator::new(scene, world, settings)))
-            }
-            ViewMode::Clay => Some(Box::new(Clay::new(scene, world, seed))),
-            ViewMode::Normals | ViewMode::Depth | ViewMode::Uv | ViewMode::Bvh => None,
-        }
-    }
 }
 
 fn size(text: &str) -> Result<UVec2, String> {

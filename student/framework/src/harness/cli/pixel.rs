@@ -9,7 +9,7 @@ use protocol::{Shape, Trace};
 use super::error::{RenderError, call};
 use super::first_hit;
 use super::options::Options;
-use crate::render::renderer::RenderStats;
+use crate::render::renderer::{RenderStats, Renderer};
 use crate::scene::{Material, Scene};
 use crate::submission::World;
 
@@ -21,6 +21,7 @@ pub(super) fn print(
     scene: &Scene,
     names: &[String],
     world: &World,
+    renderer: Option<&dyn Renderer>,
 ) -> Result<(), RenderError> {
     let size = scene.camera.pinhole.film;
     if pixel.cmpge(size).any() {
@@ -31,7 +32,7 @@ pub(super) fn print(
     let hit = call(Some(pixel), || first_hit(scene, world, pixel))?;
     print!("{}", description(pixel, scene, names, hit.as_ref()));
 
-    let Some(renderer) = options.renderer(scene, world) else {
+    let Some(renderer) = renderer else {
         return Ok(());
     };
     let mut stats = RenderStats {

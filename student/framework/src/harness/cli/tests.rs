@@ -4,13 +4,15 @@ use std::fs;
 use std::path::Path;
 
 use clap::Parser;
-use glam::Vec3;
+use glam::{UVec2, Vec3};
 use protocol::Ray;
 
 use super::options::Options;
 use super::{Events, run};
 use crate::harness::attempt::keep_panics_quiet;
-use crate::submission::Submission;
+use crate::render::renderer::{InvalidSample, Lighting, PathSettings, RenderStats, Renderer};
+use crate::scene::Scene;
+use crate::submission::{Submission, World};
 use crate::tests::{CORRECT, Folder, SphereSubmission};
 
 const SCENE: &str = r#"{
@@ -28,16 +30,47 @@ const SCENE: &str = r#"{
   ]
 }"#;
 
-/// Runs the command with the output file `out` and the additional arguments `more`. Returns the
-/// bytes of the file, or the error message.
+/// A path tracer for tests, in which every sample has the same radiance.
+#[derive(Clone, Copy)]
+struct TestLight(fn() -> Vec3);
+
+impl Lighting for TestLight {
+    fn path_tracer<'a>(
+        &self,
+        _: &'a Scene,
+        _: &'a World,
+        _: PathSettings,
+    ) -> Box<dyn Renderer + 'a> {
+        Box::new(*self)
+    }
+}
+
+impl Renderer for TestLight {
+    fn trace_sample(&self, _: UVec2, _: u32, _: &mut RenderStats) -> Result<Vec3, InvalidSample> {
+        let TestLight(sample) = self;
+        Ok(sample())
+    }
+}
+
+/// Runs the command without part two, with the output file `out` and the additional arguments
+/// `more`. Returns the bytes of the file, or the error message.
 fn render(submission: &dyn Submission, out: &str, more: &str) -> Result<Vec<u8>, String> {
+    render_in(None, submission, out, more)
+}
+
+fn render_in(
+    light: Option<&dyn Lighting>,
+    submission: &dyn Submission,
+    out: &str,
+    more: &str,
+) -> Result<Vec<u8>, String> {
     let folder = Folder::new();
     let scene = folder.write("spheres.json", SCENE).display().to_string();
     let out = folder.0.join(out).display().to_string();
     let arguments = ["render", &scene, &out].into_iter();
     let options = Options::try_parse_from(arguments.chain(more.split_whitespace()));
     let options = options.map_err(|error| error.to_string())?;
-    run(submission, &options, &Events::new()).map_err(|error| error.to_string())?;
+    run(submission, light, &options, &Events::new()).map_err(|error| error.to_string())?;
     fs::read(out).map_err(|error| error.to_string())
 }
 
@@ -58,19 +91,41 @@ fn any_number_of_threads_writes_the_same_bytes() {
 
 #[test]
 fn the_upper_rows_of_the_picture_come_first_in_the_file() {
-    let bytes = picture("a.png", "--size 3x3 --bounces 0");
+    let bytes = picture("a.png", "--size 3x3 --view normals");
     let picture = image::load_from_memory(&bytes).expect("the file is a PNG");
     let picture = picture.to_rgb8();
-    // The light fills most of the upper pixel, and the lower pixel shows only the environment.
-    assert_eq!(picture.get_pixel(1, 0).0[0], 255);
-    assert_eq!(picture.get_pixel(1, 2).0, [188, 203, 218]);
+    // The upper pixel shows the light, and below the horizon nothing is hit.
+    assert_ne!(picture.get_pixel(1, 0).0, [0; 3]);
+    assert_eq!(picture.get_pixel(1, 2).0, [0; 3]);
 }
 
 #[test]
 fn every_view_can_be_rendered() {
+    let light = TestLight(|| Vec3::splat(0.5));
     for view in ["shaded", "clay", "normals", "depth", "uv", "bvh"] {
-        picture("a.png", &format!("--samples 1 --view {view}"));
+        let more = format!("--samples 1 --view {view}");
+        render_in(Some(&light), &CORRECT, "a.png", &more).expect("rendering succeeds");
     }
+}
+
+#[test]
+fn pictures_are_drawn_in_clay_until_part_two_is_written() {
+    keep_panics_quiet();
+    let with = |light: fn() -> Vec3, more: &str| {
+        render_in(Some(&TestLight(light)), &CORRECT, "a.png", more)
+    };
+    let unwritten = || todo!("part two, path: how much light?");
+    let clay = picture("a.png", "--view clay");
+    assert!(picture("a.png", "") == clay);
+    assert!(with(unwritten, "").as_ref() == Ok(&clay));
+    assert!(with(|| Vec3::ONE, "") == with(|| Vec3::ONE, "--view shaded"));
+    let error = with(unwritten, "--view shaded").expect_err("there is no light");
+    assert!(
+        error.starts_with("part two, path: not written yet"),
+        "{error}"
+    );
+    let error = render(&CORRECT, "a.png", "--view shaded").expect_err("there is no part two");
+    assert!(error.contains("use `cargo render`"), "{error}");
 }
 
 #[test]
@@ -152,7 +207,7 @@ fn an_exr_file_holds_the_distances_themselves() {
 #[test]
 fn reports_the_name_of_a_missing_scene() {
     let options = Options::try_parse_from(["render", "no-such-scene"]).expect("the options parse");
-    let message = run(&CORRECT, &options, &Events::new())
+    let message = run(&CORRECT, None, &options, &Events::new())
         .expect_err("the scene does not exist")
         .to_string();
     let expected = "cannot find the scene no-such-scene";

@@ -2,21 +2,28 @@
 
 use std::process::Command;
 
-use framework::render::integrator::{Integrator, PathSettings};
-use framework::render::renderer::{RenderStats, Renderer};
+use framework::render::renderer::{Lighting, PathSettings, RenderStats};
 use framework::scene::Scene;
 use framework::submission::World;
 use glam::UVec2;
 use reference::world::Student;
+use reference_light::integrator::Light;
 
 /// A note saying that a picture takes a long time would be wrong, because the reference's traversal
 /// uses the tree.
 #[test]
 fn the_reference_renders_every_scene_without_a_note() {
-    let workspace = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let workspace = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let out = std::env::temp_dir().join(format!("render-{}.png", std::process::id()));
-    for scene in ["cornell-box", "checkered-teapot", "flat", "spheres", "wide"] {
-        let command = Command::new(env!("CARGO_BIN_EXE_reference"))
+    for scene in [
+        "cornell-box",
+        "checkered-teapot",
+        "flat",
+        "open-sky",
+        "spheres",
+        "wide",
+    ] {
+        let command = Command::new(env!("CARGO_BIN_EXE_reference-light"))
             .current_dir(workspace)
             .args([scene, "--size", "16x16", "--samples", "1", "--out"])
             .arg(&out)
@@ -52,13 +59,13 @@ fn the_floor_beside_a_light_has_no_bright_specks() {
         bounces: 1,
         seed: 1,
     };
-    let integrator = Integrator::new(&scene, &world, settings);
+    let path_tracer = Light.path_tracer(&scene, &world, settings);
     let mut stats = RenderStats::default();
     // The lower half of the picture shows only the floor.
     let pixels = (0..8).flat_map(|y| (0..16).map(move |x| UVec2::new(x, y)));
     let samples = pixels.flat_map(|pixel| (0..64).map(move |sample| (pixel, sample)));
     let light =
-        samples.map(|(pixel, sample)| integrator.sample_radiance(pixel, sample, &mut stats).x);
+        samples.map(|(pixel, sample)| path_tracer.sample_radiance(pixel, sample, &mut stats).x);
     let light: Vec<f32> = light.collect();
     let brightest = light.iter().copied().fold(0.0, f32::max);
     let mean = light.iter().sum::<f32>() / light.len() as f32;

@@ -39,7 +39,7 @@ impl LightFiles {
     /// Generates the files from the reference in the workspace at `root`.
     pub fn generate(self, root: &Path) -> Result<Vec<GeneratedFile>> {
         let mut generated = Vec::new();
-        for path in files::read_dir(&root.join(REFERENCE))? {
+        for path in files::read_dir(root.join(REFERENCE))? {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let source = files::read_to_string(&path)?;
             let is_solved = self == LightFiles::Solved && FILES.contains(&&*name);

@@ -12,7 +12,7 @@ use mdbook_driver::MDBook;
 use mdbook_driver::book::{Book, BookItem};
 use mdbook_driver::errors::Error;
 
-use crate::bundle::{Bundle, BundleOptions, archive};
+use crate::bundle::{Bundle, archive};
 
 use self::formulas::render_formulas;
 use self::pages::{inline_figures, problems};
@@ -79,6 +79,7 @@ mod tests {
     use grader::handed_out::RAYS;
 
     use super::*;
+    use crate::bundle::BundleOptions;
 
     /// Returns the names of the book's files that mention the chapter about Gradescope.
     fn mentions(book: &Path) -> Vec<String> {

@@ -114,13 +114,16 @@ pub(super) fn blame(
         let Some(mut why) = NotCompiled::of_errors(file.name, of_file.clone()) else {
             continue;
         };
-        let is_elsewhere = !of_file
-            .into_iter()
-            .any(|error| error.originates_in(file.name));
+        let is_elsewhere = !of_file.clone().any(|error| error.originates_in(file.name));
         let text = text.as_ref().ok().filter(|_| is_elsewhere);
         let changed = text.and_then(|text| changed_declaration(file, text));
-        if let (NotCompiled::Error { text, .. }, Some(changed)) = (&mut why, changed) {
-            *text += &how_to_restore(file, &changed);
+        let is_all_elsewhere = of_file
+            .into_iter()
+            .all(|error| error.line_of_text(file.name).is_none());
+        if let NotCompiled::Error { text, .. } = &mut why
+            && (changed.is_some() || is_all_elsewhere)
+        {
+            *text += &how_to_restore(file, changed);
         }
         not_compiled.entry(file.name).or_insert(why);
     }
@@ -150,25 +153,26 @@ pub(super) fn because_of(
         let mut files = submission.files.iter();
         let own = files.find(|(other, _)| other.name == file.name);
         let own = own.and_then(|(_, own)| own.as_ref().ok());
-        *text += &match own.and_then(|own| changed_declaration(file, own)) {
-            Some(changed) => how_to_restore(file, &changed),
-            None => format!(
-                "\n\n{RESTORE_LABEL}what you have changed or removed in {0}, such as a field, a method or a \
-                 `derive`. The other files compile with the starter's {0}.",
-                file.name
-            ),
-        };
+        let changed = own.and_then(|own| changed_declaration(file, own));
+        *text += &how_to_restore(file, changed);
     }
     why
 }
 
-fn how_to_restore(file: &TaskFile, changed: &ChangedDeclaration) -> String {
-    let ChangedDeclaration { now, handed_out } = changed;
-    format!(
-        "\n\n{RESTORE_LABEL}the starter's declaration in {}, which the given code relies on:\n  now         \
-         {now}\n  handed out  {handed_out}",
-        file.name
-    )
+/// Returns advice on a file that causes errors in other files.
+fn how_to_restore(file: &TaskFile, changed: Option<ChangedDeclaration>) -> String {
+    match changed {
+        Some(ChangedDeclaration { now, handed_out }) => format!(
+            "\n\n{RESTORE_LABEL}the starter's declaration in {}, which the given code relies on:\n  \
+             now         {now}\n  handed out  {handed_out}",
+            file.name
+        ),
+        None => format!(
+            "\n\n{RESTORE_LABEL}what you have changed or removed in {}, such as a field, a method or a \
+             `derive`: other files rely on it.",
+            file.name
+        ),
+    }
 }
 
 /// Records the same reason for all remaining files.

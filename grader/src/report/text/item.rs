@@ -106,10 +106,13 @@ pub(super) fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -
         let line = sanitize_line(line, WIDTH - 5);
         writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;
     }
-    match printed.lines().count().saturating_sub(MAX_PRINTED_LINES) {
-        0 => Ok(()),
-        more => writeln!(out, "  {FAINT}and {}{FAINT:#}", counted(more, "more line")),
+    if printed.lines().count() > MAX_PRINTED_LINES {
+        writeln!(
+            out,
+            "  {FAINT}and more: `--replay` shows everything{FAINT:#}"
+        )?;
     }
+    Ok(())
 }
 
 #[cfg(test)]

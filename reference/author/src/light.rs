@@ -24,7 +24,7 @@ pub const FILES: [&str; 5] = [
 /// The first line of the worked examples at the end of a file.
 const EXAMPLES: &str = "#[cfg(test)]\n";
 
-/// The form in which students get part two.
+/// Whether students get part two solved or as stubs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LightFiles {
     /// The solution: students write part one, and its pictures are in full light.

@@ -55,8 +55,8 @@ pub struct Lights {
 }
 
 impl AreaLight {
-    /// Creates a light in the shape of a parallelogram, which emits on the side from which the
-    /// first edge turns counterclockwise to the second.
+    /// Creates a light in the shape of a parallelogram. It emits on the side where the first edge
+    /// is seen to turn counterclockwise to the second.
     pub fn parallelogram(corner: Vec3, edges: [Vec3; 2], radiance: Vec3) -> Self {
         let [e0, e1] = edges;
         let cross = e0.cross(e1);
@@ -73,8 +73,8 @@ impl AreaLight {
         }
     }
 
-    /// Creates a light in the shape of a triangle, which emits on the side from which its corners
-    /// are in counterclockwise order.
+    /// Creates a light in the shape of a triangle. It emits on the side where its corners are seen
+    /// in counterclockwise order.
     pub fn triangle([p0, p1, p2]: [Vec3; 3], radiance: Vec3) -> Self {
         let whole = AreaLight::parallelogram(p0, [p1 - p0, p2 - p0], radiance);
         AreaLight {
@@ -225,7 +225,7 @@ impl Lights {
     /// - `random` picks the point on that light: see [`AreaLight::point`]. The result is the
     ///   direction to that point, of length one.
     /// - The result is `None` if there are no lights, and if the light that was picked faces away:
-    ///   then it isn't replaced by another one.
+    ///   no other light is picked instead.
     /// - Nothing blocks a light here, neither shapes nor other lights.
     pub fn sample(&self, from: Vec3, choice: f32, random: Vec2) -> Option<Vec3> {
         // solution
@@ -247,8 +247,8 @@ impl Lights {
         // end solution
     }
 
-    /// Returns the probability density, per solid angle, with which [`Lights::sample`] returns a
-    /// direction from a point.
+    /// Returns the probability density, per solid angle, of a direction from a point if
+    /// [`Lights::sample`] chooses it.
     ///
     /// - Every light in that direction adds its density, given by [`Light::pdf`], times the
     ///   probability that it is picked. A light adds it even where another light is in front of it.

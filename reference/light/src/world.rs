@@ -120,8 +120,8 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Returns the probability density, per solid angle, with which [`World::sample_light`] returns
-    /// this direction, which must be a unit vector.
+    /// Returns the probability density, per solid angle, of this direction if
+    /// [`World::sample_light`] chooses it. The direction must be a unit vector.
     pub fn light_pdf(&self, from: Vec3, direction: Vec3) -> f32 {
         let LightSources { lights, sky } = self.sources;
         match sky {

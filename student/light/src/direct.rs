@@ -32,7 +32,7 @@ use crate::world::{Material, Surface, World};
 ///   environment, if nothing is in the way: see [`World::emitted`].
 /// - A direction with a density of zero, or with `evaluate` zero, adds nothing.
 /// - Only matte surfaces look for direct light. The result is zero for all others, because a
-///   direction toward a light is never one in which they reflect.
+///   direction toward a light is never exactly the one they reflect to.
 pub fn direct(world: &World, surface: &Surface, numbers: &RandomNumbers) -> Vec3 {
     let _ = (world, numbers);
     let material = surface.material;

@@ -59,7 +59,7 @@ impl Environment {
         (pixel.y * size.x + pixel.x) as usize
     }
 
-    /// Samples a direction in which the map is bright, with random numbers in `[0, 1)`.
+    /// Samples a direction where the map is bright, with random numbers in `[0, 1)`.
     ///
     /// - `choice` picks the pixel: a pixel's share of `[0, 1)` is its share of the weights, row by
     ///   row from the top. Numbers at the border between two pixels are not tested.
@@ -69,9 +69,9 @@ impl Environment {
         todo!("part two, environment: which direction is {random:?} in pixel {choice}?")
     }
 
-    /// Returns the probability density, per solid angle, with which [`Environment::sample`] returns
-    /// a direction, which must be a unit vector: share · width · height / (2π² · sin θ), where
-    /// `share` is the pixel's share of the weights, and θ that of the direction itself.
+    /// Returns the probability density, per solid angle, of a direction if [`Environment::sample`]
+    /// chooses it: share · width · height / (2π² · sin θ), where `share` is the pixel's share of the
+    /// weights, and θ that of the direction itself. The direction must be a unit vector.
     ///
     /// - The given [`Environment::index`] finds the pixel.
     /// - The result is zero for a black pixel, and everywhere if all pixels are black.

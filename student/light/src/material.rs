@@ -25,7 +25,7 @@ use glam::{Vec2, Vec3};
 /// A sampled continuation of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scattered {
-    /// The direction in which the path continues.
+    /// The direction of the rest of the path.
     pub direction: Vec3,
     /// The factor, for each colour channel, applied to the light from this direction: the scattered
     /// fraction per solid angle, times the cosine, divided by the probability density.
@@ -66,8 +66,8 @@ impl Lambertian {
         todo!("part two, lambertian: how much does {self:?} scatter from {incoming:?} to {out:?}?")
     }
 
-    /// Returns the probability density, per solid angle, with which [`Lambertian::scatter`] samples
-    /// `incoming`: cos θ / π.
+    /// Returns the probability density, per solid angle, of `incoming` if [`Lambertian::scatter`]
+    /// chooses it: cos θ / π.
     ///
     /// - The result is zero unless both directions are above the surface (z > 0).
     pub fn pdf(&self, out: Vec3, incoming: Vec3) -> f32 {

@@ -26,7 +26,7 @@ const MAX_JUDGED: u32 = 500;
 pub(crate) struct Renderers<'a> {
     stage: &'a OpenScene<'a>,
     lighting: &'a dyn Lighting,
-    /// The path tracer, or the reason why there is none. It is only created for the shaded view, so
+    /// The path tracer, or why there is none. It is only created for the shaded view, so
     /// that no other view needs part two.
     path_tracer: OnceCell<Result<Box<dyn Renderer + 'a>, Panic>>,
     clay: Clay<'a>,
@@ -58,7 +58,7 @@ impl<'a> Renderers<'a> {
         }
     }
 
-    /// Returns the reason why there is no path tracer, if one was needed.
+    /// Returns why there is no path tracer, if one was needed.
     fn no_light(&self) -> Option<Panic> {
         self.path_tracer.get()?.as_ref().err().cloned()
     }

@@ -71,7 +71,7 @@ pub struct Session {
     /// Whether each request draws a single pixel, in order to find the one that ends the program.
     is_careful: bool,
     invalid_paths: u64,
-    /// The reason why the shaded view is drawn in clay.
+    /// Why the shaded view is drawn in clay.
     no_light: Option<Panic>,
     pub(crate) light: Layer<Vec3>,
     pub(crate) clay: Layer<Vec3>,

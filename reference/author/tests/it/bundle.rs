@@ -75,7 +75,7 @@ fn line_with(path: &str, part: &str) -> String {
         .to_owned()
 }
 
-/// Unpacks the bundle with these files of part two, and returns what is found in it.
+/// Unpacks the bundle with these files of part two and returns the leaks found in it.
 fn leaks_with(light: LightFiles, name: &str) -> (Bundle, Vec<Leak>) {
     let folder = TempDir::new().unwrap();
     let archive = folder.path().join("pathtracing.zip");

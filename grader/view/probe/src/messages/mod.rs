@@ -271,7 +271,7 @@ pub struct DrawnPixels {
     pub rays: u64,
     /// The number of paths that are black because a hit was unusable.
     pub invalid_paths: u64,
-    /// The reason why the shaded view is drawn in clay: part two isn't written yet.
+    /// Why the shaded view is drawn in clay: part two isn't written yet.
     pub no_light: Option<Panic>,
 }
 

@@ -46,14 +46,21 @@ fn exam_text(authoring: &'static Authoring, id: &str, seed: Seed) -> Result<Stri
 
 /// Generates an exam without hints. The reference renders its pictures.
 pub fn generate(id: &str, seed: Seed, solutions: &Solutions) -> Result<Exam> {
-    let exam = assemble(solutions.workbench.authoring(), id, seed);
+    let exam = assemble(solutions.workbench.authoring(), id, seed)?;
     solutions.recorder.record(exam)
 }
 
 /// Assembles an exam without hints or recorded pictures. Each item comes after the items it needs.
-pub fn assemble(authoring: &Authoring, id: &str, seed: Seed) -> Exam {
-    let assignment = authoring.handed_out.assignment;
-    Exam::new(assignment, id, items::items(authoring.tasks, seed))
+/// A final exam shares no question with the practice exam that students have.
+pub fn assemble(authoring: &Authoring, id: &str, seed: Seed) -> Result<Exam> {
+    let handed_out = authoring.handed_out;
+    let practice = if seed == Seed::PRACTICE {
+        Vec::new()
+    } else {
+        ExamSource::Practice.load(handed_out)?.exam.items
+    };
+    let items = items::items(authoring.tasks, seed, &practice);
+    Ok(Exam::new(handed_out.assignment, id, items))
 }
 
 /// Writes the exam as JSON with one item per line, so that a diff shows which items changed.

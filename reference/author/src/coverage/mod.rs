@@ -134,7 +134,7 @@ impl Coverage {
         let function = domain.function();
         let classes = Classes::count(domain, &exam.items);
         let mut reasons: Vec<&str> = Vec::new();
-        let columns = &classes.columns;
+        let columns = &classes.columns();
         let mut rows = String::new();
         for cells in classes.cells(domain).chunks(columns.len().max(1)) {
             rows += &format!("| {} | {} |", cells[0].aspect, cells[0].class);

@@ -16,10 +16,8 @@ const ABSENT: &str = "`None`";
 
 /// How often each class of each aspect is tested, counted separately for hits, for misses and for
 /// each quantity of a hit.
-#[derive(Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Classes {
-    /// The columns that occur.
-    pub columns: Vec<String>,
     counts: BTreeMap<(usize, usize, String), usize>,
     /// How often each pair of classes is tested.
     pairs: BTreeMap<[(usize, usize); 2], usize>,
@@ -28,24 +26,23 @@ pub struct Classes {
 impl Classes {
     /// Counts the calls to a function in an exam's items.
     pub fn count<'a>(domain: &dyn Domain, items: impl IntoIterator<Item = &'a Item>) -> Self {
-        let mut counted = Classes {
-            columns: Vec::new(),
-            counts: BTreeMap::new(),
-            pairs: BTreeMap::new(),
-        };
+        let items: Vec<Classes> = items
+            .into_iter()
+            .map(|item| Classes::of_item(domain, item))
+            .collect();
+        Classes::sum(&items)
+    }
+
+    /// Counts the calls to a function in an item.
+    pub fn of_item(domain: &dyn Domain, item: &Item) -> Self {
+        let mut counted = Classes::default();
         let pairs = pairs_of_aspects(domain);
-        let mut judged_anywhere = BTreeSet::new();
-        let questions = items.into_iter().flat_map(|item| {
-            let before = item.questions.iter().map(|asked| Some(&asked.question));
-            item.questions
-                .iter()
-                .zip(std::iter::once(None).chain(before))
-        });
-        for (asked, before) in questions {
+        let before = item.questions.iter().map(|asked| Some(&asked.question));
+        let before = std::iter::once(None).chain(before);
+        for (asked, before) in item.questions.iter().zip(before) {
             let calls = domain.classes(&asked.question, before);
             let Key::Table { judged, rows, .. } = &asked.key else {
                 let judged = judged_of_tree(&asked.key);
-                judged_anywhere.extend(judged.iter().map(|&name| name.to_owned()));
                 counted.add_all(&pairs, &calls, |_| {
                     std::iter::once(PRESENT)
                         .chain(judged.iter().copied())
@@ -53,7 +50,6 @@ impl Classes {
                 });
                 continue;
             };
-            judged_anywhere.extend(judged.iter().cloned());
             counted.add_all(&pairs, &calls, |row| {
                 if rows.is_present(row) {
                     let quantities = judged.iter().map(String::as_str);
@@ -63,14 +59,30 @@ impl Classes {
                 }
             });
         }
-        let used: BTreeSet<String> = counted.counts.keys().map(|key| key.2.clone()).collect();
-        let quantities = judged_anywhere.into_iter().filter(|it| used.contains(it));
-        let fixed = [PRESENT, ABSENT].map(str::to_owned).into_iter();
-        counted.columns = fixed
-            .filter(|it| used.contains(it))
-            .chain(quantities)
-            .collect();
         counted
+    }
+
+    /// Adds up the counts of several items.
+    pub fn sum<'a>(items: impl IntoIterator<Item = &'a Classes>) -> Self {
+        let mut sum = Classes::default();
+        for Classes { counts, pairs } in items {
+            for (key, count) in counts {
+                *sum.counts.entry(key.clone()).or_default() += count;
+            }
+            for (key, count) in pairs {
+                *sum.pairs.entry(*key).or_default() += count;
+            }
+        }
+        sum
+    }
+
+    /// Returns the columns that occur.
+    pub fn columns(&self) -> Vec<String> {
+        let used: BTreeSet<&str> = self.counts.keys().map(|key| key.2.as_str()).collect();
+        let fixed = [PRESENT, ABSENT];
+        let quantities = used.iter().filter(|it| !fixed.contains(it));
+        let columns = fixed.iter().filter(|it| used.contains(*it));
+        columns.chain(quantities).map(|&it| it.to_owned()).collect()
     }
 
     fn add_all<'a>(
@@ -98,10 +110,10 @@ impl Classes {
     /// Returns a cell for each class in each column: all cells for the first class, then those for
     /// the second, and so on.
     pub fn cells(&self, domain: &dyn Domain) -> Vec<Cell> {
-        let mut cells = Vec::new();
+        let (columns, mut cells) = (self.columns(), Vec::new());
         for (aspect, (name, classes)) in domain.aspects().into_iter().enumerate() {
             for (class, class_name) in classes.iter().enumerate() {
-                for column in &self.columns {
+                for column in &columns {
                     let key = (aspect, class, column.clone());
                     cells.push(Cell {
                         aspect: name,

@@ -1,8 +1,8 @@
 //! Draws items again until every exam tests every class of each task's domain.
 
-use std::collections::BTreeMap;
 use std::mem;
-use std::sync::{Arc, Mutex};
+
+use judging::exam::Item;
 
 use super::declaration::{AuthoredTask, Declaration, DeclaredItem};
 use super::distinct::draw_distinct;
@@ -13,30 +13,21 @@ use crate::seed::Seed;
 /// The maximum number of times each item is drawn again.
 const ATTEMPTS: usize = 96;
 
-/// Draws the items of a task. In a final exam, the questions of an item differ from those of the
-/// same item in the practice exam.
+/// Draws the items of a task. The questions of an item differ from those of the same item in the
+/// practice exam, if `practice` contains one.
 pub(super) fn draw_items(
     seed: Seed,
     task: &AuthoredTask,
     items: &[Declaration],
+    practice: &[Item],
 ) -> Vec<DeclaredItem> {
-    if seed == Seed::PRACTICE {
-        return draw_complete(seed, task, items, |seed, index| items[index].draw(seed));
-    }
-    let practice = practice_items(task, items);
     draw_complete(seed, task, items, |seed, index| {
-        draw_distinct(seed, &items[index], practice[index].item())
+        let item = &items[index];
+        match practice.iter().find(|it| it.id == item.id) {
+            Some(practice) => draw_distinct(seed, item, practice),
+            None => item.draw(seed),
+        }
     })
-}
-
-/// Returns the items of the practice exam. They are drawn only once, even if many exams are
-/// generated.
-fn practice_items(task: &AuthoredTask, items: &[Declaration]) -> Arc<Vec<DeclaredItem>> {
-    static DRAWN: Mutex<BTreeMap<Vec<&str>, Arc<Vec<DeclaredItem>>>> = Mutex::new(BTreeMap::new());
-    let mut drawn = DRAWN.lock().expect("no item panics while it is drawn");
-    let known = drawn.entry(items.iter().map(|item| item.id).collect());
-    let practice = known.or_insert_with(|| Arc::new(draw_items(Seed::PRACTICE, task, items)));
-    Arc::clone(practice)
 }
 
 /// Draws the items of a task. While any class of the task's domain is missing, items that could
@@ -57,21 +48,33 @@ fn draw_complete(
     let Some(domain) = task.domain else {
         return finished;
     };
-    let mut missing = missing_columns(domain, &finished);
+    let count = |item: &DeclaredItem| Classes::of_item(domain, item.item());
+    let mut counts: Vec<Classes> = finished.iter().map(count).collect();
+    let mut missing = missing_columns(domain, &counts);
     let mut seeds = vec![seed; items.len()];
     for index in (0..ATTEMPTS).flat_map(|_| 0..items.len()) {
         if missing.is_empty() {
             break;
         }
-        if !asks_any(domain, &drawn[index], &missing) {
+        if !tests_any(&counts[index], &missing) {
             continue;
         }
         seeds[index] = seeds[index].next();
         let before = mem::replace(&mut drawn[index], draw(seeds[index], index));
-        let other = finish(&drawn);
-        let still_missing = missing_columns(domain, &other);
+        let others = finish(&drawn);
+        // Only a few items have changed.
+        let recounted = others.iter().zip(&finished).zip(&counts);
+        let recounted = recounted.map(|((other, item), counted)| {
+            if other.item() == item.item() {
+                counted.clone()
+            } else {
+                count(other)
+            }
+        });
+        let other_counts: Vec<Classes> = recounted.collect();
+        let still_missing = missing_columns(domain, &other_counts);
         if still_missing.len() < missing.len() {
-            (finished, missing) = (other, still_missing);
+            (finished, counts, missing) = (others, other_counts, still_missing);
         } else {
             drawn[index] = before;
         }
@@ -80,8 +83,8 @@ fn draw_complete(
 }
 
 /// Returns the column of each missing class, and an empty name for each missing pair of classes.
-fn missing_columns(domain: &dyn Domain, drawn: &[DeclaredItem]) -> Vec<String> {
-    let classes = Classes::count(domain, drawn.iter().map(DeclaredItem::item));
+fn missing_columns(domain: &dyn Domain, counts: &[Classes]) -> Vec<String> {
+    let classes = Classes::sum(counts);
     let cells = classes.cells(domain).into_iter();
     let cells = cells
         .filter(|cell| cell.is_missing())
@@ -93,8 +96,8 @@ fn missing_columns(domain: &dyn Domain, drawn: &[DeclaredItem]) -> Vec<String> {
 
 /// Returns whether an item tests the domain's function in at least one of these columns. An empty
 /// name stands for any column.
-fn asks_any(domain: &dyn Domain, item: &DeclaredItem, columns: &[String]) -> bool {
-    let asked = Classes::count(domain, [item.item()]).columns;
-    let is_asked = |column: &String| column.is_empty() || asked.contains(column);
-    !asked.is_empty() && columns.iter().any(is_asked)
+fn tests_any(counts: &Classes, columns: &[String]) -> bool {
+    let tested = counts.columns();
+    let is_tested = |column: &String| column.is_empty() || tested.contains(column);
+    !tested.is_empty() && columns.iter().any(is_tested)
 }

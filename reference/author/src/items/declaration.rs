@@ -34,15 +34,15 @@ impl AuthoredTask {
         domain: None,
     };
 
-    /// Draws the items.
-    pub fn draw(&self, seed: Seed) -> Vec<DeclaredItem> {
+    /// Draws the items. Their questions differ from those of the items in `practice`.
+    pub fn draw(&self, seed: Seed, practice: &[Item]) -> Vec<DeclaredItem> {
         let declarations = self.items.iter().map(|item| {
             let mut points = self.points.iter();
             let found = points.find(|(id, _)| *id == item.id);
             let points = found.map_or(item.points, |(_, points)| *points);
             Declaration { points, ..*item }
         });
-        complete::draw_items(seed, self, &declarations.collect::<Vec<_>>())
+        complete::draw_items(seed, self, &declarations.collect::<Vec<_>>(), practice)
     }
 }
 

@@ -59,9 +59,10 @@ const POINTS: &[(&str, u32)] = &[
     ("traverse.skips_missed", 2),
 ];
 
-/// Returns the items of an exam. Each item comes after the items that it needs.
-pub fn items(tasks: &[&AuthoredTask], seed: Seed) -> Vec<Item> {
-    let all = tasks.iter().flat_map(|task| task.draw(seed));
+/// Returns the items of an exam. Each item comes after the items that it needs. No question is the
+/// same as in the items of the practice exam.
+pub fn items(tasks: &[&AuthoredTask], seed: Seed, practice: &[Item]) -> Vec<Item> {
+    let all = tasks.iter().flat_map(|task| task.draw(seed, practice));
     resolve(all.collect())
 }
 
@@ -69,7 +70,7 @@ pub fn items(tasks: &[&AuthoredTask], seed: Seed) -> Vec<Item> {
 #[cfg(test)]
 pub(crate) fn exam_of_boxes() -> judging::exam::Exam {
     static EXAM: std::sync::LazyLock<judging::exam::Exam> = std::sync::LazyLock::new(|| {
-        let items = resolve(bbox::TASK.draw(Seed(1)));
+        let items = resolve(bbox::TASK.draw(Seed(1), &[]));
         judging::exam::Exam::new(&judging::assignment::RAYS, "test", items)
     });
     EXAM.clone()

@@ -12,7 +12,7 @@ const SEEDS: [u64; 4] = [2025, 1, 2, 3];
 /// Returns the questions of `build.one_split` except the last, which is a control. In each question
 /// returned, one split is best.
 fn one_split(seed: u64) -> Vec<ExamQuestion> {
-    let items = resolve(build::TASK.draw(Seed(seed)));
+    let items = resolve(build::TASK.draw(Seed(seed), &[]));
     let item = items.into_iter().find(|item| item.id == "build.one_split");
     let mut questions = item.expect("the item exists").questions;
     questions.pop().expect("the control is the last question");

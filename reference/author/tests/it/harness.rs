@@ -80,5 +80,5 @@ pub fn exam_of(seed: u64) -> &'static Exam {
 
 /// Generates an exam without recording its rendered picture.
 fn make_exam(seed: u64) -> Exam {
-    assemble(&authoring::RAYS, "test", Seed(seed))
+    assemble(&authoring::RAYS, "test", Seed(seed)).expect("the practice exam is valid")
 }

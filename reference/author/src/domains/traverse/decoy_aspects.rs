@@ -28,8 +28,19 @@ pub(super) const KIND: Aspect<TraverseCall> = Aspect {
 /// The number of primitives in the decoy's leaf.
 pub(super) const LEAF_SIZE: Aspect<TraverseCall> = Aspect {
     name: "decoy's leaf",
-    classes: &["1", "2", "3", "4 to 16", "17 to 32", "33 or more"],
-    class: |call| Some(class_up_to(&[1, 2, 3, 16, 32], call.decoy?.leaf_size)),
+    classes: &["1", "2", "3", "4 to 16", "17 or more"],
+    class: |call| Some(class_up_to(&[1, 2, 3, 16], call.decoy?.leaf_size)),
+};
+
+/// The number of primitives in the decoy's leaf, if there are many.
+pub(super) const LARGE_LEAF: Aspect<TraverseCall> = Aspect {
+    name: "decoy's large leaf",
+    classes: &["17 to 32", "33 or more"],
+    class: |call| match call.decoy?.leaf_size {
+        17..=32 => Some(0),
+        33.. => Some(1),
+        _ => None,
+    },
 };
 
 /// The index of the decoy in its leaf.

@@ -52,6 +52,7 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         decoy_aspects::REASON,
         decoy_aspects::KIND,
         decoy_aspects::LEAF_SIZE,
+        decoy_aspects::LARGE_LEAF,
         decoy_aspects::PLACE,
         decoy_aspects::LEVEL,
         decoy_aspects::CHILD_OF_ROOT,
@@ -104,6 +105,17 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             &["in the sibling's box, which contains the hit"],
             &["`None`"],
             "If a ray hits nothing, no box contains a hit.",
+        ),
+        not_asked(
+            &[
+                "decoy in a child of the root",
+                "decoy after a farther hit",
+                "decoy's tree",
+                "decoy's large leaf",
+            ],
+            &[],
+            &["`None`"],
+            "A decoy that is tested is returned, whether or not there is another hit.",
         ),
         not_asked(
             &["decoy's box"],

@@ -190,6 +190,12 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
              enough in single precision. So it is enough if an exam tests the other quantities.",
         ),
         not_asked(
+            &["cosine"],
+            &["below 0.01"],
+            &["pairs"],
+            "At a cosine this small, almost all rays cross the plane far outside the triangle.",
+        ),
+        not_asked(
             &["place"],
             &["1,000 sizes away"],
             &["normal", "uv"],

@@ -224,8 +224,11 @@ pub(super) const COST_TOWN: Declaration = Declaration {
         let town = cost_questions(rng, meshes::town, &[(512, 1), (2048, 4)]);
         let huge = huge_questions(rng, &[(1900, 4), (4300, 8)]);
         let [few, more] = [(20, 45), (46, 100)].map(|(min, max)| rng.integer(min, max) as usize);
-        let [small, large] = [(16, 24), (33, 60)].map(|(min, max)| rng.integer(min, max));
-        let sizes = [(few, 1), (more, 1), (200, small), (400, large)];
+        let mut sizes = vec![(few, 1), (more, 1)];
+        sizes.extend(
+            [(180, 16, 24), (220, 25, 32), (350, 33, 45), (420, 46, 60)]
+                .map(|(count, min, max)| (count, rng.integer(min, max))),
+        );
         [town, huge, clumps_questions(rng, &sizes)].concat()
     },
     ..Declaration::ALONE

@@ -240,7 +240,7 @@ impl Plan {
             CellSkipReason::Missed | CellSkipReason::MissedWithSibling
         );
         let many = if group == 2 || (is_missed && is_left && group == 0) {
-            [17, 33][index / 4 % 2] + start
+            [17, 33][start % 2] + start
         } else {
             4 + (start + index) % 5
         };

@@ -326,12 +326,12 @@ fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
     let class = with_clone(class, "cg26-warmup-lena");
     let preview = class.preview();
     assert_contains(&preview, &people);
-    let odd = "begin with cg26-pathtracing-, but not cg26-warmup-lena: ";
+    let odd = "begin with cg26-pathtracing-, unlike cg26-warmup-lena: ";
     assert_contains(&preview, &[odd, "  cg26-warmup-lena: all 5 files"]);
 
     let class = with_clone(clones(TestClass::named("clones")), "handout");
     let error = class.refused_preview(&["--layout", "gitlab"]);
-    let odd = "begin with cg26-pathtracing-tum-, but not handout, so it is unclear";
+    let odd = "begin with cg26-pathtracing-tum-, unlike handout, so it is unclear";
     assert_contains(&error, &[odd, "move it out; otherwise, pass a list"]);
     let roster = class.write_beside("roster.csv", "name,sid\nAnn,tum-ann\nBob,tum-bob\n");
     let options = ["--layout", "gitlab", "--roster", &roster];

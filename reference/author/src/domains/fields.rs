@@ -63,6 +63,7 @@ pub fn size(rng: &mut Rng, class: usize) -> f64 {
         }
     };
     match rng.index(6) {
+        _ if class == 7 && rng.index(4) == 0 => ACROSS.0 + rng.uniform(0.0, ACROSS.1 - ACROSS.0),
         0 => least,
         1 => least * rng.log_uniform(1.0, 1.05),
         2 => most * rng.log_uniform(0.95, 1.0),
@@ -95,7 +96,7 @@ pub fn class_up_to(limits: &[usize], number: usize) -> usize {
 }
 
 /// The classes of distances along a ray.
-pub const DISTANCES: &[&str] = &["below 1e-2", "1e-2", "1", "100", "2000"];
+pub const DISTANCES: &[&str] = &["below 1e-2", "1e-2", "1", "100", "2000", "3000"];
 
 /// Returns the class of a distance along a ray.
 pub fn distance_class(distance: f64) -> usize {
@@ -104,7 +105,8 @@ pub fn distance_class(distance: f64) -> usize {
         ..1.0 => 1,
         ..100.0 => 2,
         ..2000.0 => 3,
-        _ => 4,
+        ..3000.0 => 4,
+        _ => 5,
     }
 }
 
@@ -128,18 +130,24 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
     }
 }
 
+/// The sizes of shapes in a corner of a scene that can be seen from the opposite corner. Smaller
+/// shapes are too far away for their size, and larger ones extend too far into the scene.
+const ACROSS: (f64, f64) = (106.0, 130.0);
+
 /// Draws a position for a shape of this size. No coordinate of the shape exceeds the largest
 /// coordinate of a scene, and no coordinate of the position exceeds 5,000 times the size. Some
-/// positions are on an axis.
+/// positions are on an axis or in a corner of the scene.
 pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
     let furthest = (FURTHEST - size).min(5000.0 * size);
+    if (ACROSS.0..ACROSS.1).contains(&size) && rng.coin() {
+        return furthest * rng.vector(0.98, 1.0) * signs(rng);
+    }
     let mut position = match rng.index(PLACES.len()) {
         0 if rng.coin() => DVec3::ZERO,
         0 => rng.point(0.9 * size),
         class => {
             let sizes = 10f64.powi(class as i32 - 1) * rng.log_uniform(1.1, 9.0);
-            let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
-            (size * sizes).min(furthest) * rng.vector(0.3, 1.0) * signs
+            (size * sizes).min(furthest) * rng.vector(0.3, 1.0) * signs(rng)
         }
     };
     if rng.index(12) == 0 {
@@ -151,6 +159,11 @@ pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
         };
     }
     position.clamp(DVec3::splat(-furthest), DVec3::splat(furthest))
+}
+
+/// Draws three signs.
+fn signs(rng: &mut Rng) -> DVec3 {
+    DVec3::from_array([rng.sign(), rng.sign(), rng.sign()])
 }
 
 /// The octants, by the signs of x, y and z.
@@ -259,8 +272,7 @@ pub fn diagonal(rng: &mut Rng) -> DVec3 {
     if rng.index(4) > 0 {
         dir[rng.index(3)] = 0.0;
     }
-    let signs = DVec3::from_array([rng.sign(), rng.sign(), rng.sign()]);
-    (signs * dir).normalize()
+    (signs(rng) * dir).normalize()
 }
 
 /// Returns the start and the direction of a ray toward a target. Most rays start at this distance
@@ -285,8 +297,40 @@ pub fn ray_toward(
 /// Draws the start of a ray toward a target. The distance from the start to the target is at most
 /// 30 times `size`.
 fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
-    let start = rng.vector(0.5, 1.0) * FURTHEST * -target.signum();
+    let least = if rng.coin() { 0.5 } else { 0.98 };
+    let start = rng.vector(least, 1.0) * FURTHEST * -target.signum();
     (start.distance(target) < 29.0 * size).then_some(start)
+}
+
+/// The largest angle between two directions that hardly differ, in radians, and the largest distance
+/// between two starts that hardly differ, as a multiple of the size of what the rays hit.
+pub const HARDLY: f64 = 4e-4;
+
+/// Returns the ray in a direction that differs by this angle, in radians.
+pub fn turned(rng: &mut Rng, ray: &Ray, angle: f64) -> Ray {
+    let dir = ray.dir.as_dvec3();
+    let dir = (dir + angle * rng.perpendicular_to(dir)).normalize();
+    let dir = dir.as_vec3();
+    Ray { dir, ..*ray }
+}
+
+/// Returns the ray with a start at this distance from the old one.
+pub fn moved(rng: &mut Rng, ray: &Ray, distance: f64) -> Ray {
+    let origin = ray.origin + (distance * rng.direction()).as_vec3();
+    Ray { origin, ..*ray }
+}
+
+/// Returns the ray with one component of its direction reversed. Returns `None` if the ray is the
+/// same or the opposite one.
+pub fn mirrored(rng: &mut Rng, ray: &Ray) -> Option<Ray> {
+    let (axis, mut dir) = (rng.index(3), ray.dir);
+    dir[axis] = -dir[axis];
+    (dir != ray.dir && dir != -ray.dir).then_some(Ray { dir, ..*ray })
+}
+
+/// Returns whether two rays differ only in the signs of their directions' components.
+pub fn is_mirrored(a: &Ray, b: &Ray) -> bool {
+    a.origin == b.origin && a.range == b.range && a.dir != b.dir && a.dir.abs() == b.dir.abs()
 }
 
 /// Returns whether two rays differ only in their ranges.

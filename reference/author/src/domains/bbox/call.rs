@@ -57,7 +57,7 @@ impl BoxCall {
                 .max(self.bounds.max.abs())
                 .max_element(),
         );
-        let is_other = |a: f64, b: f64| a != b && (a - b).abs() > 3e-4 * scale;
+        let is_other = |a: f64, b: f64| a != b && (a - b).abs() > 2.2e-4 * scale;
         is_other(one.0, other.0) || is_other(one.1, other.1)
     }
 

@@ -4,6 +4,7 @@ use glam::DVec3;
 use protocol::{Interval, Ray};
 
 use super::call::{BoxCall, SMALL_COMPONENT};
+use super::history::FOLLOW;
 use super::{BOX, CORNER, DISTANT, FOIL, THIN, THREAD};
 use crate::domains::fields;
 use crate::domains::{Call, Change, Generator};
@@ -24,7 +25,7 @@ pub fn tables(
         input: &query,
         changes: CHANGES,
         most_changes: 2,
-        follow: &[],
+        follow: FOLLOW,
         fits: &fits,
         differ: &|one, other| one.differs(other),
     };

@@ -3,14 +3,14 @@
 mod call;
 mod clear;
 mod draw;
+mod history;
 
 use glam::{DVec3, Vec3};
-use protocol::{Interval, Ray};
+use protocol::Interval;
 
 use self::call::calls;
-use super::fields::{
-    DISTANCES, OCTANTS, SIZES, distance_class, history_class, octant, range_class, size_class,
-};
+use self::history::{HARDLY_MOVED, HARDLY_TURNED};
+use super::fields::{DISTANCES, OCTANTS, SIZES, distance_class, octant, range_class, size_class};
 use super::{Aspect, Call, FunctionDomain, not_asked};
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
@@ -54,6 +54,12 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
     calls,
     not_asked: &[
         not_asked(&["distance"], &[], &["`None`"], "A miss has no distance."),
+        not_asked(
+            &["call before"],
+            &[HARDLY_TURNED, HARDLY_MOVED],
+            &["`None`"],
+            "A change this small doesn't turn a clear hit into a clear miss.",
+        ),
         not_asked(
             &["outcome"],
             &["misses", "too late", "too early"],
@@ -449,26 +455,6 @@ const RANGE_CLASSES: &[&str] = &[
 /// The previous call.
 const HISTORY: Aspect<BoxCall> = Aspect {
     name: "call before",
-    classes: &[
-        "none",
-        "another ray",
-        "the same ray with other times",
-        "a parallel ray",
-        "another ray from the same start",
-        "almost the same ray",
-    ],
-    class: |call| {
-        if call.is_after_almost_the_same_ray() {
-            return Some(5);
-        }
-        let before = call.before.as_ref().map(|(ray, _)| ray);
-        let is_parallel = |ray: &Ray| ray.dir == call.ray.dir && ray.origin != call.ray.origin;
-        if before.is_some_and(is_parallel) {
-            return Some(3);
-        }
-        if before.is_some_and(|ray| ray.origin == call.ray.origin && ray.dir != call.ray.dir) {
-            return Some(4);
-        }
-        Some(history_class(before, &call.ray))
-    },
+    classes: history::CLASSES,
+    class: |call| Some(history::class_of(call)),
 };

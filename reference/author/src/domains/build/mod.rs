@@ -9,7 +9,7 @@ use glam::DVec3;
 use protocol::{Question, Shape};
 
 use self::arrangement::{ARRANGEMENT, ARRANGEMENT_ALONG_ANY_AXIS};
-use self::best_split::{BEST_AXIS, LEVELS, SMALLER_SIDE};
+use self::best_split::{BEST_AXIS, LEVELS, RANK, SMALLER_SIDE};
 use super::fields::{class_up_to, powers_of_two};
 use super::{Aspect, FunctionDomain, Placed, not_asked};
 use crate::oracle::bbox::Bounds;
@@ -68,6 +68,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         ARRANGEMENT,
         ARRANGEMENT_ALONG_ANY_AXIS,
         BEST_AXIS,
+        RANK,
         LEVELS,
         LARGE,
         SMALLER_SIDE,
@@ -104,6 +105,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         not_asked(
             &[
                 "extent along the axis of the best split",
+                "axis of the best split",
                 "smaller side of the best split",
                 "form of the tree",
                 "area times primitives",
@@ -312,12 +314,13 @@ const SHAPE_OF_TREE: Aspect<BuildCall> = Aspect {
     classes: &[
         "one split of over 1,024",
         "9 to 100 primitives in leaves of one",
-        "five or more leaves of 16 or more",
+        "five or more leaves of 16 to 32",
+        "five or more leaves of 33 or more",
     ],
     class: |call| match (call.shapes.len(), call.max_leaf_size as usize) {
         (1025.., leaf) if call.shapes.len() < 2 * leaf => Some(0),
         (9..=100, 1) => Some(1),
-        (count, leaf @ 16..) if count > 4 * leaf => Some(2),
+        (count, leaf @ 16..) if count > 4 * leaf => Some(2 + usize::from(leaf > 32)),
         _ => None,
     },
 };
@@ -374,6 +377,7 @@ mod tests {
             "centres in a row along x",
             "centres in a row",
             "the longest",
+            "the longest",
             "2 to 8",
         ];
         let classes = classes(row.collect(), 16);
@@ -385,7 +389,7 @@ mod tests {
         let none = classes(Vec::new(), 1000);
         assert_eq!(none[0], Some("0"));
         assert_eq!(none[1], Some("256 to 1,000"));
-        assert_eq!(none[3..], [None; 13]);
+        assert_eq!(none[3..], [None; 14]);
     }
 
     #[test]

@@ -30,9 +30,11 @@ pub fn offset(rng: &mut Rng) -> f32 {
 pub fn side(rng: &mut Rng, class: usize) -> u32 {
     match class % SIDES.len() {
         0 => 1,
-        1 => rng.integer(2, 10),
-        2 => rng.integer(11, 255),
-        3 => rng.integer(256, 4095),
+        1 => 2,
+        2 => 3,
+        3 => rng.integer(4, 10),
+        4 => rng.integer(11, 255),
+        5 => rng.integer(256, 4095),
         _ => 4096,
     }
 }
@@ -182,7 +184,53 @@ pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     };
     let of_single = (0..8).map(|_| sample(rng, single.film)).collect();
     all.push((single, of_single));
+    // In the middle of a pixel this wide, even the smallest differences matter.
+    let widest = PinholeCamera {
+        vertical_fov: rng.uniform(172.0, 175.0) as f32,
+        aspect_ratio: rng.uniform(3.0, 10.0) as f32,
+        film: UVec2::ONE,
+    };
+    let middle = rng.uniform(0.49, 0.51);
+    let beside = [0.0, 2.5e-4, -1e-4, 2e-4].map(|away| Sample {
+        pixel: UVec2::ZERO,
+        offset: Vec2::splat((middle + away) as f32),
+    });
+    all.push((widest, beside.to_vec()));
     all
+}
+
+/// Draws ordinary views on films of a few pixels. Each sample has something in common with the
+/// previous one: the column, the row, the pixel or the offset.
+pub fn films_of_few_pixels(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let films = [(2, 1), (1, 2), (2, 2), (3, 1), (1, 3), (3, 2), (2, 3)];
+    let films = rng.shuffled(films.to_vec());
+    let view = |(index, film): (usize, (u32, u32))| {
+        let camera = PinholeCamera {
+            vertical_fov: rng.uniform(35.0, 110.0) as f32,
+            aspect_ratio: drawn(SENSORS[index % 3][index % SENSORS[index % 3].len()], rng) as f32,
+            film: film.into(),
+        };
+        let mut samples = vec![sample(rng, camera.film)];
+        for turn in 0..14 {
+            let Sample { pixel, offset } = samples[samples.len() - 1];
+            let other = sample(rng, camera.film);
+            // All samples differ from the previous one, even on a film with a single row.
+            let moved = (offset + rng.vector(0.3, 0.6).as_vec3().truncate()) % 1.0;
+            let axis = turn % 2;
+            let mut next = Sample { pixel, offset };
+            match (turn + index) / 2 % 3 {
+                0 => {
+                    next.pixel[axis] = other.pixel[axis];
+                    next.offset[axis] = moved[axis];
+                }
+                1 => next.offset = moved,
+                _ => next.pixel = other.pixel,
+            }
+            samples.push(next);
+        }
+        (camera, samples)
+    };
+    films.into_iter().enumerate().map(view).collect()
 }
 
 /// Draws samples on a film. The first and last few samples also exist on the rotated film. One

@@ -10,7 +10,8 @@ use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::camera;
 
 pub use draw::{
-    almost_equal_cameras, almost_usual_cameras, cameras, drawn, extreme_views, offset, sample, side,
+    almost_equal_cameras, almost_usual_cameras, cameras, drawn, extreme_views, films_of_few_pixels,
+    offset, sample, side,
 };
 
 /// The domain of `Camera::sample_ray`.
@@ -34,7 +35,9 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         USUAL_RATIO,
         PIXELS,
         FILM,
+        FEW_PIXELS,
         VIEW,
+        HISTORY,
     ],
     pairs: &[
         ["angle", "sensor"],
@@ -51,7 +54,9 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
             "usual aspect ratio",
             "pixels",
             "film",
+            "film of few pixels",
             "view",
+            "sample before",
         ],
         &[],
         OTHER_QUANTITIES,
@@ -67,6 +72,8 @@ const OTHER_QUANTITIES: &[&str] = &["origin", "range", "unit_direction"];
 pub struct CameraCall {
     camera: PinholeCamera,
     sample: Sample,
+    /// The sample of the previous call, if that call was on the same camera.
+    before: Option<Sample>,
 }
 
 /// The vertical fields of view that the contract allows, as intervals in degrees.
@@ -107,7 +114,7 @@ const ASPECT_RATIO: Aspect<CameraCall> = Aspect {
 };
 
 /// The classes of the film's width and height.
-const SIDES: &[&str] = &["1", "2 to 10", "11 to 255", "256 to 4095", "4096"];
+const SIDES: &[&str] = &["1", "2", "3", "4 to 10", "11 to 255", "256 to 4095", "4096"];
 
 const COLUMNS: Aspect<CameraCall> = Aspect {
     name: "columns of the film",
@@ -323,6 +330,61 @@ const FILM: Aspect<CameraCall> = Aspect {
     },
 };
 
+/// Films that have more than one pixel, but only a few.
+const FEW_PIXELS: Aspect<CameraCall> = Aspect {
+    name: "film of few pixels",
+    classes: &["2 × 1", "1 × 2", "2 × 2", "3 × 1", "1 × 3", "up to 3 × 3"],
+    class: |call| match call.camera.film.to_array() {
+        [2, 1] => Some(0),
+        [1, 2] => Some(1),
+        [2, 2] => Some(2),
+        [3, 1] => Some(3),
+        [1, 3] => Some(4),
+        [2..=3, 2..=3] => Some(5),
+        _ => None,
+    },
+};
+
+/// The previous sample on the same camera. Where it is said to be in the same column, its offset's
+/// x is the same too, and where it is said to be in the same row, its offset's y is. All classes but
+/// the first two contain only calls with clearly different answers.
+const HISTORY: Aspect<CameraCall> = Aspect {
+    name: "sample before",
+    classes: &[
+        "none",
+        "any",
+        "in the same column",
+        "in the same row",
+        "in the same pixel",
+        "with the same offset in another pixel",
+        "less than 4e-4 pixels away",
+    ],
+    class: |call| {
+        /// The distance of two samples that hardly differ, in pixels.
+        const HARDLY: f32 = 4e-4;
+        /// The smallest angle between their directions, in radians.
+        const LEAST: f64 = 2e-3;
+        let Some(before) = call.before else {
+            return Some(0);
+        };
+        let [dir, dir_before] =
+            [call.sample, before].map(|sample| camera::direction(&call.camera, sample));
+        let is_other_direction = dir.angle_between(dir_before) > LEAST;
+        let Sample { pixel, offset } = call.sample;
+        let same_pixel = before.pixel.cmpeq(pixel);
+        let same_offset = before.offset.cmpeq(offset);
+        Some(match <[bool; 2]>::from(same_pixel & same_offset) {
+            _ if !is_other_direction => 1,
+            _ if same_pixel.all() && before.offset.distance(offset) < HARDLY => 6,
+            [true, _] => 2,
+            [_, true] => 3,
+            _ if same_pixel.all() => 4,
+            _ if same_offset.all() => 5,
+            _ => 1,
+        })
+    },
+};
+
 /// Views that are extreme in two ways.
 const VIEW: Aspect<CameraCall> = Aspect {
     name: "view",
@@ -369,7 +431,7 @@ fn part(parts: &[(f64, f64)], number: f64) -> Option<usize> {
 }
 
 fn side_class(side: u32) -> usize {
-    class_up_to(&[1, 10, 255, 4095], side as usize)
+    class_up_to(&[1, 2, 3, 10, 255, 4095], side as usize)
 }
 
 fn position_class(position: u32, count: u32) -> Option<usize> {
@@ -398,6 +460,11 @@ fn calls(question: &Question) -> Vec<CameraCall> {
     };
     let camera = table.subject;
     let rows = table.rows.to_vec();
-    let calls = rows.iter().map(|&sample| CameraCall { camera, sample });
+    let before = std::iter::once(None).chain(rows.iter().copied().map(Some));
+    let calls = rows.iter().zip(before).map(|(&sample, before)| CameraCall {
+        camera,
+        sample,
+        before,
+    });
     calls.collect()
 }

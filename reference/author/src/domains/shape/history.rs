@@ -5,7 +5,7 @@ use protocol::Ray;
 
 use super::ShapeCall;
 use crate::domains::Call;
-use crate::domains::fields::is_same_line;
+use crate::domains::fields::{HARDLY, is_mirrored, is_same_line, mirrored, moved, turned};
 use crate::domains::tables::Follow;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
@@ -24,24 +24,27 @@ const ENDS: f64 = 0.03;
 /// The ways a call can follow another.
 pub const FOLLOW: &[Follow<ShapeCall>] = &[
     |rng, before| {
-        let dir = before.ray.dir.as_dvec3();
-        let dir = dir + rng.log_uniform(0.2, 0.95) * ANGLE * rng.perpendicular_to(dir);
-        let dir = dir.normalize().as_vec3();
-        Some(vec![before.with_ray(Ray { dir, ..before.ray })])
+        let angle = rng.log_uniform(0.2, 0.95) * ANGLE;
+        Some(vec![before.with_ray(turned(rng, &before.ray, angle))])
     },
     |rng, before| {
-        let away = rng.log_uniform(0.1, 0.95) * DISTANCE * before.size() * rng.direction();
-        let origin = before.ray.origin + away.as_vec3();
-        Some(vec![before.with_ray(Ray {
-            origin,
-            ..before.ray
-        })])
+        let angle = rng.uniform(0.7, 0.97) * HARDLY;
+        Some(vec![before.with_ray(turned(rng, &before.ray, angle))])
+    },
+    |rng, before| {
+        let distance = rng.log_uniform(0.1, 0.95) * DISTANCE * before.size();
+        Some(vec![before.with_ray(moved(rng, &before.ray, distance))])
+    },
+    |rng, before| {
+        let distance = rng.uniform(0.7, 0.97) * HARDLY * before.size();
+        Some(vec![before.with_ray(moved(rng, &before.ray, distance))])
     },
     with_ranges_beside_a_hit,
     |_, before| {
         let dir = -before.ray.dir;
         Some(vec![before.with_ray(Ray { dir, ..before.ray })])
     },
+    |rng, before| Some(vec![before.with_ray(mirrored(rng, &before.ray)?)]),
     |rng, before| {
         let Ray { origin, dir, .. } = before.ray;
         let (origin, dir) = if rng.coin() {
@@ -108,7 +111,16 @@ pub fn class_of(call: &ShapeCall) -> usize {
     if same_start && same_range && before.dir == -ray.dir {
         return 6;
     }
+    if is_mirrored(&before, &ray) {
+        return 9;
+    }
     let angle = before.dir.as_dvec3().distance(ray.dir.as_dvec3());
+    if same_start && same_range && angle < HARDLY {
+        return 10;
+    }
+    if same_dir && same_range && between < HARDLY * size {
+        return 11;
+    }
     if same_start && same_range && angle < ANGLE {
         return 4;
     }

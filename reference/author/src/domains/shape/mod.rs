@@ -94,6 +94,12 @@ pub const DISTANCE: Aspect<ShapeCall> = Aspect {
     class: |call| Some(distance_class(call.hit()?.distance)),
 };
 
+/// The class of a call whose direction hardly differs from that of the previous call.
+pub const HARDLY_TURNED: &str = "hardly another direction";
+
+/// The class of a call whose start hardly differs from that of the previous call.
+pub const HARDLY_MOVED: &str = "hardly another start";
+
 /// The previous call.
 pub const HISTORY: Aspect<ShapeCall> = Aspect {
     name: "call before",
@@ -107,6 +113,9 @@ pub const HISTORY: Aspect<ShapeCall> = Aspect {
         "the opposite direction",
         "the same ray with its axes in another order",
         "a ray that hits almost where this ray starts",
+        "a mirrored direction",
+        HARDLY_TURNED,
+        HARDLY_MOVED,
     ],
     class: |call| Some(history::class_of(call)),
 };

@@ -6,7 +6,9 @@ mod line;
 use glam::Vec3;
 use protocol::Shape;
 
-use super::shape::{self, DISTANCE, HISTORY, NUMBER, ORIGIN, ShapeCall};
+use super::shape::{
+    self, DISTANCE, HARDLY_MOVED, HARDLY_TURNED, HISTORY, NUMBER, ORIGIN, ShapeCall,
+};
 use super::{Aspect, FunctionDomain, not_asked};
 
 pub use draw::tables;
@@ -40,6 +42,12 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
         HISTORY,
     ],
     not_asked: &[
+        not_asked(
+            &["call before"],
+            &[HARDLY_TURNED, HARDLY_MOVED],
+            &["`None`", "normal", "unit_normal", "origin", "shape", "uv"],
+            "A change this small has a noticeable effect only on the distance and the position.",
+        ),
         not_asked(&["distance"], &[], &["`None`"], "A miss has no distance."),
         not_asked(&["latitude"], &[], &["`None`"], "A miss has no latitude."),
         not_asked(
@@ -84,7 +92,7 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
         ),
         not_asked(
             &["distance"],
-            &["2000"],
+            &["2000", "3000"],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
             "Only the largest spheres are hit from so far away, so it is enough if an exam tests \
              the distance to the hit.",

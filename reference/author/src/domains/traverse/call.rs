@@ -147,15 +147,28 @@ impl TraverseCall {
     /// Returns whether the ray is almost the same as the previous one but hits at a clearly
     /// different distance.
     pub(super) fn is_after_almost_the_same_ray(&self) -> bool {
+        let is_almost_the_same = |previous| fields::is_almost_the_same_ray(&previous, &self.ray);
+        self.has_another_answer() && self.previous.is_some_and(is_almost_the_same)
+    }
+
+    /// Returns whether the ray has the opposite or a mirrored direction compared with the previous
+    /// one, and hits at a clearly different distance.
+    pub(super) fn is_after_a_mirrored_ray(&self) -> bool {
+        let is_mirrored = |previous| fields::is_mirrored(&previous, &self.ray);
+        self.has_another_answer() && self.previous.is_some_and(is_mirrored)
+    }
+
+    /// Returns whether the answer clearly differs from the answer to the previous call.
+    fn has_another_answer(&self) -> bool {
         /// The minimum difference between the distances.
         const LEAST: f64 = 5e-4;
-        let differ = |a: f64, b: f64| (a - b).abs() > LEAST * a.max(b);
-        let is_other = match (self.hit, self.previous_hit) {
-            (Some(hit), Some(other)) => differ(hit.distance, other.distance),
+        match (self.hit, self.previous_hit) {
+            (Some(hit), Some(other)) => {
+                let (a, b) = (hit.distance, other.distance);
+                (a - b).abs() > LEAST * a.max(b)
+            }
             (hit, other) => hit.is_some() != other.is_some(),
-        };
-        let is_almost_the_same = |previous| fields::is_almost_the_same_ray(&previous, &self.ray);
-        is_other && self.previous.is_some_and(is_almost_the_same)
+        }
     }
 
     /// Returns whether an unreferenced primitive in front of the answer is about as large as the

@@ -26,6 +26,9 @@ pub(super) struct Decoy {
     pub(super) is_beside_a_large_leaf: bool,
     /// Whether the ray starts in the box of the leaf's sibling and hits something there.
     pub(super) is_from_siblings_box: bool,
+    /// Whether a leaf that the ray enters before the leaf with the hit has a hit beyond the entry
+    /// into the decoy's leaf.
+    pub(super) is_after_a_farther_hit: bool,
     pub(super) history: usize,
 }
 
@@ -68,6 +71,7 @@ impl Decoy {
             flat_axes: bounds.min.cmpeq(bounds.max).bitmask().count_ones(),
             is_beside_a_large_leaf: is_beside_a_large_leaf(tree, leaf),
             is_from_siblings_box: is_from_siblings_box(tree, leaf, ray64),
+            is_after_a_farther_hit: is_after_a_farther_hit(tree, leaf, ray64).unwrap_or(false),
             history: history(tree, leaf, ray64, previous),
         })
     }
@@ -118,6 +122,23 @@ fn is_from_siblings_box(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let holds_start = |sibling: &usize| tree.bounds(*sibling).contains(&start);
     let sibling = tree.sibling(leaf).filter(holds_start);
     sibling.is_some() && tree.leaf_of_hit(ray64) == sibling
+}
+
+/// Returns whether a leaf that the ray enters before the leaf with the hit has a hit beyond the entry
+/// into the decoy's leaf. Returns `None` if the ray hits nothing or misses the box of the decoy's
+/// leaf.
+fn is_after_a_farther_hit(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<bool> {
+    let hit_leaf = tree.leaf_of_hit(ray64)?;
+    let (enters, enters_hit) = (entry(tree, leaf, ray64)?, entry(tree, hit_leaf, ray64)?);
+    let distance =
+        |primitive: usize| Some(scan::intersect(ray64, &tree.shapes[primitive])?.distance);
+    let mut others = tree.leaves().into_iter();
+    Some(others.any(|other| {
+        let is_earlier = entry(tree, other, ray64).is_some_and(|it| it < enters_hit);
+        let nearest = tree.primitives(other).filter_map(distance);
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        other != leaf && is_earlier && nearest.is_finite() && nearest > enters
+    }))
 }
 
 /// Classifies the call before the one with the decoy.

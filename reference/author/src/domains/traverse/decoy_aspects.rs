@@ -1,6 +1,7 @@
 //! Aspects of the decoys in calls to `Bvh::hit`.
 
 use super::call::TraverseCall;
+use super::decoy::Decoy;
 use crate::domains::Aspect;
 use crate::domains::fields::class_up_to;
 
@@ -27,8 +28,8 @@ pub(super) const KIND: Aspect<TraverseCall> = Aspect {
 /// The number of primitives in the decoy's leaf.
 pub(super) const LEAF_SIZE: Aspect<TraverseCall> = Aspect {
     name: "decoy's leaf",
-    classes: &["1", "2", "3", "4 to 16", "17 or more"],
-    class: |call| Some(class_up_to(&[1, 2, 3, 16], call.decoy?.leaf_size)),
+    classes: &["1", "2", "3", "4 to 16", "17 to 32", "33 or more"],
+    class: |call| Some(class_up_to(&[1, 2, 3, 16, 32], call.decoy?.leaf_size)),
 };
 
 /// The index of the decoy in its leaf.
@@ -51,6 +52,36 @@ pub(super) const LEVEL: Aspect<TraverseCall> = Aspect {
     name: "decoy's level",
     classes: &["2 to 12", "13 to 24", "25 to 40", "41 to 60"],
     class: |call| Some(class_up_to(&[12, 24, 40], call.decoy?.level)),
+};
+
+/// Decoys whose leaf is a child of the root.
+pub(super) const CHILD_OF_ROOT: Aspect<TraverseCall> = Aspect {
+    name: "decoy in a child of the root",
+    classes: &["its box is missed", "its box begins beyond the hit"],
+    class: |call| match call.decoy? {
+        Decoy {
+            level: 2, reason, ..
+        } => [0, 2].iter().position(|it| *it == reason),
+        _ => None,
+    },
+};
+
+/// The number of primitives in the decoy's tree.
+pub(super) const TREE: Aspect<TraverseCall> = Aspect {
+    name: "decoy's tree",
+    classes: &["up to 10", "11 to 1,500", "more"],
+    class: |call| {
+        call.decoy?;
+        let count = call.subject.tree.shapes.len();
+        Some(class_up_to(&[10, 1500], count))
+    },
+};
+
+/// Decoys in a box that begins beyond the closest hit, but not beyond a hit that is found earlier.
+pub(super) const FARTHER_HIT: Aspect<TraverseCall> = Aspect {
+    name: "decoy after a farther hit",
+    classes: &["found before the closest hit"],
+    class: |call| call.decoy?.is_after_a_farther_hit.then_some(0),
 };
 
 /// The box of the decoy's leaf.

@@ -54,6 +54,9 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         decoy_aspects::LEAF_SIZE,
         decoy_aspects::PLACE,
         decoy_aspects::LEVEL,
+        decoy_aspects::CHILD_OF_ROOT,
+        decoy_aspects::TREE,
+        decoy_aspects::FARTHER_HIT,
         decoy_aspects::BOX,
         decoy_aspects::SIBLING,
         decoy_aspects::START,
@@ -242,12 +245,14 @@ const COUNT: Aspect<TraverseCall> = Aspect {
         "46 to 90",
         "91 to 181",
         "182 to 362",
+        "363 to 724",
+        "725 to 1,448",
         "more",
     ],
     class: |call| {
         Some(match call.subject.shapes().len() {
             count @ ..=3 => count,
-            count => 2 + powers_of_two(count).clamp(2, 9),
+            count => 2 + powers_of_two(count).clamp(2, 11),
         })
     },
 };
@@ -300,10 +305,14 @@ const HISTORY: Aspect<TraverseCall> = Aspect {
         "after another ray",
         "after the same ray with another range",
         "after almost the same ray, with another hit",
+        "after a ray in the opposite or a mirrored direction, with another hit",
     ],
     class: |call| {
         if call.is_after_almost_the_same_ray() {
             return Some(3);
+        }
+        if call.is_after_a_mirrored_ray() {
+            return Some(4);
         }
         Some(history_class(call.previous.as_ref(), &call.ray))
     },

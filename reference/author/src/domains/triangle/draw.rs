@@ -269,10 +269,11 @@ fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
     (end >= 0.0).then_some(range)
 }
 
-/// Draws the weights of a point that is inside, near an edge, or outside.
+/// Draws the weights of a point that is inside, near a corner, near an edge, or outside.
 fn weights(rng: &mut Rng) -> [f64; 3] {
-    let least = match rng.index(6) {
+    let least = match rng.index(7) {
         0 | 1 => return fields::weights_inside(rng, EDGE),
+        6 => return close_to_a_corner(rng),
         2 if rng.coin() => rng.log_uniform(5e-4, SMALL_WEIGHT),
         2 => rng.log_uniform(5e-4, EDGE),
         3 if rng.coin() => -rng.log_uniform(5e-4, NARROW_MISS),
@@ -284,6 +285,16 @@ fn weights(rng: &mut Rng) -> [f64; 3] {
     let mut weights = [least; 3];
     weights[(corner + 1) % 3] = (1.0 - least) * along;
     weights[(corner + 2) % 3] = (1.0 - least) * (1.0 - along);
+    weights
+}
+
+/// Draws the weights of a point that is close to a corner but not to an edge.
+fn close_to_a_corner(rng: &mut Rng) -> [f64; 3] {
+    let [one, other] = [(); 2].map(|()| rng.uniform(1.05 * EDGE, 2.5 * EDGE));
+    let mut weights = [one; 3];
+    let corner = rng.index(3);
+    weights[corner] = 1.0 - one - other;
+    weights[(corner + 1) % 3] = other;
     weights
 }
 

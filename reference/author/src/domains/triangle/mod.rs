@@ -10,7 +10,9 @@ use protocol::Shape;
 
 use self::plane::corner_normals;
 use super::fields::{DIAGONALS, diagonal_class};
-use super::shape::{self, DISTANCE, HISTORY, NUMBER, ORIGIN, ShapeCall};
+use super::shape::{
+    self, DISTANCE, HARDLY_MOVED, HARDLY_TURNED, HISTORY, NUMBER, ORIGIN, ShapeCall,
+};
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::scan;
 
@@ -19,7 +21,13 @@ pub use plane::Plane;
 
 /// The domain of `Triangle::hit`.
 pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
-    pairs: &[["size", "axis"], ["size", "start"], ["size", "crossing"]],
+    pairs: &[
+        ["size", "axis"],
+        ["size", "start"],
+        ["size", "crossing"],
+        ["size", "cosine"],
+        ["cosine", "crossing"],
+    ],
     calls: shape::calls,
     function: "Triangle::hit",
     subject_aspects: &[
@@ -51,6 +59,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         CROSSING,
         LEAST_WEIGHT,
         SMALL_WEIGHTS,
+        NEAREST_CORNER,
         NARROWLY_OUTSIDE,
         NORMAL_LENGTH,
         Aspect::DIRECTION,
@@ -61,6 +70,12 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         HISTORY,
     ],
     not_asked: &[
+        not_asked(
+            &["call before"],
+            &[HARDLY_TURNED, HARDLY_MOVED],
+            &["`None`", "normal", "origin", "shape", "uv"],
+            "A change this small has a noticeable effect only on the distance and the position.",
+        ),
         not_asked(&["distance"], &[], &["`None`"], "A miss has no distance."),
         not_asked(
             &["start"],
@@ -132,6 +147,12 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             "Only the normal depends on it.",
         ),
         not_asked(
+            &["close to a corner"],
+            &[],
+            &["`None`"],
+            "The rays in this class hit the triangle.",
+        ),
+        not_asked(
             &["narrowly outside"],
             &[],
             &[
@@ -177,7 +198,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         ),
         not_asked(
             &["distance"],
-            &["2000"],
+            &["2000", "3000"],
             &["normal", "origin", "position", "shape", "uv"],
             "Only the largest triangles are hit from so far away, so it is enough if an exam tests \
              the distance of the hit.",
@@ -563,6 +584,19 @@ const SMALL_WEIGHTS: Aspect<ShapeCall> = Aspect {
             weight < SMALL_WEIGHT && weight * difference > LEAST
         });
         shows.then_some(0)
+    },
+};
+
+/// The corner that a hit is close to.
+const NEAREST_CORNER: Aspect<ShapeCall> = Aspect {
+    name: "close to a corner",
+    classes: &["p0", "p1", "p2"],
+    class: |call| {
+        /// The minimum weight of a corner that is close.
+        const LEAST: f64 = 0.88;
+        call.hit()?;
+        let mut weights = Plane::of(call)?.weights.into_iter();
+        weights.position(|weight| weight > LEAST)
     },
 };
 

@@ -97,16 +97,11 @@ impl Plane {
         const EDGE_MARGIN: f64 = 5e-4;
         /// The minimum cosine at which `EDGE_MARGIN` is enough.
         const EDGE_COSINE: f64 = 0.1;
-        /// The minimum distance from an edge at smaller cosines, as a fraction of the altitude.
-        const GRAZING_MARGIN: f64 = 0.1;
         /// The minimum difference between a distance and an end of the range, as a multiple of the
         /// triangle's size.
         const END_MARGIN: f64 = 0.0101;
-        let margin = if self.slope.abs() < EDGE_COSINE {
-            GRAZING_MARGIN
-        } else {
-            EDGE_MARGIN
-        };
+        // At smaller cosines, errors grow.
+        let margin = EDGE_MARGIN * (EDGE_COSINE / self.slope.abs()).max(1.0);
         let margin = margin.max(4.0 * self.weight_error());
         if self.start > FURTHEST_SIZES || self.coordinates > FURTHEST {
             return false;

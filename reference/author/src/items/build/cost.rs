@@ -224,7 +224,7 @@ pub(super) const COST_TOWN: Declaration = Declaration {
         let town = cost_questions(rng, meshes::town, &[(512, 1), (2048, 4)]);
         let huge = huge_questions(rng, &[(1900, 4), (4300, 8)]);
         let [few, more] = [(20, 45), (46, 100)].map(|(min, max)| rng.integer(min, max) as usize);
-        let [small, large] = [(16, 24), (25, 60)].map(|(min, max)| rng.integer(min, max));
+        let [small, large] = [(16, 24), (33, 60)].map(|(min, max)| rng.integer(min, max));
         let sizes = [(few, 1), (more, 1), (200, small), (400, large)];
         [town, huge, clumps_questions(rng, &sizes)].concat()
     },

@@ -298,7 +298,7 @@ fn of_strips() -> Vec<Draw> {
     let stacks = stacks.map(|(index, &(count, least))| -> Draw {
         Box::new(move |rng| {
             let ratio = least * rng.log_uniform(1.1, 8.0);
-            stack(rng, count, ratio, index % 3)
+            stack(rng, (count, index % 2 == 1), ratio, index % 3)
         })
     });
     let layers = [(); 2].map(|()| -> Draw { Box::new(layers) });
@@ -463,7 +463,8 @@ const STACKS: [(usize, f64); 11] = [
 const SPREAD: f64 = 2.6;
 
 /// Returns strips that run along one axis and whose centres have these heights along another axis.
-fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape> {
+/// If `width` is `None`, they are plates: as wide as they are long.
+fn strips(rng: &mut Rng, heights: &[f64], width: Option<f64>, axis: usize) -> Vec<Shape> {
     let [along, across] = [1, 2].map(|next| DVec3::AXES[(axis + next) % 3]);
     let start = rng.point(3.0);
     let strips = heights.iter().enumerate().map(|(index, height)| {
@@ -473,12 +474,13 @@ fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape>
             _ => SPREAD * rng.uniform(-0.5, 0.5),
         };
         let center = start + at * along + *height * DVec3::AXES[axis];
-        let (half, width) = (rng.uniform(4.5, 5.5) * along, width * across);
-        // Some strips have no area.
-        let width = if heights.len() == 12 && index % 4 == 2 {
-            DVec3::ZERO
-        } else {
-            width
+        let half = rng.uniform(4.5, 5.5) * along;
+        let is_flat = heights.len() == 12 && index % 4 == 2;
+        let width = match width {
+            // Some strips have no area.
+            Some(_) if is_flat => DVec3::ZERO,
+            Some(width) => width * across,
+            None => rng.uniform(9.0, 11.0) * across,
         };
         let start = center - rng.uniform(0.3, 0.7) * width - half;
         let end = start + 2.0 * half;
@@ -488,9 +490,15 @@ fn strips(rng: &mut Rng, heights: &[f64], width: f64, axis: usize) -> Vec<Shape>
     meshes::number_shapes(rng.shuffled(strips))
 }
 
-/// Returns two layers of strips that are much longer than the space between the layers. `ratio` is
-/// that space as a multiple of the extent of the centres along the strips.
-fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> UnplacedQuestion {
+/// Returns two layers of strips or plates that are much longer than the space between the layers.
+/// `ratio` is that space as a multiple of the extent of the centres along the strips. The centres of
+/// plates extend farther along both other axes than along `axis`.
+fn stack(
+    rng: &mut Rng,
+    (count, are_plates): (usize, bool),
+    ratio: f64,
+    axis: usize,
+) -> UnplacedQuestion {
     let space = ratio * SPREAD;
     let shapes = rng.retry(|rng| {
         let heights = (0..count).map(|index| {
@@ -499,7 +507,8 @@ fn stack(rng: &mut Rng, count: usize, ratio: f64, axis: usize) -> UnplacedQuesti
             space * (level + rng.uniform(0.0, 0.1))
         });
         let heights: Vec<f64> = heights.collect();
-        let shapes = strips(rng, &heights, 0.1 * space.min(0.2), axis);
+        let width = (!are_plates).then(|| 0.1 * space.min(0.2));
+        let shapes = strips(rng, &heights, width, axis);
         is_unambiguous(&shapes, axis).then_some(shapes)
     });
     UnplacedQuestion {
@@ -525,7 +534,7 @@ fn layers(rng: &mut Rng) -> UnplacedQuestion {
         let levels = [0.0, a, b, c, 1.0].into_iter();
         let heights = levels.flat_map(|level| vec![ratio * SPREAD * level; IN_EACH]);
         let heights: Vec<f64> = heights.collect();
-        let shapes = strips(rng, &heights, 0.02, axis);
+        let shapes = strips(rng, &heights, Some(0.02), axis);
         let count = (BUCKETS * ratio).ceil() as usize;
         let is_hard = is_unambiguous(&shapes, axis) && is_missed(&shapes, 4 * IN_EACH, count);
         is_hard.then_some(shapes)

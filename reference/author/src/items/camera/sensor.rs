@@ -67,7 +67,7 @@ pub(super) const ASPECT_RATIO: Declaration = Declaration {
     title: "the sensor's width is its height times the aspect ratio",
     look: "vertical_fov gives the height of the sensor, and aspect_ratio · height is its width. \
            Across the film, a position divided by film.x, the number of columns, is a fraction of \
-           that width.",
+           that width. Up the film, one divided by film.y is a fraction of the height.",
     section: "camera.md#the-size-of-the-sensor",
     tests: &["The sensor is the…"],
     questions: |rng| {

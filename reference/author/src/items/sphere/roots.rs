@@ -45,6 +45,7 @@ pub(super) const RADIUS: Declaration = Declaration {
     title: "spheres of any radius are hit at the right distance",
     look: "The square of the radius is part of the quadratic's c. Spheres can be tiny, and so can \
            distances: compare each root with ray.range, not with a small constant.",
+    look_fits: &[Symptom::of(PRESENCE), Symptom::of("distance")],
     section: "sphere.md#the-radius-is-not-always-one",
     tests: &["Returns the ray's…", "`distance` is the…"],
     questions: |rng| {

@@ -37,6 +37,9 @@ pub(super) enum CellSkipReason {
     MissedWithSibling,
     /// The decoy's leaf begins beyond the closest hit.
     Beyond,
+    /// The decoy's leaf begins beyond the closest hit. A leaf that the ray enters first has a hit
+    /// that is even farther away.
+    BeyondAfterFarther,
     /// The decoy's leaf begins beyond the closest hit. The previous ray is parallel, but it enters
     /// this leaf before the leaf's sibling.
     BeyondAfterParallel,
@@ -57,6 +60,41 @@ pub(super) struct Decoys<'a> {
     pub(super) is_left: bool,
     /// The answer that the slides' pseudo-code, taken literally, gives for all rays with a decoy.
     pub(super) slides: SlidesAnswer,
+    /// The number of primitives in each of the leaves beside the chain that are not part of a cell.
+    pub(super) fill: usize,
+}
+
+impl Decoys<'_> {
+    /// Returns whether the slides' pseudo-code gives the required answers to all rays.
+    fn are_as_required(&self, tree: &Tree, rays: &[Ray], with_decoy: &[Ray]) -> bool {
+        rays.iter().all(|ray| {
+            let is_wrong = with_decoy.contains(ray) && self.slides == SlidesAnswer::Wrong;
+            slides_are_correct(tree, ray) != is_wrong
+        })
+    }
+}
+
+/// Creates a question about a single cell for each of the reasons. The decoy's leaf is a child or a
+/// grandchild of the root.
+pub(super) fn small_questions(rng: &mut Rng, decoys: Decoys) -> Vec<ExamQuestion> {
+    let reasons = decoys.reasons.iter();
+    let question = |&reason: &CellSkipReason| {
+        rng.retry(|rng| {
+            let start = rng.index(DECOYS);
+            // The last plans aren't about rays that hit nothing.
+            let index = rng.integer(4, DECOYS as u32 - 1) as usize;
+            let plan = Plan::new(reason, decoys.is_left, index, start);
+            let axis = rng.index(3);
+            let axes = [0, 1, 2].map(|next| rng.sign() * DVec3::AXES[(axis + next) % 3]);
+            let frame = Frame::new(rng, axes, 0);
+            let Cell { tree, rays } = rng.attempt(300, |rng| Cell::draw(rng, &plan, &frame, 0))?;
+            let with_decoy = rays.last().copied();
+            let is_fair = decoys.are_as_required(&tree, &rays, with_decoy.as_slice())
+                && rays.iter().all(|ray| tests_no_sphere(&tree, ray));
+            is_fair.then(|| traversal_question(&tree.with_roots_at_both_ends(rng), rays))
+        })
+    };
+    reasons.map(question).collect()
 }
 
 /// The number of decoys for each reason.
@@ -94,13 +132,9 @@ pub(super) fn question(rng: &mut Rng, decoys: Decoys) -> ExamQuestion {
             .flatten()
             .filter_map(|cell| cell.rays.last().copied())
             .collect();
-        let tree = chain(rng, links, axes, &places);
-        let is_as_required = |ray: &Ray| {
-            let is_wrong = with_decoy.contains(ray) && decoys.slides == SlidesAnswer::Wrong;
-            slides_are_correct(&tree, ray) != is_wrong
-        };
+        let tree = chain(rng, links, axes, (&places, decoys.fill));
         let is_fair = decoy::is_fair(&tree, &rays)
-            && rays.iter().all(is_as_required)
+            && decoys.are_as_required(&tree, &rays, &with_decoy)
             && rays.iter().all(|ray| tests_no_sphere(&tree, ray));
         is_fair.then(|| traversal_question(&tree.with_roots_at_both_ends(rng), rays))
     })
@@ -116,9 +150,14 @@ fn tests_no_sphere(tree: &Tree, ray: &Ray) -> bool {
     })
 }
 
-/// Returns a chain of cells. Links without a cell have a leaf instead. At each node, the rest of
-/// the chain can be the left or the right child.
-fn chain(rng: &mut Rng, links: Vec<Option<Cell>>, axes: [DVec3; 3], places: &[usize]) -> Tree {
+/// Returns a chain of cells. Links without a cell have a leaf of `fill` primitives instead. At each
+/// node, the rest of the chain can be the left or the right child.
+fn chain(
+    rng: &mut Rng,
+    links: Vec<Option<Cell>>,
+    axes: [DVec3; 3],
+    (places, fill): (&[usize], usize),
+) -> Tree {
     let mut tree = Tree::default();
     let mut below = None;
     for (link, cell) in links.into_iter().enumerate().rev() {
@@ -127,7 +166,14 @@ fn chain(rng: &mut Rng, links: Vec<Option<Cell>>, axes: [DVec3; 3], places: &[us
         } else {
             let frame = Frame::new(rng, axes, places[link]);
             let (min, max) = (dvec3(3.0, 2.0, -0.6), dvec3(5.0, 3.0, 0.6));
-            tree.add_leaf(vec![frame.spanning(min, max, first_number(link))])
+            let number = first_number(link);
+            let mut shapes = vec![frame.spanning(min, max, number)];
+            // Spheres take up less space in an exam than triangles.
+            shapes.extend((1..fill as u32).map(|next| {
+                let center = frame.point(0.5 * (min + max) + 0.3 * rng.point(1.0) * (max - min));
+                with_number(meshes::sphere(center, 0.15), number + next)
+            }));
+            tree.add_leaf(shapes)
         };
         below = Some(match below {
             None => root,
@@ -194,7 +240,7 @@ impl Plan {
             CellSkipReason::Missed | CellSkipReason::MissedWithSibling
         );
         let many = if group == 2 || (is_missed && is_left && group == 0) {
-            17 + start
+            [17, 33][index / 4 % 2] + start
         } else {
             4 + (start + index) % 5
         };
@@ -322,10 +368,9 @@ impl Cell {
             number: first_number(link),
             decoy: FIRST_DECOY + link as u32,
         };
-        let (ray, parallel) = if plan.reason == CellSkipReason::BeyondAfterParallel {
-            draft.add_crossing_leaves(rng)
-        } else {
-            draft.add_leaves(rng)
+        let (ray, parallel) = match plan.reason {
+            CellSkipReason::BeyondAfterParallel => draft.add_crossing_leaves(rng),
+            _ => draft.add_leaves(rng),
         };
         let tree = draft.tree;
         let expected = tree.expected_hit(&Ray64::from(&ray));
@@ -432,7 +477,9 @@ impl Draft {
                     (below, Some(above), any)
                 }
             }
-            CellSkipReason::Beyond | CellSkipReason::BeyondAfterParallel => {
+            CellSkipReason::Beyond
+            | CellSkipReason::BeyondAfterFarther
+            | CellSkipReason::BeyondAfterParallel => {
                 let behind = [corner(7.2, low - 1.2), corner(9.0, low + 2.0)];
                 ([behind[0] - z(1.0), behind[1] + z(1.0)], None, 0)
             }
@@ -452,6 +499,19 @@ impl Draft {
             flat,
             ahead,
         };
+        if self.plan.reason == CellSkipReason::BeyondAfterFarther {
+            let (entry, end) = (at(rng.uniform(0.8, 1.2)), at(rng.uniform(9.2, 9.6)));
+            let number = self.next_number();
+            let farther = decoy::triangle_across(rng, &ray, (end - start).length(), 0.25, number);
+            let early = vec![self.tiny(rng, entry, 0.72 * DVec3::Z), farther];
+            let early = rng.shuffled(early);
+            let (early, target) = (self.tree.add_leaf(early), self.tree.add_leaf(targets));
+            let is_left = rng.coin();
+            let both = self.add_interior(early, target, is_left);
+            let leaf = self.add_leaf_of_decoy(rng, &decoy, &ray);
+            self.add_interior(leaf, both, self.plan.is_left);
+            return (ray, None);
+        }
         let Some([min, max]) = sibling else {
             self.add_siblings(rng, &decoy, &ray, targets, self.plan.is_left);
             return (ray, None);
@@ -645,6 +705,7 @@ mod tests {
             reasons: &reasons,
             is_left: true,
             slides: SlidesAnswer::Wrong,
+            fill: 1,
         };
         let asked = question(&mut Seed(1).rng("items.traverse.cells"), decoys);
         let aspects = traverse::TRAVERSE.aspects();

@@ -23,7 +23,7 @@ use protocol::{Question, Ray, Shape};
 
 use self::placed::{Mover, is_clear_of_faces};
 use super::meshes;
-use crate::domains::fields::almost_the_same_ray;
+use crate::domains::fields::{almost_the_same_ray, mirrored};
 use crate::domains::traverse::{self, TRAVERSE};
 use crate::items::{AuthoredTask, Declaration, POINTS, groups, paper};
 use crate::oracle::Ray64;
@@ -152,18 +152,25 @@ fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
     meshes::flat_triangle(corners, number)
 }
 
-/// Returns the rays, followed by up to three groups of additional rays. In each group, consecutive
-/// rays are almost the same, but their hits are at clearly different distances.
-fn with_almost_the_same_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
+/// Returns the rays, followed by up to five groups of additional rays. In each group, consecutive
+/// rays are closely related, but their hits are at clearly different distances.
+fn with_related_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
     /// The maximum number of attempts to draw the two rays of a group.
     const ATTEMPTS: usize = 2000;
     /// The minimum difference between the distances of the two hits, relative to the larger
     /// distance.
     const LEAST: f64 = 7e-4;
-    for _ in 0..3 {
+    for group in 0..5 {
         let found = rng.attempt(ATTEMPTS, |rng| {
             let ray = ray_from_around(rng, tree);
-            let other = almost_the_same_ray(rng, &ray);
+            let other = match group {
+                0..3 => almost_the_same_ray(rng, &ray),
+                3 => mirrored(rng, &ray)?,
+                _ => Ray {
+                    dir: -ray.dir,
+                    ..ray
+                },
+            };
             let distance = |ray: &Ray| Some(tree.expected_hit(&Ray64::from(ray))?.distance);
             let (first, second) = (distance(&ray)?, distance(&other)?);
             let is_clear = is_clear_of_faces(tree, &other) && decoy::is_fair(tree, &[ray, other]);

@@ -143,18 +143,19 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
             missed_alone(|node| node.r)(tree, leaf, ray64)
                 && !decoy::hits_below_sibling(tree, leaf, ray64)
         };
-        vec![
+        let mut questions = vec![
             question_with_decoys(rng, &fits, SlidesAnswer::Correct),
             question_with_decoys(rng, &after_nothing, SlidesAnswer::Correct),
-            cells::question(
-                rng,
-                Decoys {
-                    reasons: &[CellSkipReason::Missed, CellSkipReason::MissedWithSibling],
-                    is_left: false,
-                    slides: SlidesAnswer::Correct,
-                },
-            ),
-        ]
+        ];
+        let decoys = Decoys {
+            reasons: &[CellSkipReason::Missed, CellSkipReason::MissedWithSibling],
+            is_left: false,
+            slides: SlidesAnswer::Correct,
+            fill: 50,
+        };
+        questions.push(cells::question(rng, decoys));
+        questions.extend(cells::small_questions(rng, decoys));
+        questions
     },
     ..TRAVERSAL
 };
@@ -169,18 +170,23 @@ pub(super) const PRUNES: Declaration = Declaration {
     tests: &["Do not enter a node whose box begins…"],
     questions: |rng| {
         let fits = skipped_for(SkipReason::SubtreePruned);
-        vec![
+        let decoys = Decoys {
+            reasons: &[
+                CellSkipReason::Beyond,
+                CellSkipReason::FartherOfTwoBeyond,
+                CellSkipReason::BeyondAfterFarther,
+            ],
+            is_left: false,
+            slides: SlidesAnswer::Correct,
+            fill: 50,
+        };
+        let mut questions = vec![
             question_with_decoys(rng, &fits, SlidesAnswer::Correct),
-            cells::question(
-                rng,
-                Decoys {
-                    reasons: &[CellSkipReason::Beyond, CellSkipReason::FartherOfTwoBeyond],
-                    is_left: false,
-                    slides: SlidesAnswer::Correct,
-                },
-            ),
+            cells::question(rng, decoys),
             as_dust(&question_with_decoys(rng, &fits, SlidesAnswer::Correct)),
-        ]
+        ];
+        questions.extend(cells::small_questions(rng, decoys));
+        questions
     },
     ..TRAVERSAL
 };
@@ -216,19 +222,20 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
         fork.is_some_and(|fork| distance(fork.toward_leaf) < distance(fork.toward_hit))
             && fits(tree, leaf, ray64)
     };
-    vec![
+    let decoys = Decoys {
+        reasons: &[CellSkipReason::Beyond, CellSkipReason::BeyondAfterParallel],
+        is_left: true,
+        slides: SlidesAnswer::Wrong,
+        fill: 1,
+    };
+    let mut questions = vec![
         question_with_decoys(rng, &left_last, SlidesAnswer::Wrong),
         question_with_decoys(rng, &nearer_center, SlidesAnswer::Wrong),
-        cells::question(
-            rng,
-            Decoys {
-                reasons: &[CellSkipReason::Beyond, CellSkipReason::BeyondAfterParallel],
-                is_left: true,
-                slides: SlidesAnswer::Wrong,
-            },
-        ),
+        cells::question(rng, decoys),
         as_dust(&question_with_decoys(rng, &fits, SlidesAnswer::Wrong)),
-    ]
+    ];
+    questions.extend(cells::small_questions(rng, decoys));
+    questions
 }
 
 pub(super) const BOTH_SIDES: Declaration = Declaration {
@@ -251,23 +258,24 @@ pub(super) const BOTH_SIDES: Declaration = Declaration {
             skipped_for(SkipReason::LeafPruned)(tree, leaf, ray64)
                 && decoy::siblings_beyond_are_missed(tree, leaf, ray64)
         };
-        vec![
+        let decoys = Decoys {
+            reasons: &[
+                CellSkipReason::Missed,
+                CellSkipReason::MissedWithSibling,
+                CellSkipReason::NearerOfTwoBeyond,
+            ],
+            is_left: true,
+            slides: SlidesAnswer::Wrong,
+            fill: 1,
+        };
+        let mut questions = vec![
             question_with_decoys(rng, &missed_alone, SlidesAnswer::Wrong),
             question_with_decoys(rng, &with_sibling, SlidesAnswer::Wrong),
-            cells::question(
-                rng,
-                Decoys {
-                    reasons: &[
-                        CellSkipReason::Missed,
-                        CellSkipReason::MissedWithSibling,
-                        CellSkipReason::NearerOfTwoBeyond,
-                    ],
-                    is_left: true,
-                    slides: SlidesAnswer::Wrong,
-                },
-            ),
+            cells::question(rng, decoys),
             question_with_decoys(rng, &pruned_alone, SlidesAnswer::Wrong),
-        ]
+        ];
+        questions.extend(cells::small_questions(rng, decoys));
+        questions
     },
     ..TRAVERSAL
 };

@@ -9,7 +9,7 @@ use super::placed::is_clear_of_faces;
 use super::trace;
 use super::{
     TRAVERSAL, add_unreferenced, layers, placed, question_without_decoys, ray_from_around,
-    soup_tree, traversal_question, unambiguous_rays, with_almost_the_same_rays, with_unreferenced,
+    soup_tree, traversal_question, unambiguous_rays, with_related_rays, with_unreferenced,
 };
 use crate::domains::fields::FURTHEST;
 use crate::domains::traverse;
@@ -44,7 +44,7 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
         for count in [2, 100] {
             let mut tree = soup_tree(rng, count, 1.6, 1);
             let rays = unambiguous_rays(rng, &tree, [22, 12], ray_from_around);
-            let rays = with_almost_the_same_rays(rng, &tree, rays);
+            let rays = with_related_rays(rng, &tree, rays);
             questions.push(with_unreferenced(rng, &mut tree, rays));
         }
         questions.extend(same_rays_in_three_trees(rng));

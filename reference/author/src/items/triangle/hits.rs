@@ -173,16 +173,10 @@ pub(super) const GRAZING: Declaration = Declaration {
     questions: |rng| {
         let all = ["distance", "position", "origin", "shape", "normal", "uv"];
         // At the smallest cosines, rounding spoils the weights.
-        let quantities = [&all[..4], &all[..]].into_iter();
-        let questions = quantities.map(|judged| {
-            let sizes = if judged.len() < all.len() {
-                USUAL
-            } else {
-                SMALL
-            };
-            questions(rng, judged, sizes, |plane| !is_steep(plane))
-        });
-        questions.flatten().collect()
+        let hits = questions(rng, &all[..4], EVERY_SIZE, |plane| !is_steep(plane));
+        let sizes = [SMALL, USUAL].concat();
+        let weights = questions(rng, &all, &sizes, |plane| !is_steep(plane));
+        [hits, weights].concat()
     },
     ..Declaration::ALONE
 };

@@ -32,7 +32,8 @@ pub(super) const NORMAL: Declaration = Declaration {
     id: "triangle.normal",
     title: "the normal is interpolated between the corners' normals",
     look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at p0, p1 and \
-           p2, and w = 1 − u − v. The normal of the flat face is not used.",
+           p2, and w = 1 − u − v. The normal of the flat face is not used, and nothing is turned \
+           toward the ray.",
     look_fits: &[Symptom::of("normal")],
     section: "triangle.md#interpolate-the-given-normals",
     tests: &["`normal` and `uv`…"],

@@ -241,9 +241,9 @@ impl Reader<'_> {
     }
 }
 
-/// Of the prefixes that more than half of the names share, returns the one that is most often
-/// followed by one of the `listed` texts. If several prefixes are equally frequent, returns an
-/// empty string. `normalize` is applied to the text after a prefix before it is compared.
+/// Among the prefixes shared by more than half of the names, returns the one most often followed by
+/// one of the `listed` strings. If several prefixes are equally frequent, returns an empty string.
+/// `normalize` is applied to the text after a prefix before it is compared.
 fn most_frequent_prefix<'a>(
     names: &[&'a str],
     separator: char,

@@ -65,7 +65,7 @@ pub(super) const OCTANTS: Declaration = Declaration {
 
 pub(super) const AXIS_PARALLEL: Declaration = Declaration {
     id: "bbox.axis_parallel",
-    title: "directions with components 0, −0 and almost 0 work as well",
+    title: "directions with components that are 0, −0 or almost 0 work as well",
     look: "A ray that does not move along an axis is either always between the planes of that axis \
         or never. Dividing by zero gives infinities that express this, if your comparisons handle \
         them. A component that is almost 0 still moves the ray.",

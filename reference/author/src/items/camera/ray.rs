@@ -16,7 +16,7 @@ use crate::seed::Rng;
 pub(super) const OFFSET: Declaration = Declaration {
     id: "camera.offset",
     title: "the offset moves the ray within its pixel",
-    look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) of the film, \
+    look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) on the film, \
            measured in pixels. Use each component unchanged, on its own axis.",
     section: "camera.md#the-offset-is-measured-in-pixels",
     tests: &["`offset` is the position…"],

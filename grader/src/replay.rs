@@ -132,7 +132,7 @@ impl ExamRun {
             (Err(fault), Some((question, element))) => {
                 let number = item.number(question, element);
                 return format!(
-                    "correct, but the item has no answers because of {}#{number}: {fault}",
+                    "correct, but {}#{number} left the whole item without answers: {fault}",
                     item.id
                 );
             }

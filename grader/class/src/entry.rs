@@ -100,10 +100,10 @@ pub struct Person {
     /// The account name, for example on GitHub.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
-    /// The number that the platform gives the person, such as the user id in Canvas or the
+    /// The number that the platform assigns to the person, such as the user id in Canvas or the
     /// participant number in Moodle. In Moodle's file names, it can also be a group's number, which
-    /// may be the same as somebody's own number. The number is therefore only used together with
-    /// the name.
+    /// may coincide with somebody else's personal number, so it is only used together with the
+    /// name.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
     /// The group in the roster.

@@ -338,7 +338,7 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
             None => missing_grade(row),
         };
         let unlisted = row.result.info.is_unlisted.then(|| Reason {
-            cause: "nobody in the lists has this name or identifier".to_owned(),
+            cause: "nobody on the lists has this name or identifier".to_owned(),
             detail: String::new(),
             remedy: "; correct the name or the list, unless these people aren't in the course",
         });

@@ -12,8 +12,8 @@ pub const KEPT_STATE: &str = "Your code answers the same question correctly in i
                               a `Cell`. An answer must depend only on the arguments of its call.";
 
 /// The clue for a panic in one of the submission's lines whose message says nothing about the cause.
-pub const UNKNOWN_PANIC: &str = "What does that line require? Work out for the question shown which \
-                                 value doesn't meet the requirement.";
+pub const UNKNOWN_PANIC: &str = "What does that line require? For the question shown, work out \
+                                 which value doesn't meet the requirement.";
 
 /// Returns the clue for an item without an answer.
 pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
@@ -75,12 +75,12 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
         .any(|operation| message.starts_with(&format!("attempt to {operation}")));
     Some(match PanicKind::of(message)? {
         PanicKind::Index if is_axis => {
-            "Compare the index with the length: is the index one too far, or was it meant for another \
-             list? A vector has the axes 0, 1 and 2."
+            "Compare the index with the length: is the index one too large, or was it meant for a \
+             different list? A vector has the axes 0, 1 and 2."
         }
         PanicKind::Index => {
-            "Compare the index with the length: is the index one too far, is the list empty, or was the index \
-             meant for another list?"
+            "Compare the index with the length: is the index one too large, is the list empty, or \
+             was the index meant for a different list?"
         }
         PanicKind::Arithmetic if is_too_large => {
             "The result is too large for the type of these whole numbers. Convert them to `f32`, or to a larger \

@@ -406,8 +406,8 @@ pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> I
             format!("wrong only because {by} failed; passes with the reference's other files")
         }
         (true, message) => format!(
-            "{message}; passes only because the mistake in {by} cancels this one, so it is graded \
-             with the reference's other files"
+            "{message}; passes only because the mistake in {by} cancels this one out, so it is \
+             graded with the reference's other files"
         ),
         (false, message) => {
             format!("{message}; graded with the reference's other files because {by} failed")

@@ -1,4 +1,4 @@
-//! The parts shared by the benchmarks of the grader and of a class. `grader/benches/README.md`
+//! Code shared by the benchmarks for the grader and those for a class. `grader/benches/README.md`
 //! explains what they measure.
 //!
 //! Unix only, like the benchmarks, because other systems don't report the CPU time of child

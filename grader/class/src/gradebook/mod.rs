@@ -62,8 +62,8 @@ struct Gradebook {
     maximum: Option<String>,
 }
 
-/// A column that identifies people. A row matches a person if its text in this column equals a text
-/// of the same kind that identifies the person.
+/// A column that identifies people. A row matches a person if its value in this column is one of
+/// the person's identifiers of the same kind.
 struct Key {
     kind: KeyKind,
     column: usize,
@@ -130,14 +130,14 @@ impl Key {
         known.map(|text| self.kind.fold(text)).collect()
     }
 
-    /// Returns whether the key proves that a row is this person's.
+    /// Returns whether the key proves that a row belongs to this person.
     fn confirms(&self, row: &[String], person: &Person) -> bool {
         let known = self.row_text(row);
         let is_certain = !matches!(self.kind, KeyKind::Number | KeyKind::Name);
         is_certain && !known.is_empty() && self.person_texts(person).contains(&known)
     }
 
-    /// Returns whether the key proves that a row isn't this person's.
+    /// Returns whether the key proves that a row doesn't belong to this person.
     fn rules_out(&self, row: &[String], person: &Person) -> bool {
         let (known, texts) = (self.row_text(row), self.person_texts(person));
         let differs = !known.is_empty() && !texts.is_empty() && !texts.contains(&known);

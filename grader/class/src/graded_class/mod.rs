@@ -184,7 +184,7 @@ impl ClassRow {
         own.collect()
     }
 
-    /// Returns whether other submissions are used for everyone in this row.
+    /// Returns whether everyone in this row has another submission that is used instead.
     pub fn is_superseded(&self) -> bool {
         !self.grades.is_empty() && self.grades.iter().all(PersonGrade::is_superseded)
     }

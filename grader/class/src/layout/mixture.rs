@@ -37,10 +37,10 @@ pub(super) fn reject_mixtures(
             let inside = submissions_inside(node, handed_out)?;
             (!is_known()).then(|| {
                 format!(
-                    "the folder {} contains several submissions ({}): if they are from different students, \
-                     pass this folder, or move them out of it; if they are attempts of one student, \
-                     keep only the one that counts; if each contains a part of one submission, \
-                     combine them in one folder",
+                    "the folder {} contains several submissions ({}): if they are from different \
+                     students, pass this folder, or move them out of it; if they are attempts by \
+                     one student, keep only the one that counts; if each contains part of one \
+                     submission, combine them in one folder",
                     node.name,
                     listed(&inside)
                 )

@@ -204,8 +204,8 @@ impl Reader<'_> {
         let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
         if !odd.is_empty() && is_majority(&prefix, &all) {
             names.notes.push(format!(
-                "the names of most folders begin with {prefix}, but not {odd}: if this is from \
-                 another assignment or from staff, move it out"
+                "most folders' names begin with {prefix}, unlike {odd}: if this is from another \
+                 assignment or from staff, move it out"
             ));
         }
         for SubmissionNode { parts, .. } in &mut names.found {
@@ -241,9 +241,9 @@ impl Reader<'_> {
     }
 }
 
-/// Of the prefixes that more than half of the names share, returns the one that is most often
-/// followed by one of the `listed` texts. If several prefixes are equally frequent, returns an
-/// empty string. `normalize` is applied to the text after a prefix before it is compared.
+/// Among the prefixes shared by more than half of the names, returns the one most often followed by
+/// one of the `listed` strings. If several prefixes are equally frequent, returns an empty string.
+/// `normalize` is applied to the text after a prefix before it is compared.
 fn most_frequent_prefix<'a>(
     names: &[&'a str],
     separator: char,
@@ -281,7 +281,7 @@ fn unlisted_prefix<'a>(names: &[&'a str], separator: char) -> Result<&'a str, Er
     let odd = names.iter().filter(|name| !name.starts_with(longer));
     let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
     Err(Error::user(format!(
-        "the names of most folders begin with {longer}, but not {odd}, so it is unclear where the \
+        "most folders' names begin with {longer}, unlike {odd}, so it is unclear where the \
          students' names begin: if this is from another assignment or from staff, move it out; \
          otherwise, pass a list with the students' accounts or names, for example with --roster"
     )))

@@ -132,7 +132,7 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     let holds_out = |shard: &&PathBuf| contains(shard, &arguments.out);
     match arguments.shards.iter().find(holds_out) {
         Some(shard) => Err(Error::user(format!(
-            "{} is part of the results of the shard {}: choose a different folder for --out",
+            "{} is part of the results of shard {}: choose a different folder for --out",
             arguments.out.display(),
             shard.display()
         ))),

@@ -46,7 +46,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         ),
         (
             summary.unlisted,
-            "handed in by people who aren't in the lists: see class.html",
+            "handed in by people who aren't on the lists: see class.html",
         ),
         (
             summary.undecided,

@@ -25,8 +25,8 @@ pub const SUBMISSION: &str = "submission.zip";
 const STAMP: &str = "entry.json";
 /// The file with an entry's score from before the current round.
 pub const PREVIOUS: &str = "previous.json";
-/// The file with an entry's score from earlier in the same round, for an older version of the
-/// submission.
+/// The file with the score that an older version of the entry's submission got earlier in the same
+/// round.
 pub const REPLACED: &str = "replaced.json";
 const RUN: &str = "run.json";
 /// The prefix of temporary files, which are renamed when complete.

@@ -326,12 +326,12 @@ fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
     let class = with_clone(class, "cg26-warmup-lena");
     let preview = class.preview();
     assert_contains(&preview, &people);
-    let odd = "begin with cg26-pathtracing-, but not cg26-warmup-lena: ";
+    let odd = "begin with cg26-pathtracing-, unlike cg26-warmup-lena: ";
     assert_contains(&preview, &[odd, "  cg26-warmup-lena: all 5 files"]);
 
     let class = with_clone(clones(TestClass::named("clones")), "handout");
     let error = class.refused_preview(&["--layout", "gitlab"]);
-    let odd = "begin with cg26-pathtracing-tum-, but not handout, so it is unclear";
+    let odd = "begin with cg26-pathtracing-tum-, unlike handout, so it is unclear";
     assert_contains(&error, &[odd, "move it out; otherwise, pass a list"]);
     let roster = class.write_beside("roster.csv", "name,sid\nAnn,tum-ann\nBob,tum-bob\n");
     let options = ["--layout", "gitlab", "--roster", &roster];
@@ -378,7 +378,7 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
         .with_minimal_submission("tue/zoe");
     let error = class.refused_preview(&[]);
     let error = error.replace(class.path_beside("").to_str().unwrap(), "FOLDER/");
-    assert_snapshot!(error, @"error: FOLDER/class cannot be read as a class: the folder mon contains several submissions (ann, bob): if they are from different students, pass this folder, or move them out of it; if they are attempts of one student, keep only the one that counts; if each contains a part of one submission, combine them in one folder; or choose how to read it: with --layout tutorials, each folder contains several students' folders; with --layout folders, each folder is one submission");
+    assert_snapshot!(error, @"error: FOLDER/class cannot be read as a class: the folder mon contains several submissions (ann, bob): if they are from different students, pass this folder, or move them out of it; if they are attempts by one student, keep only the one that counts; if each contains part of one submission, combine them in one folder; or choose how to read it: with --layout tutorials, each folder contains several students' folders; with --layout folders, each folder is one submission");
     let preview = class.preview_of(&class.input(), &["--layout", "tutorials"]);
     assert_contains(
         &preview,

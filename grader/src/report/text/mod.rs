@@ -266,7 +266,7 @@ fn waiting<'a>(items: impl Iterator<Item = &'a ItemScore>) -> String {
     }
 }
 
-/// Makes all lines grey if they are old.
+/// Greys out all lines if they are old.
 fn grey_if(is_old: bool, text: &mut String) {
     if is_old {
         let lines = strip_str(text).to_string();

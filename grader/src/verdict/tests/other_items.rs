@@ -96,7 +96,7 @@ fn a_substituted_score_counts_and_compares_itself_with_the_items_own() {
     let messages = others.map(|(own, substituted)| message(own, substituted));
     insta::assert_snapshot!(messages.join("\n"), @r"
     wrong only because triangle.inside failed; passes with the reference's other files
-    wrong: interval; passes only because the mistake in triangle.inside cancels this one, so it is graded with the reference's other files
+    wrong: interval; passes only because the mistake in triangle.inside cancels this one out, so it is graded with the reference's other files
     wrong: interval; graded with the reference's other files because triangle.inside failed
     ");
 }

@@ -60,7 +60,7 @@ pub struct Session {
     /// The submission's files, as last compiled.
     submission: Option<Arc<Submission>>,
     opened: Option<OpenOutcome>,
-    /// How long it last took to open the scene.
+    /// How long the scene took to open last time.
     last_opening: Duration,
     /// Whether building the tree takes a long time.
     is_build_slow: bool,

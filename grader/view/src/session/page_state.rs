@@ -54,7 +54,7 @@ pub struct PageState<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct CameraState {
     position: Vec3,
-    /// The axes to the right, up and backward.
+    /// The axes pointing right, up and backward.
     axes: [[f32; 3]; 3],
     /// Half the height of the picture at a distance of 1.
     half_height: f32,

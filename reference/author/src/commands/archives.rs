@@ -29,8 +29,8 @@ pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> C
     }
     if light == LightFiles::Solved {
         println!(
-            "this publishes the solution of part two, which draws the pictures: `--light stubs` hands \
-             out both parts to be written"
+            "this publishes the solution to part two, which draws the pictures: `--light stubs` \
+             leaves both parts for students to write"
         );
     }
     if let Some(out) = &args.out {

@@ -99,8 +99,7 @@ pub(super) fn mutants(
     report(&findings.problems(), &line)
 }
 
-/// Grades the variants with the exams for all seeds, and the mistakes with only the first few
-/// exams.
+/// Grades the variants on the exams for all seeds, but the mistakes on only the first few.
 pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandResult {
     let all = solutions(authoring)?;
     let selected = match &args.variant {

@@ -147,7 +147,7 @@ impl Coverage {
             let [(first, class), (second, other)] = pair.classes;
             if pair.is_missing() {
                 self.problems.push(format!(
-                    "{function} is never tested at {first} {class:?} with {second} {other:?}"
+                    "{function} is never tested with {first} {class:?} and {second} {other:?}"
                 ));
             } else if pair.count > 0 {
                 self.asked += 1;

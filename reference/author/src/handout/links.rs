@@ -42,7 +42,7 @@ fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
         .filter(|name| *name != SUMMARY)
         .chain(figures.iter().map(String::as_str));
     all.filter(|file| !reached.contains(file))
-        .map(|file| format!("{file}: no chapter contains a link to it"))
+        .map(|file| format!("{file}: no chapter links to it"))
         .collect()
 }
 
@@ -154,8 +154,8 @@ mod tests {
                 "a.md:3: there is no c.md",
                 "a.md:4: a.md has no heading for #b",
                 "b.md:2: there is no figures/b.svg",
-                "b.md: no chapter contains a link to it",
-                "figures/a.svg: no chapter contains a link to it",
+                "b.md: no chapter links to it",
+                "figures/a.svg: no chapter links to it",
             ]
         );
     }

@@ -167,7 +167,7 @@ impl Detections {
         thin.map(|(id, _, caught)| match caught {
             None => format!("{id} passes an exam"),
             Some(caught) => format!(
-                "{id} is caught only by {caught} in {}: add questions that show it",
+                "{id} is caught only by {caught} in {}: add questions that expose it",
                 caught.item
             ),
         })
@@ -262,7 +262,8 @@ mod tests {
             detections.problems(),
             [
                 "bbox.b passes an exam",
-                "bbox.a is caught only by 1 of 24 answers in bbox.thin: add questions that show it",
+                "bbox.a is caught only by 1 of 24 answers in bbox.thin: add questions that expose \
+                 it",
             ]
         );
     }

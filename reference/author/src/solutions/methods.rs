@@ -1,6 +1,6 @@
-//! Wrong methods, in the folder `methods` of an assignment's mistakes. Like unknown mistakes, they
-//! have no hints of their own. Each is a method, together with its helpers, that a student might
-//! write instead of the reference's.
+//! Wrong methods, from the `methods` folder of an assignment's mistakes. Like unknown mistakes,
+//! they have no hints of their own. Each is a method, together with its helpers, that a student
+//! might write instead of the reference's.
 
 use anyhow::{Result, anyhow};
 use judging::assignment::Task;

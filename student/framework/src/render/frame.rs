@@ -1,5 +1,5 @@
-//! Coordinate frames around a direction, and sampling of directions. The functions are small and
-//! part of every path, so they are inlined into part two's crate.
+//! Coordinate frames around a direction, and direction sampling. The functions are small and called
+//! on every path, so they are inlined into part two's crate.
 
 use std::f32::consts::TAU;
 

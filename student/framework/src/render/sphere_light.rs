@@ -40,8 +40,8 @@ impl SphereLight {
         cone.map_or(0.0, |(_, span)| 1.0 / (TAU * span))
     }
 
-    /// Returns the distance from a point outside the sphere to the sphere in a direction, which must
-    /// be a unit vector.
+    /// Returns the distance to the sphere from a point outside it, along a direction that must be a
+    /// unit vector.
     pub fn intersect(&self, from: Vec3, direction: Vec3) -> Option<f32> {
         let to_center = self.center - from;
         let along = to_center.dot(direction);

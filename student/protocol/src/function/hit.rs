@@ -1,4 +1,4 @@
-//! `hit` for triangles, spheres and trees, which takes a ray and returns its closest hit.
+//! `hit`, which takes a ray and returns its closest hit, for triangles, spheres and trees.
 
 use std::borrow::Cow;
 

@@ -257,9 +257,9 @@ pub(super) const BUILD: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("box too small")],
-            clue: "The box of the node shown does not enclose the boxes of all the primitives below it. \
-                Compare it with each of these boxes: did you enclose every primitive, and its whole box \
-                instead of just its centre?",
+            clue: "The box of the node shown does not enclose the boxes of all the primitives \
+                below it. Compare it with each of these boxes: did you enclose the box of every \
+                primitive, rather than just its centre?",
             section: "building.md#start-each-box-empty",
         },
         SymptomClue {

@@ -64,7 +64,7 @@ pub struct Draw {
     /// The number of samples to draw for each of these pixels, one after the other. Rays through
     /// the same pixel need the same nodes, which are then in the cache.
     pub passes: u32,
-    /// The number of samples that have been drawn already.
+    /// The number of samples drawn so far.
     pub first: u32,
     /// The quantity to compute for each pixel.
     pub quantity: Quantity,

@@ -33,8 +33,8 @@ pub struct Row {
     /// The node that was entered for the first time with this test: the parent of the node whose
     /// box was tested, or the leaf of the primitive that was tested.
     pub enters: Option<u32>,
-    /// Nodes that may have been entered with this test, i.e. the parents if several nodes share the
-    /// tested box.
+    /// The nodes that may have been entered when this box was tested: all parents, if several nodes
+    /// share the box.
     pub may_enter: Vec<u32>,
 }
 

@@ -54,7 +54,7 @@ pub struct ListedDefect {
     pub text: String,
     /// The corners of the node's or the primitive's box, unless the box is empty or infinite.
     pub corners: Option<[Vec3; 2]>,
-    /// The corners of the correct box, if the box is wrong.
+    /// The corners that the node's box should have, if it is wrong.
     pub tight: Option<[Vec3; 2]>,
 }
 

@@ -207,7 +207,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["2000", "3000"],
             &["normal", "origin", "position", "shape", "uv"],
             "Only the largest triangles are hit from so far away, so it is enough if an exam tests \
-             the distance of the hit.",
+             the distance to the hit.",
         ),
     ],
 };

@@ -185,10 +185,10 @@ pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
 
 pub(super) const COST_STRANDS: Declaration = Declaration {
     id: "build.cost_strands",
-    title: "the best of all three axes is chosen, for strands along x, y and z",
+    title: "for strands along x, y and z, the best of all three axes is chosen",
     look: "At every node, compare the partitions along all three axes by the same cost, which \
-           depends on the areas of boxes around whole primitives and on their numbers. The \
-           cheapest need not be along the longest axis.",
+           depends on the areas of the boxes around whole primitives and on how many primitives \
+           are in them. The cheapest need not be along the longest axis.",
     look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#try-all-three-axes-at-every-node",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],
@@ -198,7 +198,7 @@ pub(super) const COST_STRANDS: Declaration = Declaration {
 
 pub(super) const COST_SHEETS: Declaration = Declaration {
     id: "build.cost_sheets",
-    title: "the areas of both sides decide, for sheets stacked above each other",
+    title: "for stacked sheets, the areas of both sides decide",
     look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
            buckets from the left and from the right.",
     look_fits: &[Symptom::of("SAH cost")],
@@ -214,7 +214,7 @@ pub(super) const COST_SHEETS: Declaration = Declaration {
 
 pub(super) const COST_TOWN: Declaration = Declaration {
     id: "build.cost_town",
-    title: "areas and counts decide together, for crowds on an open field",
+    title: "for crowds on an open field, areas and counts decide together",
     look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
            together with its cost.",
     look_fits: &[Symptom::of("SAH cost")],

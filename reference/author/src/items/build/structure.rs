@@ -181,9 +181,9 @@ pub(super) const PARTITION: Declaration = Declaration {
 pub(super) const CONTAINS: Declaration = Declaration {
     id: "build.contains",
     title: "every box contains everything below it",
-    look: "A node's box encloses the whole boxes of all primitives below it. A leaf's primitives \
-           are start..start + size in the list that you return: compare a leaf's box with them, \
-           and the boxes of the nodes above with those of their children.",
+    look: "A node's box must completely enclose the boxes of all primitives below it. A leaf's \
+           primitives are start..start + size in the list that you return: compare its box with \
+           theirs, and the boxes of the nodes above with those of their children.",
     look_fits: &[Symptom::of("box too small")],
     section: "building.md#the-contract",
     tests: &["The box of a node…"],
@@ -198,7 +198,7 @@ pub(super) const CONTAINS: Declaration = Declaration {
 
 pub(super) const TIGHT: Declaration = Declaration {
     id: "build.tight",
-    title: "no box is larger than its contents need",
+    title: "no box is larger than its contents require",
     look: "A node's box is the union of its primitives' boxes. A box that starts at the origin \
            instead of BBox::EMPTY, or is the parent's box, is too large.",
     look_fits: &[Symptom::of("box too large")],
@@ -216,7 +216,7 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
     id: "build.leaf_size",
     title: "no leaf holds more than max_leaf_size primitives",
     look: "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
-           cheaper by the heuristic.",
+           cheaper according to the heuristic.",
     look_fits: &[Symptom::of("leaf size"), Symptom::less("splits")],
     section: "building.md#when-a-node-becomes-a-leaf",
     tests: &["A node is a leaf…"],

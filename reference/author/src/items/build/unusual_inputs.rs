@@ -147,7 +147,7 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
 pub(super) const COPLANAR: Declaration = Declaration {
     id: "build.coplanar",
     title: "a flat grid works as well",
-    look: "Along one axis all centres coincide: no plane separates them there, and dividing by \
+    look: "Along one axis, all centres coincide: no plane separates them there, and dividing by \
            their extent gives NaN. Both the search for the cheapest partition and the partition \
            itself need another axis.",
     look_fits: &[
@@ -177,7 +177,7 @@ pub(super) const COPLANAR: Declaration = Declaration {
 pub(super) const COLLINEAR: Declaration = Declaration {
     id: "build.collinear",
     title: "a row of primitives works as well, along any axis",
-    look: "Along two axes all centres coincide. Find the third one, whether it is x, y or z.",
+    look: "Along two axes, all centres coincide. Find the third axis, whether it is x, y or z.",
     look_fits: &[
         Symptom::of("nodes"),
         Symptom::of("leaves"),
@@ -203,8 +203,8 @@ pub(super) const COLLINEAR: Declaration = Declaration {
 pub(super) const OUTLIER: Declaration = Declaration {
     id: "build.outlier",
     title: "one primitive far from all others does not spoil the tree",
-    look: "Then most of the others are in one bucket. The split still helps: they end up in a smaller node \
-        with its own buckets.",
+    look: "Most of the others are then in one bucket. The split still helps: they end up in a \
+        smaller node with its own buckets.",
     look_fits: &[Symptom::less("splits"), Symptom::of("leaf size")],
     section: "building.md#one-primitive-far-from-the-others",
     tests: &["Every primitive is…", "The box of a node…"],

@@ -16,7 +16,7 @@ use crate::seed::Rng;
 pub(super) const OFFSET: Declaration = Declaration {
     id: "camera.offset",
     title: "the offset moves the ray within its pixel",
-    look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) of the film, \
+    look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) on the film, \
            measured in pixels. Use each component unchanged, on its own axis.",
     section: "camera.md#the-offset-is-measured-in-pixels",
     tests: &["`offset` is the position…"],
@@ -191,8 +191,8 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
 pub(super) const PICTURE: Declaration = Declaration {
     id: "camera.picture",
     title: "every pixel of a picture looks in the right direction",
-    look: "Five positions in each pixel are compared. See which of them are wrong: those at one \
-           edge, in one half, or all except the middles of pixels?",
+    look: "Five positions in each pixel are compared. Which of them are wrong: those along one \
+           edge, those in one half, or all but the centre?",
     section: "grading.md#reading-a-wrong-picture",
     tests: &["Returns the ray that…"],
     questions: |rng| {

@@ -20,7 +20,7 @@ fn aspect_of(film: UVec2) -> f64 {
 
 pub(in crate::items) const CORNERS: Declaration = Declaration {
     id: "camera.corners",
-    title: "the film's corners map to the sensor's corners, and its middle to (0, 0, −1)",
+    title: "the film's corners map to the sensor's corners, and its centre to (0, 0, −1)",
     look: "The sensor spans −1 to 1 in x and y, at z = −1. Work one position out by hand: (pixel + \
            offset) / film runs from 0 to 1.",
     section: "camera.md#from-pixel-to-sensor",
@@ -48,7 +48,7 @@ pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
     id: "camera.field_of_view",
     title: "the sensor's height is 2·tan(fov/2)",
     look: "vertical_fov is the full angle, in degrees. Draw the triangle from the camera to the \
-           middle and the upper edge of the sensor: which angle is at the camera?",
+           centre and the upper edge of the sensor: what is its angle at the camera?",
     section: "camera.md#half-the-angle-and-twice-the-tangent",
     tests: &["The sensor is the…"],
     questions: |rng| {
@@ -65,9 +65,9 @@ pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
 pub(super) const ASPECT_RATIO: Declaration = Declaration {
     id: "camera.aspect_ratio",
     title: "the sensor's width is its height times the aspect ratio",
-    look: "vertical_fov gives the height of the sensor, and aspect_ratio · height is its width. \
-           Across the film, a position divided by film.x, the number of columns, is a fraction of \
-           that width. Up the film, one divided by film.y is a fraction of the height.",
+    look: "vertical_fov gives the sensor's height, and aspect_ratio · height is its width. On the \
+           film, x divided by film.x, the number of columns, is a fraction of that width, and y \
+           divided by film.y, the number of rows, is a fraction of the height.",
     section: "camera.md#the-size-of-the-sensor",
     tests: &["The sensor is the…"],
     questions: |rng| {

@@ -116,7 +116,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
     id: "sphere.range_max",
     title: "only hits before the end of the range count",
     look: "Compare each root separately with both ends of ray.range. The ray can end before the \
-           sphere, inside it or behind it: which of the two roots are in the range of the ray \
+           sphere, inside it or beyond it: which of the two roots are in the range of the ray \
            shown?",
     section: "sphere.md#check-each-root-by-itself",
     tests: &["`ray.range` includes both…"],

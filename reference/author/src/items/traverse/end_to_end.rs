@@ -131,7 +131,7 @@ fn long_row(rng: &mut Rng) -> ExamQuestion {
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "traverse.picture",
-    title: "a picture of what is in the leaves of a tree is correct in every quantity",
+    title: "a picture of the contents of a tree's leaves is correct in every quantity",
     look: "Follow the ray of one wrong pixel from the root: which nodes should it enter, and which \
            primitives should it test? If a piece is missing there, see whether your code skips it \
            or loses it to a farther hit.",

@@ -86,7 +86,8 @@ pub(super) const NO_NODES: Declaration = Declaration {
     id: "traverse.no_nodes",
     title: "an empty tree has no hits",
     look: "An empty tree has no nodes, or one leaf of size 0, for which l == r as for every leaf. \
-           In the first case there is no node at index root, in the second no primitive at start.",
+           In the first case, there is no node at index root; in the second, there is no primitive \
+           at start.",
     look_fits: &[Symptom::HIT],
     section: "traversal.md#an-empty-tree-has-no-nodes",
     tests: &["The tree can be 60…"],

@@ -22,10 +22,10 @@ use crate::tree::{Tree, construction, decoy};
 
 pub(super) const CLOSEST_HIT: Declaration = Declaration {
     id: "traverse.closest_hit",
-    title: "of all hits in leaves that the ray reaches, the closest counts",
-    look: "Follow the ray shown through the tree from its root, box by box: which primitives need \
-           to be tested, and which of their hits is the closest? Then see which primitives your \
-           code tests, and which hit it keeps after each.",
+    title: "the closest hit in the leaves that the ray reaches is returned",
+    look: "Follow the ray shown through the tree, box by box, starting at the root: which \
+           primitives need to be tested, and which of their hits is the closest? Then see which \
+           primitives your code tests, and which hit it keeps after each.",
     look_fits: &[Symptom::MISS, Symptom::of("distance")],
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
     tests: &["Returns the ray's…", "Boxes overlap, so…"],
@@ -480,7 +480,7 @@ pub(super) const FLAT: Declaration = Declaration {
 pub(super) const MIXED: Declaration = Declaration {
     id: "traverse.mixed",
     title: "a tree can hold spheres and triangles",
-    look: "Primitive::hit tests either kind, and their distances are compared in the same way.",
+    look: "Primitive::hit tests both kinds, and their distances are compared in the same way.",
     look_fits: &[Symptom::MISS, Symptom::of("distance")],
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
     tests: &["Returns the ray's…"],

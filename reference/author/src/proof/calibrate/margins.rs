@@ -110,7 +110,7 @@ impl Margins {
         counted.for_each(|sample| self.add_mistake(sample));
     }
 
-    /// Adds the deviation by which a mistake fails an item that it must fail.
+    /// Records by how much a mistake deviates on an item that it must fail.
     fn add_mistake(&mut self, sample: DeviationSample) {
         let Deviation { threshold, value } = sample.deviation;
         if value < MIN_MARGIN {

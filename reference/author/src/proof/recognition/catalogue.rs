@@ -93,7 +93,10 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
             format!("{id}: recognised")
         } else {
             let unlike = row.unlike.join(", ");
-            format!("{id}: no hint; differs from the same mistake in the reference in: {unlike}")
+            format!(
+                "{id}: no hint; compared with the same mistake in the reference, its answers \
+                 differ in: {unlike}"
+            )
         });
         recognition.problems.extend(row.problems);
     }

@@ -148,7 +148,7 @@ pub(super) fn hints(root: &Path, authoring: &'static Authoring, args: HintsArgs)
         let recognition = recognise_independent(&solutions, &practice)?;
         ("hints --independent", recognition)
     } else if args.unknown {
-        let recognition = recognise_unknown(&solutions, &practice)?;
+        let recognition = recognise_unknown(&solutions, &practice, 1)?;
         ("hints --unknown", recognition)
     } else if let Some(count) = args.pairs {
         let recognition = recognise_pairs(&solutions, &practice, count)?;

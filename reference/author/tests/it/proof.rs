@@ -36,13 +36,6 @@ fn practice_exam() -> Exam {
 }
 
 #[test]
-fn one_seed_is_proven() {
-    // The calibration test grades the same solutions with another seed.
-    let summary = author_succeeds(&["prove", "--seeds", "1..2", "--mistakes", "1"]);
-    assert!(summary.contains("seeds 1, false fails 0"), "{summary}");
-}
-
-#[test]
 fn all_margins_are_wide_enough_for_one_seed() {
     let before = text(CALIBRATION);
     let one_seed = ["calibrate", "--check", "--seeds", "2..3"];
@@ -99,10 +92,12 @@ fn mistakes_in_other_solutions_cost_points_and_most_are_recognised() {
 
 #[test]
 fn mistakes_of_no_known_kind_cost_points_and_get_no_false_hint() {
+    // Grading all of them takes as long as all other tests of this package together.
+    const STEP: usize = 4;
     let _lock = lock_builds();
-    let recognition = recognise_unknown(&SOLUTIONS, &practice_exam()).unwrap();
+    let recognition = recognise_unknown(&SOLUTIONS, &practice_exam(), STEP).unwrap();
     assert_eq!(recognition.problems, [""; 0]);
-    assert!(recognition.count >= 210, "{recognition}");
+    assert!(recognition.count >= 120, "{recognition}");
     assert_eq!(recognition.with_false_hint, 0, "{recognition}");
 }
 

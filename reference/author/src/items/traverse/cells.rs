@@ -368,9 +368,10 @@ impl Cell {
             number: first_number(link),
             decoy: FIRST_DECOY + link as u32,
         };
-        let (ray, parallel) = match plan.reason {
-            CellSkipReason::BeyondAfterParallel => draft.add_crossing_leaves(rng),
-            _ => draft.add_leaves(rng),
+        let (ray, parallel) = if plan.reason == CellSkipReason::BeyondAfterParallel {
+            draft.add_crossing_leaves(rng)
+        } else {
+            draft.add_leaves(rng)
         };
         let tree = draft.tree;
         let expected = tree.expected_hit(&Ray64::from(&ray));

@@ -111,9 +111,10 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
     Ok(recognition)
 }
 
-/// Grades every unknown mistake and determines its hints.
-pub fn recognise_unknown(solutions: &Solutions, exam: &Exam) -> Result<Recognition> {
+/// Grades one in `step` unknown mistakes and determines the hints that they get.
+pub fn recognise_unknown(solutions: &Solutions, exam: &Exam, step: usize) -> Result<Recognition> {
     let all = [unknown_mistakes(solutions)?, wrong_methods(solutions)?].concat();
+    let all: Vec<Solution> = all.into_iter().step_by(step).collect();
     let rows = report(solutions, &all, exam)?;
     let with_false_hint = rows.iter().filter(|row| !row.false_hints.is_empty());
     let lines: Vec<String> = with_false_hint

@@ -362,9 +362,11 @@ fn a_copy_next_to_a_file_is_never_chosen_silently() {
 
 #[test]
 fn files_with_other_names_are_named_once_with_advice() {
-    let expected = "it contains none of camera.rs, triangle.rs, sphere.rs, bbox.rs and bvh.rs in \
-                    any of its folders; it contains camera.rs.txt, bvh.rs.txt: give each file its \
-                    task file's exact name, such as camera.rs; names must end in .rs";
+    let expected = format!(
+        "it contains none of {} in any of its folders; it contains camera.rs.txt, bvh.rs.txt: give \
+         each file its task file's exact name, such as camera.rs; names must end in .rs",
+        RAYS.file_list()
+    );
     let files: Files = &[
         ("bvh.rs.txt", b"new"),
         ("camera.rs.txt", b"new"),

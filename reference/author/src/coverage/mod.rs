@@ -37,7 +37,7 @@ impl Coverage {
     /// Returns a one-line summary.
     pub fn summary_line(&self) -> String {
         format!(
-            "{} sentences; classes: {} tested, {} left untested for a stated reason, {} missing",
+            "{} sentences; classes: {} tested, {} left untested for a stated reason; problems: {}",
             self.sentences,
             self.asked,
             self.excused,
@@ -103,7 +103,8 @@ impl Coverage {
         for (text, asked) in tested.iter().chain(&untested) {
             if sentences.iter().filter(|it| is_meant(text, it)).count() != 1 {
                 let problem = format!(
-                    "{}: {asked} must refer to exactly one sentence, not to {text:?}",
+                    "{}: {asked} must refer to exactly one sentence, not to {text:?}: quote it \
+                     up to its full stop, or only its beginning, followed by an ellipsis (…)",
                     task.id
                 );
                 self.problems.push(problem);

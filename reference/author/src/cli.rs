@@ -129,6 +129,9 @@ pub struct PackageArgs {
     /// default
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
+    /// Part two's files in the package, as for `cargo author bundle`
+    #[arg(long, value_name = "FILES", value_enum, default_value_t)]
+    pub light: LightFiles,
     /// Set up and run the package the way the platform does, without a network and with half a
     /// core; grade the reference, the starter, an empty submission and, for gradescope, a malicious
     /// one (on Linux, as root or with sudo)

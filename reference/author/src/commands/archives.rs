@@ -27,12 +27,7 @@ pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> C
     if args.check {
         bundle::check::check(root, handed_out, light, &bundle)?;
     }
-    if light == LightFiles::Solved {
-        println!(
-            "this publishes the solution to part two, which draws the pictures: `--light stubs` \
-             leaves both parts for students to write"
-        );
-    }
+    say_what_is_published(light);
     if let Some(out) = &args.out {
         archive::write(&bundle, out)?;
         if args.book.is_none() {
@@ -43,6 +38,16 @@ pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> C
         }
     }
     Ok(())
+}
+
+/// Says that students can read part two's solution, if they can.
+fn say_what_is_published(light: LightFiles) {
+    if light == LightFiles::Solved {
+        println!(
+            "this publishes the solution to part two, which draws the pictures: `--light stubs` \
+             leaves both parts for students to write"
+        );
+    }
 }
 
 /// Prints what a bundle contains. Fails if it contains a secret.
@@ -64,7 +69,7 @@ pub(super) fn package(
     args: &PackageArgs,
 ) -> CommandResult {
     let (exam, policy) = (args.exam.as_deref(), args.policy.as_deref());
-    let course = CourseFiles::new(authoring, args.exam_seed, exam, policy)?;
+    let course = CourseFiles::new(authoring, args.exam_seed, exam, policy, args.light)?;
     let (platform, out) = (args.platform, args.out.as_path());
     let package = &package::collect(root, authoring.handed_out, platform, course)?;
     match platform {
@@ -79,11 +84,13 @@ pub(super) fn package(
         }
         Platform::Classroom50 => {
             archive::write_folder(package, out)?;
+            say_what_is_published(args.light);
             println!("{} files: {}", package.files.len(), out.display());
         }
         Platform::Github => {
-            let light = LightFiles::default();
-            report_leaks(package, &Secrets::gather(root, authoring, light, package)?)?;
+            let secrets = Secrets::gather(root, authoring, args.light, package)?;
+            report_leaks(package, &secrets)?;
+            say_what_is_published(args.light);
             archive::write(package, out)?;
         }
     }

@@ -1,12 +1,9 @@
 //! The package for classroom50: a folder with two files, the entry-point script and an archive of
 //! the grader. Students can read all of it, so it uses the practice exam.
 
-use std::path::Path;
-
 use anyhow::Result;
-use grader::handed_out::HandedOut;
 
-use crate::bundle::{Bundle, BundleOptions, archive};
+use crate::bundle::{Bundle, archive};
 use crate::package::grader_files;
 
 /// The file name and the contents of the script that the runner starts.
@@ -15,11 +12,10 @@ const ENTRY_POINT: (&str, &str) = (
     include_str!("templates/classroom50/autograder.py"),
 );
 
-/// Collects all files for the folder.
-pub(super) fn package(root: &Path, handed_out: &HandedOut, policy: &str) -> Result<Bundle> {
-    let students = Bundle::collect(root, handed_out, BundleOptions::default())?;
+/// Collects all files for the folder. The grader is part of the students' bundle.
+pub(super) fn package(students: &Bundle, policy: &str) -> Result<Bundle> {
     let mut grader = Bundle::default();
-    for (path, contents) in grader_files(&students) {
+    for (path, contents) in grader_files(students) {
         grader.insert(path, contents.clone());
     }
     grader.insert("policy.toml", policy);

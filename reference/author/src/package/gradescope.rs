@@ -7,7 +7,7 @@ use anyhow::Result;
 use grader::handed_out::HandedOut;
 
 use crate::bundle::folders::copy_tree;
-use crate::bundle::{Bundle, BundleOptions, crates};
+use crate::bundle::{Bundle, crates};
 use crate::package::{grader_files, package_path};
 
 /// The two scripts that Gradescope runs, and the script that both of them call.
@@ -25,16 +25,17 @@ const SCRIPTS: [(&str, &str); 3] = [
 /// The placeholder in the scripts for the names of the task files.
 const TASK_FILES: &str = "TASK_FILES";
 
-/// Collects all files for the zip.
+/// Collects all files for the zip. The grader is part of the students' bundle, and the reference's
+/// parts come from the workspace at `root`.
 pub(super) fn package(
     root: &Path,
     handed_out: &HandedOut,
+    students: &Bundle,
     exam: &str,
     policy: &str,
 ) -> Result<Bundle> {
-    let students = Bundle::collect(root, handed_out, BundleOptions::default())?;
     let mut package = Bundle::default();
-    for (path, contents) in grader_files(&students) {
+    for (path, contents) in grader_files(students) {
         package.insert(package_path(path), contents.clone());
     }
     // The grader takes substituted parts from these folders.

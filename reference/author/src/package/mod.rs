@@ -19,6 +19,7 @@ use grader::policy::{self, Policy};
 
 use crate::authoring::Authoring;
 use crate::bundle::{Bundle, BundleOptions, archive};
+use crate::light::LightFiles;
 
 /// A platform that grades submissions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -31,13 +32,15 @@ pub enum Platform {
     Github,
 }
 
-/// The course's own files: its final exam and its policy.
+/// The course's own files: its final exam and its policy, and what students get of part two.
 #[derive(Clone, Debug)]
 pub struct CourseFiles {
     /// The text of the final exam. `None` for a platform that cannot hide it from students.
     pub exam: Option<String>,
     /// The text of the policy file.
     pub policy: String,
+    /// Part two's files in the package.
+    pub light: LightFiles,
 }
 
 impl CourseFiles {
@@ -48,6 +51,7 @@ impl CourseFiles {
         seed: Option<u64>,
         exam: Option<&Path>,
         policy: Option<&Path>,
+        light: LightFiles,
     ) -> Result<Self> {
         let exam = match (seed, exam) {
             (Some(seed), _) => Some(crate::exams::final_exam_text(authoring, seed)?),
@@ -64,7 +68,11 @@ impl CourseFiles {
             }
             None => policy::DEFAULT.to_owned(),
         };
-        Ok(CourseFiles { exam, policy })
+        Ok(CourseFiles {
+            exam,
+            policy,
+            light,
+        })
     }
 }
 
@@ -77,16 +85,20 @@ pub fn collect(
     course: CourseFiles,
 ) -> Result<Bundle> {
     const NOT_SECRET: &str = "only a package for Gradescope can contain a final exam";
+    let students = || {
+        let light = course.light;
+        Bundle::collect(root, handed_out, BundleOptions { book: None, light })
+    };
     match (platform, course.exam) {
         (Platform::Gradescope, Some(exam)) => {
-            gradescope::package(root, handed_out, &exam, &course.policy)
+            gradescope::package(root, handed_out, &students()?, &exam, &course.policy)
         }
         (Platform::Gradescope, None) => bail!(
             "the final exam is missing: add --exam-seed S, a long number that is hard to guess, or \
              --exam FILE"
         ),
-        (Platform::Classroom50, None) => classroom50::package(root, handed_out, &course.policy),
-        (Platform::Github, None) => Bundle::collect(root, handed_out, BundleOptions::default()),
+        (Platform::Classroom50, None) => classroom50::package(&students()?, &course.policy),
+        (Platform::Github, None) => students(),
         (Platform::Classroom50, Some(_)) => {
             bail!("students can read classroom50's folder: {NOT_SECRET}")
         }

@@ -24,7 +24,7 @@ static FINAL: LazyLock<CourseFiles> = LazyLock::new(|| {
 });
 
 fn without_exam() -> CourseFiles {
-    CourseFiles::new(&authoring::RAYS, None, None, None).unwrap()
+    CourseFiles::new(&authoring::RAYS, None, None, None, LightFiles::Solved).unwrap()
 }
 
 #[test]

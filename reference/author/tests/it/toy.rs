@@ -238,7 +238,7 @@ fn the_bundle_and_the_package_of_the_toy_hold_its_starter_and_no_solution() {
     leaking.insert("handout/src/notes.md", text("solved/src/mirror.rs"));
     assert!(toy_leaks(&secrets, &leaking) > 1);
 
-    let course = CourseFiles::new(&TOY, None, None, None).unwrap();
+    let course = CourseFiles::new(&TOY, None, None, None, LightFiles::Solved).unwrap();
     let package = package::collect(&root(), TOY.handed_out, Platform::Classroom50, course).unwrap();
     let archive = archive::unzip(&package.files["pathtracing.zip"]).unwrap();
     assert_eq!(

@@ -48,8 +48,8 @@ pub fn with_best_level(builder: &Builder) -> Result<Builder, Error> {
         }
     }
     Err(Error::Isolation(format!(
-        "other people's code cannot be graded here: neither isolation level {MIN_FOR_UNTRUSTED} nor a \
-         better one is available\n{missing}{ADVICE}"
+        "other people's code cannot be graded here: that requires isolation level \
+         {MIN_FOR_UNTRUSTED} or better, which is not available\n{missing}{ADVICE}"
     )))
 }
 

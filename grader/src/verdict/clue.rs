@@ -65,7 +65,7 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
     if message.starts_with("the tree is too large") {
         return Some(
             "A split puts each primitive on one of two sides, and each side is built once. Draw the tree \
-             that your code builds for four primitives: which part of it is there more than once?",
+             that your code builds for four primitives: which part of it appears more than once?",
         );
     }
     // The first message is from a vector, the second from an array of three numbers.

@@ -302,8 +302,8 @@ fn match_rows<'c>(
                         )
                     } else {
                         format!(
-                            "{who} is not in this list: {listed} has a different number or student id; \
-                             enter the points by hand"
+                            "{who} is not in this list: {listed} is, but with a different number or \
+                             student id; enter the points by hand"
                         )
                     });
                 }

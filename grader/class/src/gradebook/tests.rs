@@ -127,8 +127,8 @@ fn a_namesake_with_another_id_gets_no_points() {
             let mut wanted = Vec::new();
             if is_other {
                 wanted.push(format!(
-                    "Jane Doe is not in this list: {name} has a different number or student id; \
-                     enter the points by hand"
+                    "Jane Doe is not in this list: {name} is, but with a different number or \
+                     student id; enter the points by hand"
                 ));
             }
             assert_eq!(filled.warnings, wanted);

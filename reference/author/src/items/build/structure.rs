@@ -156,9 +156,9 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
 pub(super) const PARTITION: Declaration = Declaration {
     id: "build.partition",
     title: "every primitive is in exactly one leaf",
-    look: "Return a tree whose root is nodes[root]: from there, l and r, which are indices into \
-           nodes, lead to the leaves. A leaf holds start..start + size of the list that you \
-           return, and together the leaves hold each primitive once.",
+    look: "Return a tree whose root is nodes[root]. From there, l and r, which are indices into \
+           nodes, lead to the leaves. A leaf holds the primitives start..start + size of the list \
+           that you return, and every primitive is in exactly one leaf.",
     look_fits: &[
         Symptom::of("nodes"),
         Symptom::of("root"),

@@ -85,9 +85,9 @@ fn with_detached_subtrees(
 pub(super) const NO_NODES: Declaration = Declaration {
     id: "traverse.no_nodes",
     title: "an empty tree has no hits",
-    look: "An empty tree has no nodes, or one leaf of size 0, for which l == r as for every leaf. \
-           In the first case, there is no node at index root; in the second, there is no primitive \
-           at start.",
+    look: "An empty tree has either no nodes or a single leaf of size 0, with l == r as in any \
+           other leaf. In the first case, there is no node at index root; in the second, there is \
+           no primitive at start.",
     look_fits: &[Symptom::HIT],
     section: "traversal.md#an-empty-tree-has-no-nodes",
     tests: &["The tree can be 60…"],

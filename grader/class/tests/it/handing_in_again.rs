@@ -5,7 +5,7 @@ use std::fs;
 
 use grader::handed_out::RAYS;
 
-use crate::harness::{TestClass, assert_contains, cell, files_below, source, zip};
+use crate::harness::{TestClass, all_files, assert_contains, cell, files_below, source, zip};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 const ROSTER: &str = "name,username,email,datetime\n\
@@ -145,8 +145,8 @@ fn the_dry_run_shows_corrected_files_and_those_of_nobody() {
     let folder = class.path_beside("corrected").display().to_string();
     let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
     let expected = [
-        "bob: all 5 files\n      bob.zip (corrected: bob.zip)",
         "corrected/camera.rs: neither a folder nor an archive",
+        &(all_files("bob") + "\n      bob.zip (corrected: bob.zip)"),
     ];
     assert_contains(&preview, &expected);
 }

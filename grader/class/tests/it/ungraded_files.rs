@@ -2,7 +2,9 @@
 //! wherever people might look for it, and that an untouched starter file next to a changed copy is
 //! never graded.
 
-use crate::harness::{TestClass, assert_contains, source, zip};
+use grader::handed_out::RAYS;
+
+use crate::harness::{TestClass, all_files, assert_contains, source, zip};
 
 const WORK: &str = "// finished";
 
@@ -86,13 +88,15 @@ fn a_copy_counts_only_if_no_other_file_could_be_meant() {
     let class = class.with("two/camera (2).rs", "// another");
     let preview = class.preview();
     for (who, copy) in &copies[..3] {
-        let expected = format!("{who}: all 5 files; {copy} is graded as camera.rs");
+        let expected = format!("{}; {copy} is graded as camera.rs", all_files(who));
         assert_eq!(line(&preview, who), expected);
     }
+    let (count, points) = (RAYS.files.len(), RAYS.assignment.tasks[0].points);
     for (who, copy) in &copies[3..5] {
         let expected = format!(
-            "{who}: 4 of 5 files; camera.rs is missing; {copy} is not graded because its name is \
-             not camera.rs; this costs 15 points"
+            "{who}: {} of {count} files; camera.rs is missing; {copy} is not graded because its \
+             name is not camera.rs; this costs {points} points",
+            count - 1
         );
         assert_eq!(line(&preview, who), expected);
     }
@@ -129,7 +133,7 @@ fn a_folder_for_each_task_is_one_submission_if_no_file_has_two_versions() {
         .preview();
     let refused = "it contains different copies of bvh.rs, in old and task2: keep only the one \
                    that should be graded";
-    assert_contains(&preview, &["all 5 files\n", refused]);
+    assert_contains(&preview, &[refused, &format!("{}\n", all_files(""))]);
 }
 
 #[test]
@@ -207,7 +211,7 @@ fn a_submission_that_is_too_large_affects_no_other() {
     let archive = class.path_beside("class.zip");
     std::fs::write(&archive, zip(files)).unwrap();
     let preview = class.preview_of(&archive, &[]);
-    assert_eq!(line(&preview, "ann"), "ann: all 5 files");
+    assert_eq!(line(&preview, "ann"), all_files("ann"));
     for (who, why) in [
         ("bomb", "work.zip cannot be unpacked: it is 257 MiB"),
         (

@@ -60,7 +60,11 @@ fn a_task_has_a_clue_for_code_that_hits_nothing_if_its_rays_can_hit_something() 
         let items: Vec<&Item> = of_task.collect();
         let has_clue = task.clues.if_nothing_is_hit.is_some();
         let can_hit = items.iter().any(|item| right(item) != missed(item));
-        assert_eq!(has_clue, can_hit, "{}", task.id);
+        assert_eq!(
+            has_clue, can_hit,
+            "{}: if_nothing_is_hit must be Some exactly if one of its rays hits",
+            task.id
+        );
         // One item of each kind is enough.
         let kind = |item: &Item| (right(item) != missed(item), is_picture(item));
         let kinds: BTreeMap<(bool, bool), &Item> =

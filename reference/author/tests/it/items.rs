@@ -116,7 +116,11 @@ fn there_is_advice_for_every_symptom() {
         let keys = item.questions.iter().map(|question| &question.key);
         for symptom in keys.flat_map(possible_symptoms) {
             let has_advice = item.has_look_for(&symptom) || clues.of_symptom(&symptom).is_some();
-            assert!(has_advice, "{}: {symptom:?}", item.id);
+            assert!(
+                has_advice,
+                "{}: neither `look_fits` nor the task's clues (by_symptom) cover {symptom:?}",
+                item.id
+            );
         }
         for fitting in &item.look_fits {
             let keys = item.questions.iter().map(|question| &question.key);

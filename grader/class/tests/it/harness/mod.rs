@@ -267,10 +267,15 @@ pub fn refusal(output: &Output) -> String {
     error
 }
 
+/// Returns the beginning of a preview's line about a submission that contains all task files.
+pub fn all_files(who: &str) -> String {
+    format!("{who}: all {} files", RAYS.files.len())
+}
+
 /// Panics if `text` lacks any of these parts.
 #[track_caller]
-pub fn assert_contains(text: &str, parts: &[&str]) {
-    for part in parts {
+pub fn assert_contains(text: &str, parts: &[impl AsRef<str>]) {
+    for part in parts.iter().map(AsRef::as_ref) {
         assert!(text.contains(part), "{part:?} is not in {text}");
     }
 }

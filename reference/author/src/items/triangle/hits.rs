@@ -61,7 +61,8 @@ pub(super) const OUTSIDE: Declaration = Declaration {
 pub(super) const FROM_BEHIND: Declaration = Declaration {
     id: "triangle.from_behind",
     title: "a triangle is hit from behind as well",
-    look: "Seen from behind, the determinant has the opposite sign, but that doesn't make it a miss.",
+    look: "If the triangle is seen from behind, the determinant has the opposite sign, but that \
+        doesn't make it a miss.",
     look_fits: &[Symptom::MISS],
     section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
     tests: &["The triangle can…"],

@@ -149,7 +149,7 @@ pub(super) const COPLANAR: Declaration = Declaration {
     title: "a flat grid works as well",
     look: "Along one axis, all centres coincide: no plane separates them there, and dividing by \
            their extent gives NaN. Both the search for the cheapest partition and the partition \
-           itself need another axis.",
+           itself must use another axis.",
     look_fits: &[
         Symptom::of("nodes"),
         Symptom::of("leaves"),

@@ -193,10 +193,10 @@ pub(super) const PRUNES: Declaration = Declaration {
 
 pub(super) const NEARER_FIRST: Declaration = Declaration {
     id: "traverse.nearer_first",
-    title: "if the ray enters r first, r goes first, and l is then pruned by its own entry",
-    look: "The child whose box the ray enters first goes first, whether that is l or r. After that, compare \
-        the entry of the other one with the closest hit: the slides' hit2.t is the entry of r, even if l \
-        comes second.",
+    title: "if the ray enters r first, r is visited first, then l is pruned by its own entry",
+    look: "First visit the child whose box the ray enters first, whether that is l or r. Then \
+        compare the entry of the other child with the closest hit: the slides' hit2.t is the entry \
+        of r, even if l comes second.",
     look_fits: &[Symptom::less("distance")],
     section: "traversal.md#compare-the-entry-of-the-second-child",
     tests: &[

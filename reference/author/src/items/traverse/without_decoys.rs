@@ -251,9 +251,9 @@ fn ray_from_around_or_in_a_corner() -> impl FnMut(&mut Rng, &Tree) -> Ray {
 pub(super) const RANGE: Declaration = Declaration {
     id: "traverse.range",
     title: "only hits within the ray's range count",
-    look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞, and the \
-           closest such hit is the answer. Find all hits of the ray shown, and see where your code chooses \
-           a different one, or none.",
+    look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞. The \
+           closest hit that counts is the answer. Find all hits of the ray shown, and see where \
+           your code chooses a different one, or none.",
     section: "traversal.md#only-a-hit-shortens-the-ray",
     tests: &["Returns the ray's…"],
     questions: range,

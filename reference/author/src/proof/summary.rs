@@ -124,7 +124,7 @@ mod tests {
         assert_eq!(
             summary.notes(),
             [
-                "note: with seed 5000, bbox.a does not fail bbox.flat, although it does with every \
+                "note: with seed 5000, bbox.a does not fail bbox.flat, although it does so with every \
                     seed in mistakes/fails.toml"
             ]
         );

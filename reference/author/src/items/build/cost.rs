@@ -199,8 +199,8 @@ pub(super) const COST_STRANDS: Declaration = Declaration {
 pub(super) const COST_SHEETS: Declaration = Declaration {
     id: "build.cost_sheets",
     title: "for stacked sheets, the areas of both sides decide",
-    look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
-           buckets from the left and from the right.",
+    look: "S_A and S_B are the areas of the boxes around *all* primitives of each side: merge the \
+        buckets from the left for one side, and from the right for the other.",
     look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#areas-and-counts-in-the-cost-formula",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],

@@ -241,8 +241,9 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
 pub(super) const BOTH_SIDES: Declaration = Declaration {
     id: "traverse.both_sides",
     title: "a child is entered only if its own box is hit, before the closest hit",
-    look: "Look at each child's own box: enter the child only if the ray hits that box, and not beyond the \
-        closest hit so far. If both boxes are missed, enter neither, even though the slides always enter `first`.",
+    look: "Look at each child's own box: enter the child only if the ray hits that box and doesn't \
+        enter it beyond the closest hit so far. If both boxes are missed, enter neither, even \
+        though the slides always enter `first`.",
     look_fits: &[Symptom::HIT, Symptom::less("distance")],
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
     tests: &[

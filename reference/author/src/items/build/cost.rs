@@ -186,9 +186,9 @@ pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
 pub(super) const COST_STRANDS: Declaration = Declaration {
     id: "build.cost_strands",
     title: "for strands along x, y and z, the best of all three axes is chosen",
-    look: "At every node, compare the partitions along all three axes by the same cost, which \
-           depends on the areas of the boxes around whole primitives and on how many primitives \
-           are in them. The cheapest partition need not be along the longest axis.",
+    look: "At every node, compare partitions along all three axes by the same cost. It depends on \
+        the areas of the boxes around whole primitives and on the numbers of primitives. The \
+        cheapest partition need not be along the longest axis.",
     look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#try-all-three-axes-at-every-node",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],

@@ -117,8 +117,8 @@ pub(super) const COINCIDENT: Declaration = Declaration {
 pub(super) const CONCENTRIC: Declaration = Declaration {
     id: "build.concentric",
     title: "spheres around one centre are split by count",
-    look: "Their boxes differ, but their centres coincide, so no plane between buckets of centres \
-           separates them on any axis. Split them by count.",
+    look: "The boxes of the spheres differ, but their centres coincide, so no plane between \
+        buckets of centres separates them on any axis. Split them by count.",
     look_fits: &[
         Symptom::of("nodes"),
         Symptom::of("leaves"),
@@ -203,8 +203,8 @@ pub(super) const COLLINEAR: Declaration = Declaration {
 pub(super) const OUTLIER: Declaration = Declaration {
     id: "build.outlier",
     title: "one primitive far from all others does not spoil the tree",
-    look: "Most of the others then end up in one bucket. The split still helps, because it puts \
-        them into a smaller node with its own buckets.",
+    look: "Most of the other primitives then end up in one bucket. The split still helps, because \
+        it puts them into a smaller node with its own buckets.",
     look_fits: &[Symptom::less("splits"), Symptom::of("leaf size")],
     section: "building.md#one-primitive-far-from-the-others",
     tests: &["Every primitive is…", "The box of a node…"],

@@ -65,9 +65,9 @@ pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
 pub(super) const ASPECT_RATIO: Declaration = Declaration {
     id: "camera.aspect_ratio",
     title: "the sensor's width is its height times the aspect ratio",
-    look: "vertical_fov gives the sensor's height, and aspect_ratio · height is its width. On the \
-           film, x divided by film.x, the number of columns, is a fraction of that width, and y \
-           divided by film.y, the number of rows, is a fraction of the height.",
+    look: "vertical_fov gives the sensor's height, and the width is aspect_ratio · height. The \
+        film has film.x columns and film.y rows: for a point (x, y) on the film, x / film.x is a \
+        fraction of the width, and y / film.y is a fraction of the height.",
     section: "camera.md#the-size-of-the-sensor",
     tests: &["The sensor is the…"],
     questions: |rng| {

@@ -101,7 +101,7 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
     id: "sphere.far_root",
     title: "if the near side is before the range, the far side is hit",
     look: "The range need not start at 0. If the near root is outside the range and the far root \
-           is inside, the far root counts.",
+        is inside it, the far root counts.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     tests: &["If only the far intersection…"],
     questions: |rng| {

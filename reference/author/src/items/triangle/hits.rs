@@ -124,8 +124,8 @@ pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
 pub(super) const TINY: Declaration = Declaration {
     id: "triangle.tiny",
     title: "a triangle with edges of 1e-3 is hit like any other",
-    look: "The determinant is small for small triangles too, not only for parallel rays: compare \
-           it with zero, not with a small number.",
+    look: "The determinant is small for small triangles too, not only for rays that are almost \
+        parallel: compare it with zero, not with a small number.",
     look_fits: &[Symptom::MISS],
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
     tests: &["Triangles can be any…"],

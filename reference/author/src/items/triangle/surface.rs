@@ -19,7 +19,7 @@ fn is_from_either_side(plane: &Plane) -> bool {
 
 pub(super) const POSITION: Declaration = Declaration {
     id: "triangle.position",
-    title: "position is the point where the ray hits the triangle",
+    title: "the position is the point where the ray hits the triangle",
     look: "The position is the point on the ray at t, or the weighted sum of the corners, which is \
         the same point.",
     look_fits: &[Symptom::of("position")],

@@ -165,33 +165,39 @@ const OFFSET_Y: Aspect<CameraCall> = Aspect {
     class: |call| Some(offset_class(call.sample.offset.y)),
 };
 
+/// The pixels per axis of large films.
+const LARGE_FILMS: &[&str] = &["2,048 to 3,499 pixels", "3,500 to 4,096 pixels"];
+
 /// Pixels of a large film that are so wide that the offset matters.
 const LARGE_PIXEL_X: Aspect<CameraCall> = Aspect {
     name: "wide pixel",
-    classes: &["of a large film"],
-    class: |call| call.has_large_pixel(0).then_some(0),
+    classes: LARGE_FILMS,
+    class: |call| call.large_pixel_class(0),
 };
 
 /// Pixels of a large film that are so high that the offset matters.
 const LARGE_PIXEL_Y: Aspect<CameraCall> = Aspect {
     name: "high pixel",
-    classes: &["of a large film"],
-    class: |call| call.has_large_pixel(1).then_some(0),
+    classes: LARGE_FILMS,
+    class: |call| call.large_pixel_class(1),
 };
 
 impl CameraCall {
-    /// Returns whether the film has many pixels along an axis but the offset in this pixel still
-    /// matters.
-    fn has_large_pixel(&self, axis: usize) -> bool {
-        /// The minimum number of pixels.
-        const MANY: u32 = 2048;
+    /// Returns the class of a film that has many pixels along an axis, if the offset in this pixel
+    /// still matters.
+    fn large_pixel_class(&self, axis: usize) -> Option<usize> {
         /// The minimum angle that matters, in radians.
         const LEAST: f64 = 2e-3;
         let mut in_the_middle = self.sample;
         in_the_middle.offset[axis] = 0.5;
         let [one, other] =
             [self.sample, in_the_middle].map(|sample| camera::direction(&self.camera, sample));
-        self.camera.film[axis] >= MANY && one.angle_between(other) > LEAST
+        let is_large = one.angle_between(other) > LEAST;
+        match self.camera.film[axis] {
+            2048..3500 if is_large => Some(0),
+            3500.. if is_large => Some(1),
+            _ => None,
+        }
     }
 }
 

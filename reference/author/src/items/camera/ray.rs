@@ -104,17 +104,19 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
         let film = uvec2(3840, 2160);
         let usual = camera(rng.uniform(35.0, 50.0), 16.0 / 9.0, film);
         // With the widest view, even the pixels in the middle of a large film are large.
-        let film = UVec2::from([(); 2].map(|()| rng.integer(2048, 4096)));
-        let wide = camera(rng.uniform(173.0, 175.0), rng.uniform(8.0, 10.0), film);
-        let in_the_middle = (0..12).map(|_| Sample {
-            pixel: film / 2,
-            offset: Vec2::new(offset(rng), offset(rng)),
+        let wide = [(2048, 3400), (3550, 4096)].map(|(least, most)| {
+            let film = UVec2::from([(); 2].map(|()| rng.integer(least, most)));
+            let wide = camera(rng.uniform(173.0, 175.0), rng.uniform(8.0, 10.0), film);
+            let in_the_middle = (0..12).map(|_| Sample {
+                pixel: film / 2,
+                offset: Vec2::new(offset(rng), offset(rng)),
+            });
+            (wide, in_the_middle.collect())
         });
-        let wide = (wide, in_the_middle.collect());
         let mut all = almost_equal_cameras(rng, usual);
         let more = (0..16).map(|_| sample(rng, usual.film));
         all[0].1 = more.chain(all[0].1.clone()).collect();
-        all.push(wide);
+        all.extend(wide);
         all.extend(extreme_views(rng));
         all.extend(films_of_few_pixels(rng));
         all.extend(almost_usual_cameras(rng));

@@ -132,7 +132,7 @@ impl ExamRun {
             (Err(fault), Some((question, element))) => {
                 let number = item.number(question, element);
                 return format!(
-                    "correct, but {}#{number} left the whole item without answers: {fault}",
+                    "correct, but the whole item has no answers because of {}#{number}: {fault}",
                     item.id
                 );
             }
@@ -149,8 +149,8 @@ impl ExamRun {
         match error {
             None => "right".to_owned(),
             Some(error) => format!(
-                "correct in isolation, but not together with the item's other questions: {error}. \
-                 {}",
+                "correct in isolation, but not when asked together with the item's other \
+                    questions: {error}. {}",
                 clue::KEPT_STATE
             ),
         }

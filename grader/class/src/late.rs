@@ -33,8 +33,8 @@ pub const ONLY_A_FLAG: &str = "the platform says that the submission is late, bu
     the roster, and `due` to the policy";
 
 const NOT_IN_CLASS: &str = "who is not in this class";
-const SHARED_NAME: &str = "but several people have this name, and all of them get it: use an email \
-    address or a student number instead";
+const SHARED_NAME: &str = "but several people have this name, so all of them get the extension: \
+    use an email address or a student number instead";
 
 impl UnclearTime {
     /// Returns an error with this reason, for a submission that isn't known to be a draft.

@@ -170,9 +170,9 @@ impl ManualPointsList {
             let sum = earned.checked_add_signed(*delta);
             if sum.is_none_or(|sum| sum > most) {
                 return Err(self.error(*row, format!(
-                    "{delta:+} points is out of range: {earned} of {most} points were earned for \
-                     {task} by {student}, perhaps because files were handed in again: correct this \
-                     row and pass the table with --manual-points"
+                    "{delta:+} points is out of range, perhaps because files were handed in again: \
+                        {student} earned {earned} of {most} points for {task}. Correct this row, \
+                        and pass the table with --manual-points"
                 )));
             }
         }

@@ -145,12 +145,12 @@ fn select<'a>(
             None
         } else if bytes == MAX_FILE_BYTES && member.size > MAX_FILE_BYTES {
             Some(format!(
-                "it is {size} MiB, and the limit is {most} MiB: ask for only the task files"
+                "it is {size} MiB, but the limit is {most} MiB: ask for only the task files"
             ))
         } else if total > max_total {
             Some(format!(
-                "it is {size} MiB, too large to unpack along with the class's smaller files: \
-                 unpack the archive yourself and pass the folder"
+                "it is {size} MiB, which is too large to unpack along with the class's smaller \
+                 files: unpack the archive yourself and pass the folder"
             ))
         } else {
             read.push((member, bytes));

@@ -39,8 +39,9 @@ const NEEDED_MEMORY: u64 = 512 << 20;
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
 /// The message to show if the compiler is killed even when nothing else is running.
-const KILLED_ALONE: &str = "the system killed the compiler (signal 9) twice, the second time while nothing \
-    else was running, but the compiler works for a different program: this code makes it use too much memory";
+const KILLED_ALONE: &str = "the system killed the compiler (signal 9) twice, the second time while \
+    nothing else was running; a different program does compile, so this code makes the compiler \
+    use too much memory";
 
 /// Result of an attempt to compile.
 #[derive(Debug)]

@@ -41,7 +41,7 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
             ),
             (
                 changed,
-                "were changed, and items of any task may fail because of that",
+                "were changed, which may make items of any task fail",
             ),
         ] {
             if !methods.is_empty() {

@@ -67,7 +67,9 @@ impl HandIn {
             return "unmodified".to_owned();
         }
         let lines = match own_lines(file, text).lines().count() {
-            0 => "no lines of your own, but some of the starter's lines were removed".to_owned(),
+            0 => "no lines of your own were added, but some of the starter's lines were \
+                removed"
+                .to_owned(),
             count => format!("{} of your own", counted(count, "line")),
         };
         match line_with_todo(text) {

@@ -98,7 +98,7 @@ impl FileChange {
                 let name = file;
                 let bytes = before.as_deref().ok_or_else(|| {
                     Error::User(format!(
-                        "{name} is missing: `cargo grade --reset {name}` writes the original file"
+                        "{name} is missing: `cargo grade --reset {name}` restores the original file"
                     ))
                 })?;
                 let text = std::str::from_utf8(bytes);

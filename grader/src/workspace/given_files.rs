@@ -51,9 +51,10 @@ fn note(changed: &[&str]) -> Option<String> {
     };
     (!first.is_empty()).then(|| {
         format!(
-            "the given code was changed: {}{more}. These results are for the changed code, but your work \
-             will be graded with the original: undo the changes, or unpack only these files from the \
-             archive and run `cargo clean`, because Cargo doesn't notice changed files that have old dates",
+            "the given code was changed: {}{more}. These results are for the changed code, but \
+             your work will be graded with the original: undo the changes. You can also unpack \
+             these files, and only these, from the archive; then run `cargo clean`, because Cargo \
+             doesn't notice changed files that have old dates",
             first.join(", ")
         )
     })

@@ -218,7 +218,8 @@ fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     let first = "sphere.from_inside#1";
     assert_ne!(culprit, first, "{text}");
     let text = replay(&submission, first);
-    let lost = format!("verdict  correct, but {culprit} left the whole item without answers: ");
+    let lost =
+        format!("verdict  correct, but the whole item has no answers because of {culprit}: ");
     assert!(text.contains(&lost), "{text}");
     assert!(!text.contains("keeps something"), "{text}");
 }

@@ -204,7 +204,7 @@ impl Reader<'_> {
         let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
         if !odd.is_empty() && is_majority(&prefix, &all) {
             names.notes.push(format!(
-                "most folders' names begin with {prefix}, unlike {odd}: if this is from another \
+                "most folder names begin with {prefix}, unlike {odd}: if this is from another \
                  assignment or from staff, move it out"
             ));
         }
@@ -281,9 +281,9 @@ fn unlisted_prefix<'a>(names: &[&'a str], separator: char) -> Result<&'a str, Er
     let odd = names.iter().filter(|name| !name.starts_with(longer));
     let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
     Err(Error::user(format!(
-        "most folders' names begin with {longer}, unlike {odd}, so it is unclear where the \
-         students' names begin: if this is from another assignment or from staff, move it out; \
-         otherwise, pass a list with the students' accounts or names, for example with --roster"
+        "most folder names begin with {longer}, unlike {odd}, so it is unclear where the students' \
+         names begin: if this is from another assignment or from staff, move it out; otherwise, \
+         pass a list with the students' accounts or names, for example with --roster"
     )))
 }
 

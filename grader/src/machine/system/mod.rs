@@ -100,7 +100,7 @@ fn single_name(name: &OsStr) -> io::Result<&OsStr> {
         (Some(Component::Normal(part)), None) if part == name => Ok(name),
         _ => Err(io::Error::new(
             io::ErrorKind::InvalidInput,
-            "the name of an entry is required, not a path",
+            "expected the name of a file or folder, not a path",
         )),
     }
 }

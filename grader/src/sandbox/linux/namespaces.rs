@@ -110,8 +110,8 @@ fn unshare(profile: &Profile) -> io::Result<()> {
     }
     // SAFETY: the call is only unsafe with the flag FILES, which is not set.
     unsafe { unshare_unsafe(flags) }.map_err(while_doing(
-        "create namespaces: the rules of a container, or of the system (`sysctl \
-         kernel.apparmor_restrict_unprivileged_userns user.max_user_namespaces`), forbid it",
+        "create namespaces: a container's rules or the system's settings (`sysctl \
+            kernel.apparmor_restrict_unprivileged_userns user.max_user_namespaces`) forbid it",
     ))?;
     if !uid.is_root() {
         // Map only this user, and to the same id. If the user were mapped to root, the compiler

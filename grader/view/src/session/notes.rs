@@ -187,8 +187,8 @@ impl Session {
             add(not_written(traverse), self.line_of(Some(traverse)));
         }
         if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
-            let text = "Nothing can be drawn yet: write the `hit` method of triangles or spheres \
-                        first.";
+            let text = "Nothing can be drawn yet: write the `hit` method for triangles or spheres \
+                first.";
             add(text.to_owned(), None);
         }
     }

@@ -82,7 +82,8 @@ impl ProofSummary {
             let passed = result.passed.iter();
             passed.map(|(id, items)| {
                 format!(
-                    "note: seed {}: {id} does not fail {}, which it fails with every seed in {}",
+                    "note: with seed {}, {id} does not fail {}, although it does so with every seed \
+                        in {}",
                     result.seed,
                     items.join(", "),
                     failed_items::FILE
@@ -123,8 +124,8 @@ mod tests {
         assert_eq!(
             summary.notes(),
             [
-                "note: seed 5000: bbox.a does not fail bbox.flat, which it fails with every seed \
-                 in mistakes/fails.toml"
+                "note: with seed 5000, bbox.a does not fail bbox.flat, although it does so with every \
+                    seed in mistakes/fails.toml"
             ]
         );
     }

@@ -40,8 +40,8 @@ impl EnvironmentMap {
         } = size;
         if width != 2 * height || width > MAX_FILM_SIDE || height == 0 {
             return Err(format!(
-                "the map has {width} × {height} pixels: a map of all directions is twice as wide as \
-                 high, and at most {MAX_FILM_SIDE} pixels wide"
+                "the map has {width} × {height} pixels: a map of all directions is twice as wide \
+                    as it is high, and at most {MAX_FILM_SIDE} pixels wide"
             ));
         }
         if radiance.len() != (width * height) as usize {

@@ -143,9 +143,9 @@ pub(super) const SPHERE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("distance")],
-            clue: "The distance is the smallest root in ray.range. Work out both roots for the \
-                     ray shown: is your distance one of them, and is the other root smaller but \
-                     also in the range?",
+            clue: "The distance is the smallest root in ray.range. Work out both roots for the ray \
+                     shown: is your distance one of them, and is the other root smaller and also \
+                     in the range?",
             section: "sphere.md#check-each-root-by-itself",
         },
         SymptomClue {
@@ -315,16 +315,16 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::HIT],
-            clue: "Your code returns a hit where no correct traversal finds one. If a primitive is hit there, it \
-                is in no leaf, or in a leaf that must not be entered, or outside ray.range. If none is, what \
-                does your code return when nothing is hit?",
+            clue: "Your code returns a hit where no correct traversal finds one. If a primitive is \
+                hit there, it is in no leaf, or in a leaf that must not be entered, or outside \
+                ray.range. If nothing is hit there, why doesn't your code return None?",
             section: "traversal.md#the-algorithm",
         },
         SymptomClue {
             symptoms: &[Symptom::less("distance")],
-            clue: "Your distance is less than the correct one. If it belongs to a primitive, that primitive is \
-                in no leaf, or in a leaf that must not be entered, or the hit is nearer than ray.range.min: \
-                why was it tested?",
+            clue: "Your distance is less than the correct one. If a primitive is hit there, it is \
+                in no leaf, or in a leaf that must not be entered, or the hit is nearer than \
+                ray.range.min: why was it tested?",
             section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
         },
         SymptomClue {
@@ -336,7 +336,7 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::less("depth")],
-            clue: "Your depth is less than the correct one. If it belongs to a primitive, that primitive is in \
+            clue: "Your depth is less than the correct one. If a primitive is hit there, it is in \
                 no leaf, or in a leaf that must not be entered: why was it tested?",
             section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
         },

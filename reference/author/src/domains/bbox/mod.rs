@@ -81,8 +81,8 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             &["size"],
             &["500"],
             &["pairs"],
-            "In a scene whose coordinates end at 1,000, nothing is 30 sizes away from a box of \
-             this size.",
+            "In a scene whose coordinates only go up to 1,000, nothing is 30 box sizes away from a \
+                box of this size.",
         ),
         not_asked(
             &["outcome"],

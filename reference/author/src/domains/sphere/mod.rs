@@ -87,8 +87,8 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
             &["size"],
             &["500"],
             &["pairs"],
-            "In a scene whose coordinates end at 1,000, nothing is 30 radii away from a sphere of \
-             this size.",
+            "In a scene whose coordinates only go up to 1,000, nothing is 30 radii away from a \
+                sphere of this size.",
         ),
         not_asked(
             &["distance"],

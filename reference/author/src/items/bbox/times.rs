@@ -42,7 +42,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
 
 pub(super) const CLIPPED: Declaration = Declaration {
     id: "bbox.clipped",
-    title: "only the part of times during which the ray is in the box is returned",
+    title: "the answer is only the part of times during which the ray is in the box",
     look: "Clip the interval at both ends. If the ray's line passes through the box, it is a miss \
            only if the box is entered after times.max or left before times.min.",
     section: "boxes.md#clip-the-result-to-times",
@@ -58,8 +58,8 @@ pub(super) const CLIPPED: Declaration = Declaration {
 pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
     id: "bbox.wholly_inside",
     title: "if the ray is in the box throughout times, all of times is returned",
-    look: "If the ray is in the box throughout times, it doesn't cross any plane within times, but \
-        it is still a hit, from times.min to times.max.",
+    look: "If the ray is in the box throughout times, it doesn't cross any of the box's planes in \
+        that time, but it is still a hit, from times.min to times.max.",
     look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
     section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
     tests: &["The result is clipped…"],

@@ -186,9 +186,9 @@ pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
 pub(super) const COST_STRANDS: Declaration = Declaration {
     id: "build.cost_strands",
     title: "for strands along x, y and z, the best of all three axes is chosen",
-    look: "At every node, compare the partitions along all three axes by the same cost, which \
-           depends on the areas of the boxes around whole primitives and on how many primitives \
-           are in them. The cheapest need not be along the longest axis.",
+    look: "At every node, compare partitions along all three axes by the same cost. It depends on \
+        the areas of the boxes around whole primitives and on the numbers of primitives. The \
+        cheapest partition need not be along the longest axis.",
     look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#try-all-three-axes-at-every-node",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],
@@ -199,8 +199,8 @@ pub(super) const COST_STRANDS: Declaration = Declaration {
 pub(super) const COST_SHEETS: Declaration = Declaration {
     id: "build.cost_sheets",
     title: "for stacked sheets, the areas of both sides decide",
-    look: "S_A and S_B are the areas of the boxes around *all* primitives of a side: merge the \
-           buckets from the left and from the right.",
+    look: "S_A and S_B are the areas of the boxes around *all* primitives of each side: merge the \
+        buckets from the left for one side, and from the right for the other.",
     look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#areas-and-counts-in-the-cost-formula",
     tests: &["Builds the tree with…", "Use 8 or more buckets…"],

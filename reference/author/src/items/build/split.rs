@@ -95,8 +95,8 @@ pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
     title: "for a few primitives arranged in a row, the best split is found",
     look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
-           areas and the counts of its sides: does your code try it, does it compute that cost, \
-           and does your root have these two sides?",
+           areas and the counts of its sides: does your code try this partition and compute this \
+           cost, and are these the two sides of your root?",
     look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#which-partitions-to-try",
     tests: &["Use 8 or more buckets…"],

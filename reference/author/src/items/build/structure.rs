@@ -182,8 +182,8 @@ pub(super) const CONTAINS: Declaration = Declaration {
     id: "build.contains",
     title: "every box contains everything below it",
     look: "A node's box must completely enclose the boxes of all primitives below it. A leaf's \
-           primitives are start..start + size in the list that you return: compare its box with \
-           theirs, and the boxes of the nodes above with those of their children.",
+           primitives are start..start + size in the list that you return: compare the leaf's box \
+           with theirs, and every other box with those of the node's children.",
     look_fits: &[Symptom::of("box too small")],
     section: "building.md#the-contract",
     tests: &["The box of a node…"],

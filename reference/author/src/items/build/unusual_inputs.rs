@@ -42,8 +42,8 @@ fn with_domain(
 pub(super) const NEGATIVE: Declaration = Declaration {
     id: "build.negative",
     title: "negative coordinates work as well",
-    look: "A box that grows from zero never goes below zero, and a cast to usize turns negative \
-           numbers into 0.",
+    look: "A box that grows from (0, 0, 0) always contains that point, and a cast to usize turns \
+        negative numbers into 0.",
     look_fits: &[
         Symptom::of("box too large"),
         Symptom::of("leaves"),
@@ -117,8 +117,8 @@ pub(super) const COINCIDENT: Declaration = Declaration {
 pub(super) const CONCENTRIC: Declaration = Declaration {
     id: "build.concentric",
     title: "spheres around one centre are split by count",
-    look: "Their boxes differ, but their centres coincide, so no plane between buckets of centres \
-           separates them on any axis. Split them by count.",
+    look: "The boxes of the spheres differ, but their centres coincide, so no plane between \
+        buckets of centres separates them on any axis. Split them by count.",
     look_fits: &[
         Symptom::of("nodes"),
         Symptom::of("leaves"),
@@ -149,7 +149,7 @@ pub(super) const COPLANAR: Declaration = Declaration {
     title: "a flat grid works as well",
     look: "Along one axis, all centres coincide: no plane separates them there, and dividing by \
            their extent gives NaN. Both the search for the cheapest partition and the partition \
-           itself need another axis.",
+           itself must use another axis.",
     look_fits: &[
         Symptom::of("nodes"),
         Symptom::of("leaves"),
@@ -203,8 +203,8 @@ pub(super) const COLLINEAR: Declaration = Declaration {
 pub(super) const OUTLIER: Declaration = Declaration {
     id: "build.outlier",
     title: "one primitive far from all others does not spoil the tree",
-    look: "Most of the others are then in one bucket. The split still helps: they end up in a \
-        smaller node with its own buckets.",
+    look: "Most of the other primitives then end up in one bucket. The split still helps, because \
+        it puts them into a smaller node with its own buckets.",
     look_fits: &[Symptom::less("splits"), Symptom::of("leaf size")],
     section: "building.md#one-primitive-far-from-the-others",
     tests: &["Every primitive is…", "The box of a node…"],
@@ -239,8 +239,8 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
 pub(super) const ONE_OR_NONE: Declaration = Declaration {
     id: "build.one_or_none",
     title: "trees of zero, one and two primitives are built",
-    look: "For no primitives, build no nodes or one leaf of size 0. For one primitive, build one \
-           leaf.",
+    look: "Without primitives, build no nodes or one leaf of size 0. For one primitive, build one \
+        leaf.",
     look_fits: &[
         Symptom::of("nodes"),
         Symptom::of("root"),

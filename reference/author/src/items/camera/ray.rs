@@ -192,7 +192,7 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "camera.picture",
-    title: "every pixel of a picture looks in the right direction",
+    title: "in a picture, every pixel's rays point in the right direction",
     look: "Five positions in each pixel are compared. Which of them are wrong: those along one \
            edge, those in one half, or all but the centre?",
     section: "grading.md#reading-a-wrong-picture",

@@ -21,8 +21,8 @@ fn aspect_of(film: UVec2) -> f64 {
 pub(in crate::items) const CORNERS: Declaration = Declaration {
     id: "camera.corners",
     title: "the film's corners map to the sensor's corners, and its centre to (0, 0, −1)",
-    look: "The sensor spans −1 to 1 in x and y, at z = −1. Work one position out by hand: (pixel + \
-           offset) / film runs from 0 to 1.",
+    look: "The sensor spans −1 to 1 in x and y, at z = −1. Work out one position by hand: (pixel + \
+        offset) / film runs from 0 to 1.",
     section: "camera.md#from-pixel-to-sensor",
     tests: &["Returns the ray that…", "The sensor is the…"],
     questions: corners,
@@ -65,9 +65,9 @@ pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
 pub(super) const ASPECT_RATIO: Declaration = Declaration {
     id: "camera.aspect_ratio",
     title: "the sensor's width is its height times the aspect ratio",
-    look: "vertical_fov gives the sensor's height, and aspect_ratio · height is its width. On the \
-           film, x divided by film.x, the number of columns, is a fraction of that width, and y \
-           divided by film.y, the number of rows, is a fraction of the height.",
+    look: "vertical_fov gives the sensor's height, and the width is aspect_ratio · height. The \
+        film has film.x columns and film.y rows: for a point (x, y) on the film, x / film.x is a \
+        fraction of the width, and y / film.y is a fraction of the height.",
     section: "camera.md#the-size-of-the-sensor",
     tests: &["The sensor is the…"],
     questions: |rng| {
@@ -142,8 +142,8 @@ pub(super) const FILM: Declaration = Declaration {
 pub(super) const BOTTOM_LEFT: Declaration = Declaration {
     id: "camera.bottom_left",
     title: "pixel (0, 0) is at the bottom left",
-    look: "y points up on the film, as it does in space: a small y looks down, and a small x looks \
-           left.",
+    look: "y points up on the film, as it does in space: rays with a small y point down, and rays \
+        with a small x point left.",
     section: "camera.md#row-zero-is-at-the-bottom",
     tests: &["The film's pixels…"],
     questions: |rng| {

@@ -16,9 +16,9 @@ fn is_ahead(line: &Line) -> bool {
 pub(super) const NEAR_SIDE: Declaration = Declaration {
     id: "sphere.near_side",
     title: "from outside, the near side is hit",
-    look: "Work out both roots by hand for the ray shown, with one form of the formula from start \
-           to end, and compare them with the values in your code. From outside, the smaller root is the \
-           distance. A negative discriminant means a miss.",
+    look: "Work out both roots by hand for the ray shown, using the same form of the formula \
+           throughout, and compare them with the values in your code. From outside, the smaller \
+           root is the distance. A negative discriminant means a miss.",
     section: "sphere.md#the-quadratic-equation",
     tests: &["Returns the ray's…"],
     questions: |rng| {
@@ -31,8 +31,8 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
 pub(super) const BESIDE: Declaration = Declaration {
     id: "sphere.beside",
     title: "a ray that passes beside the sphere misses it",
-    look: "Without real roots, there is no hit. With two, there may be one. Work out the value under the \
-        square root for the ray shown, before you take the root.",
+    look: "Without real roots, there is no hit. With two roots, there may be a hit. Work out the \
+        value under the square root for the ray shown, before you take the root.",
     look_fits: &[Symptom::of(PRESENCE)],
     section: "sphere.md#the-square-root-of-a-negative-number",
     tests: &["Returns the ray's…"],
@@ -101,7 +101,7 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
     id: "sphere.far_root",
     title: "if the near side is before the range, the far side is hit",
     look: "The range need not start at 0. If the near root is outside the range and the far root \
-           is inside, the far root counts.",
+        is inside it, the far root counts.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     tests: &["If only the far intersection…"],
     questions: |rng| {

@@ -11,9 +11,9 @@ use crate::seed::Rng;
 
 pub(super) const POSITION: Declaration = Declaration {
     id: "sphere.position",
-    title: "position is the point where the ray hits the sphere, in world space",
-    look: "It is ray.origin + t · ray.dir, with the t that you return as the distance. This point \
-           is in world space, and its distance from the centre is the radius.",
+    title: "the position is the point where the ray hits the sphere, in world space",
+    look: "The position is ray.origin + t · ray.dir, with the t that you return as the distance. \
+        This point is in world space, and its distance from the centre is the radius.",
     look_fits: &[Symptom::of("position")],
     section: "sphere.md#the-sphere-is-not-always-at-the-origin",
     tests: &["`distance` is the…"],

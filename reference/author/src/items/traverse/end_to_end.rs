@@ -171,9 +171,9 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
 pub(super) const RADIANCE: Declaration = Declaration {
     id: "traverse.radiance",
     title: "all tasks together render the Cornell box in clay",
-    look: "All random numbers come from the framework, so the picture must be the same except for a few \
-           pixels. If only this item fails, look at the output of cargo render cornell-box --view \
-           clay.",
+    look: "All random numbers come from the framework, so your picture must match the correct one \
+           except for a few pixels. If only this item fails, look at the output of cargo render \
+           cornell-box --view clay.",
     section: "grading.md#reading-a-wrong-picture",
     tests: &["Returns the ray's…"],
     questions: |rng| vec![clay_picture(rng), linear_scan_control(rng)],

@@ -16,8 +16,8 @@ use crate::tree::{RootPosition, Tree, decoy};
 pub(super) const ROOT: Declaration = Declaration {
     id: "traverse.root",
     title: "traversal starts at root, wherever it is in nodes",
-    look: "The root is nodes[root]. Any other node can be first or last in nodes, even a child or \
-           one that is not part of the tree, and a node is a leaf if and only if l == r.",
+    look: "The root is nodes[root]. Any node can be first or last in nodes, even a child, or a \
+        node that is not part of the tree. A node is a leaf if and only if l == r.",
     section: "traversal.md#the-root-can-be-any-node",
     tests: &["The tree can be 60…"],
     questions: root,

@@ -193,10 +193,10 @@ pub(super) const PRUNES: Declaration = Declaration {
 
 pub(super) const NEARER_FIRST: Declaration = Declaration {
     id: "traverse.nearer_first",
-    title: "if the ray enters r first, r goes first, and l is then pruned by its own entry",
-    look: "The child whose box the ray enters first goes first, whether that is l or r. After that, compare \
-        the entry of the other one with the closest hit: the slides' hit2.t is the entry of r, even if l \
-        comes second.",
+    title: "if the ray enters r first, r is visited first, then l is pruned by its own entry",
+    look: "First visit the child whose box the ray enters first, whether that is l or r. Then \
+        compare the entry of the other child with the closest hit: the slides' hit2.t is the entry \
+        of r, even if l comes second.",
     look_fits: &[Symptom::less("distance")],
     section: "traversal.md#compare-the-entry-of-the-second-child",
     tests: &[
@@ -241,8 +241,9 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
 pub(super) const BOTH_SIDES: Declaration = Declaration {
     id: "traverse.both_sides",
     title: "a child is entered only if its own box is hit, before the closest hit",
-    look: "Look at each child's own box: enter the child only if the ray hits that box, and not beyond the \
-        closest hit so far. If both boxes are missed, enter neither, even though the slides always enter `first`.",
+    look: "Look at each child's own box: enter the child only if the ray hits that box and doesn't \
+        enter it beyond the closest hit so far. If both boxes are missed, enter neither, even \
+        though the slides always enter `first`.",
     look_fits: &[Symptom::HIT, Symptom::less("distance")],
     section: "traversal.md#do-not-enter-a-box-that-is-missed",
     tests: &[

@@ -209,9 +209,9 @@ fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
 pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     id: "traverse.first_box_empty",
     title: "a ray may hit a box without hitting anything inside it",
-    look: "Work out by hand what the two boxes and the primitives in them give for the ray shown. \
-           Until something is hit, there is no closest hit to compare with, and no child may be \
-           skipped because of one.",
+    look: "Work out by hand which of the two boxes and which of the primitives in them the ray \
+           shown hits. Until something is hit, there is no closest hit, and a child may be skipped \
+           only if the ray misses its box.",
     look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
     tests: &["Boxes overlap, so…"],
@@ -251,9 +251,9 @@ fn ray_from_around_or_in_a_corner() -> impl FnMut(&mut Rng, &Tree) -> Ray {
 pub(super) const RANGE: Declaration = Declaration {
     id: "traverse.range",
     title: "only hits within the ray's range count",
-    look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞, and the \
-           closest such hit is the answer. Find all hits of the ray shown, and see where your code chooses \
-           a different one, or none.",
+    look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞. The \
+           closest hit that counts is the answer. Find all hits of the ray shown, and see where \
+           your code chooses a different one, or none.",
     section: "traversal.md#only-a-hit-shortens-the-ray",
     tests: &["Returns the ray's…"],
     questions: range,

@@ -61,7 +61,8 @@ pub(super) const OUTSIDE: Declaration = Declaration {
 pub(super) const FROM_BEHIND: Declaration = Declaration {
     id: "triangle.from_behind",
     title: "a triangle is hit from behind as well",
-    look: "Seen from behind, the determinant has the opposite sign, but that doesn't make it a miss.",
+    look: "If the triangle is seen from behind, the determinant has the opposite sign, but that \
+        doesn't make it a miss.",
     look_fits: &[Symptom::MISS],
     section: "triangle.md#a-ray-from-behind-has-a-negative-denominator",
     tests: &["The triangle can…"],
@@ -123,8 +124,8 @@ pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
 pub(super) const TINY: Declaration = Declaration {
     id: "triangle.tiny",
     title: "a triangle with edges of 1e-3 is hit like any other",
-    look: "The determinant is small for small triangles too, not only for parallel rays: compare \
-           it with zero, not with a small number.",
+    look: "The determinant is small for small triangles too, not only for rays that are almost \
+        parallel: compare it with zero, not with a small number.",
     look_fits: &[Symptom::MISS],
     section: "triangle.md#do-not-use-an-epsilon-instead-of-zero",
     tests: &["Triangles can be any…"],

@@ -9,8 +9,9 @@ use crate::seed::Rng;
 pub(super) const PICTURE: Declaration = Declaration {
     id: "triangle.picture",
     title: "a picture of triangles has the correct hits, depth, normals and uv",
-    look: "It shows a smooth hill, a square made of two triangles, triangles seen from behind and \
-           some tiny ones. Where is it wrong: along edges, on one side, or in the tiny triangles?",
+    look: "The picture shows a smooth hill, a square made of two triangles, triangles seen from \
+        behind and some tiny ones. Where is it wrong: along edges, on one side, or in the tiny \
+        triangles?",
     section: "grading.md#reading-a-wrong-picture",
     tests: &["Returns the ray's…"],
     questions: |rng| {

@@ -19,8 +19,9 @@ fn is_from_either_side(plane: &Plane) -> bool {
 
 pub(super) const POSITION: Declaration = Declaration {
     id: "triangle.position",
-    title: "position is the point where the ray hits the triangle",
-    look: "It is the point on the ray at t, or the weighted sum of the corners, which is the same point.",
+    title: "the position is the point where the ray hits the triangle",
+    look: "The position is the point on the ray at t, or the weighted sum of the corners, which is \
+        the same point.",
     look_fits: &[Symptom::of("position")],
     section: "triangle.md#what-to-return",
     tests: &["`distance` is the…"],
@@ -31,9 +32,9 @@ pub(super) const POSITION: Declaration = Declaration {
 pub(super) const NORMAL: Declaration = Declaration {
     id: "triangle.normal",
     title: "the normal is interpolated between the corners' normals",
-    look: "It is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at p0, p1 and \
-           p2, and w = 1 − u − v. The normal of the flat face is not used, and nothing is turned \
-           toward the ray.",
+    look: "The normal is w · n0 + u · n1 + v · n2, where n0, n1 and n2 are the normals given at \
+        p0, p1 and p2, and w = 1 − u − v. The normal of the flat face is not used, and the result \
+        is not turned toward the ray.",
     look_fits: &[Symptom::of("normal")],
     section: "triangle.md#interpolate-the-given-normals",
     tests: &["`normal` and `uv`…"],
@@ -44,8 +45,8 @@ pub(super) const NORMAL: Declaration = Declaration {
 pub(super) const UV: Declaration = Declaration {
     id: "triangle.uv",
     title: "uv is interpolated between the corners' texture coordinates",
-    look: "It is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at p0, p1 and p2, \
-           and w = 1 − u − v. The barycentric u and v are only its weights.",
+    look: "The uv is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at p0, p1 and \
+           p2, and w = 1 − u − v. The barycentric u and v are only its weights.",
     look_fits: &[Symptom::of("uv")],
     section: "triangle.md#the-weights-are-not-the-texture-coordinates",
     tests: &["`normal` and `uv`…"],

@@ -289,6 +289,7 @@ pub fn ray_toward(
     let (start, dir) = match rng.index(16) {
         0 | 1 => from(start_far_away(rng, target, size)?),
         2 if (1e-3 * size..29.0 * size).contains(&target.length()) => from(DVec3::ZERO),
+        3 => from(start_on_an_axis(rng, target, size)?),
         _ => (target - ahead * dir, dir),
     };
     (start.abs().max_element() <= FURTHEST).then_some((start, dir))
@@ -320,17 +321,51 @@ pub fn moved(rng: &mut Rng, ray: &Ray, distance: f64) -> Ray {
     Ray { origin, ..*ray }
 }
 
-/// Returns the ray with one component of its direction reversed. Returns `None` if the ray is the
-/// same or the opposite one.
+/// Returns the ray with one or two components of its direction reversed. Returns `None` if the ray
+/// is the same or the opposite one.
 pub fn mirrored(rng: &mut Rng, ray: &Ray) -> Option<Ray> {
-    let (axis, mut dir) = (rng.index(3), ray.dir);
-    dir[axis] = -dir[axis];
+    let dir = with_signs_changed(rng, ray.dir);
     (dir != ray.dir && dir != -ray.dir).then_some(Ray { dir, ..*ray })
+}
+
+/// Returns the ray with one or two coordinates of its start negated. Returns `None` if that doesn't
+/// change the ray.
+pub fn mirrored_start(rng: &mut Rng, ray: &Ray) -> Option<Ray> {
+    let origin = with_signs_changed(rng, ray.origin);
+    (origin != ray.origin).then_some(Ray { origin, ..*ray })
+}
+
+/// Negates one or two components.
+fn with_signs_changed(rng: &mut Rng, mut vector: Vec3) -> Vec3 {
+    let axis = rng.index(3);
+    vector[axis] = -vector[axis];
+    if rng.coin() {
+        vector[(axis + 1) % 3] = -vector[(axis + 1) % 3];
+    }
+    vector
 }
 
 /// Returns whether two rays differ only in the signs of their directions' components.
 pub fn is_mirrored(a: &Ray, b: &Ray) -> bool {
     a.origin == b.origin && a.range == b.range && a.dir != b.dir && a.dir.abs() == b.dir.abs()
+}
+
+/// Returns whether two rays differ only in the signs of their starts' coordinates.
+pub fn is_mirrored_start(a: &Ray, b: &Ray) -> bool {
+    let same_sizes = a.origin.abs() == b.origin.abs();
+    same_sizes && a.range == b.range && a.dir == b.dir && a.origin != b.origin
+}
+
+/// Draws the start of a ray toward a target. The start is on an axis or in a plane between two axes,
+/// but not at the origin, and at most 29 times `size` away from the target.
+fn start_on_an_axis(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
+    let mut start = target + size * rng.uniform(1.0, 20.0) * rng.direction();
+    let axis = rng.index(3);
+    start[axis] = 0.0;
+    if rng.coin() {
+        start[(axis + 1) % 3] = 0.0;
+    }
+    (start.distance(target) < 29.0 * size).then_some(start)
 }
 
 /// Returns whether two rays differ only in their ranges.

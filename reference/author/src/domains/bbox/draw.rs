@@ -24,7 +24,7 @@ pub fn tables(
         subject: &drawn_box,
         input: &query,
         changes: CHANGES,
-        most_changes: 2,
+        most_changes: 3,
         follow: FOLLOW,
         fits: &fits,
         differ: &|one, other| one.differs(other),
@@ -47,6 +47,14 @@ pub fn tables(
 
 /// The ways a box can differ from the previous one.
 const CHANGES: &[Change<BoxCall>] = &[
+    |call, random| {
+        let mut bounds = call.bounds;
+        let axis = random.max_position();
+        let side = (bounds.max - bounds.min)[axis];
+        let part = 0.006 + 0.003 * random.y;
+        bounds.max[axis] = (bounds.max[axis] - part * side) as f32 as f64;
+        BoxCall::new(bounds, call.input())
+    },
     |call, _| BoxCall::new(shorter(&call.bounds, 0), call.input()),
     |call, _| BoxCall::new(shorter(&call.bounds, 1), call.input()),
     |call, _| BoxCall::new(shorter(&call.bounds, 2), call.input()),

@@ -4,7 +4,9 @@ use protocol::{Interval, Ray};
 
 use super::call::BoxCall;
 use crate::domains::Call;
-use crate::domains::fields::{HARDLY, history_class, is_mirrored, mirrored, moved, turned};
+use crate::domains::fields::{
+    HARDLY, history_class, is_mirrored, is_same_line, mirrored, moved, turned,
+};
 use crate::domains::tables::Follow;
 
 /// The ways a call can follow another.
@@ -14,6 +16,17 @@ pub(super) const FOLLOW: &[Follow<BoxCall>] = &[
         Some(vec![before.with_ray(Ray { dir, ..before.ray })])
     },
     |rng, before| Some(vec![before.with_ray(mirrored(rng, &before.ray)?)]),
+    |rng, before| {
+        let mut times = before.times;
+        let end = if rng.coin() {
+            &mut times.min
+        } else {
+            &mut times.max
+        };
+        *end *= 1.0 + (rng.sign() * rng.uniform(0.005, 0.028)) as f32;
+        let is_other = times != before.times && times.min <= times.max;
+        is_other.then(|| vec![BoxCall::new(before.bounds, (before.ray, times))])
+    },
     |rng, before| {
         let angle = rng.uniform(0.7, 0.97) * HARDLY;
         Some(vec![before.with_ray(turned(rng, &before.ray, angle))])
@@ -42,6 +55,7 @@ pub(super) const CLASSES: &[&str] = &[
     "a mirrored direction",
     HARDLY_TURNED,
     HARDLY_MOVED,
+    "the same ray with almost the same times",
 ];
 
 /// Returns the class of the previous call.
@@ -49,6 +63,9 @@ pub(super) fn class_of(call: &BoxCall) -> usize {
     let Some((before, times)) = &call.before else {
         return 0;
     };
+    if is_same_line(before, &call.ray) && are_almost_the_same(times, &call.times) {
+        return 10;
+    }
     same_times_class(call, before, times).unwrap_or_else(|| {
         let (same_dir, same_start) = (before.dir == call.ray.dir, before.origin == call.ray.origin);
         match (same_dir, same_start) {
@@ -57,6 +74,13 @@ pub(super) fn class_of(call: &BoxCall) -> usize {
             _ => history_class(Some(before), &call.ray),
         }
     })
+}
+
+/// Returns whether two different intervals have almost the same ends.
+fn are_almost_the_same(one: &Interval, other: &Interval) -> bool {
+    const MOST: f32 = 0.03;
+    let are_near = |a: f32, b: f32| a == b || (a - b).abs() <= MOST * a.abs();
+    one != other && are_near(one.min, other.min) && are_near(one.max, other.max)
 }
 
 /// Returns the class if the previous call had the same times and a ray that is closely related.

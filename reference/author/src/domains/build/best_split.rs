@@ -43,7 +43,12 @@ pub const BEST_AXIS: Aspect<BuildCall> = Aspect {
 /// The rank of the axis of the best split, by how far the centres extend along it.
 pub const RANK: Aspect<BuildCall> = Aspect {
     name: "axis of the best split",
-    classes: &["the longest", "the second longest", "the shortest"],
+    classes: &[
+        "the longest",
+        "the second longest",
+        "the shortest",
+        "the shortest, with over 100 primitives",
+    ],
     class: |call| {
         let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
         if boxes.len() <= call.max_leaf_size as usize {
@@ -52,7 +57,8 @@ pub const RANK: Aspect<BuildCall> = Aspect {
         let centers = Bounds::around(boxes.iter().map(Bounds::center));
         let extents = (centers.max - centers.min).to_array();
         let extent = extents[sweep::best_axis(&boxes)?];
-        Some(extents.iter().filter(|&&other| other > extent).count())
+        let rank = extents.iter().filter(|&&other| other > extent).count();
+        Some(rank + usize::from(rank == 2 && boxes.len() > 100))
     },
 };
 

@@ -3,7 +3,7 @@
 use glam::{UVec2, Vec2, uvec2};
 use protocol::{PinholeCamera, Sample};
 
-use super::{ALMOST, ANGLES, OLD, ROUND_ANGLES, SENSORS, SIDES, USUAL_RATIOS};
+use super::{ALMOST, ANGLES, COMMON_FILMS, OLD, ROUND_ANGLES, SENSORS, SIDES, USUAL_RATIOS};
 use crate::seed::Rng;
 
 /// Draws a number from an interval of a domain.
@@ -17,8 +17,9 @@ pub fn drawn((from, to): (f64, f64), rng: &mut Rng) -> f64 {
 
 /// Draws an offset along one axis, often close to an edge of the pixel.
 pub fn offset(rng: &mut Rng) -> f32 {
-    let offset = match rng.index(6) {
+    let offset = match rng.index(7) {
         0 => 0.0,
+        6 => 0.5,
         1 => rng.log_uniform(1e-4, 0.01),
         2 => 1.0 - rng.log_uniform(1e-4, 0.01),
         _ => rng.uniform(0.02, 0.98),
@@ -105,6 +106,10 @@ pub fn almost_equal_cameras(
     add(&|camera| camera.aspect_ratio = ratio);
     let angle = (rng.sign() * rng.uniform(0.2, 0.45)) as f32;
     add(&|camera| camera.vertical_fov += angle);
+    let angle = (rng.sign() * rng.uniform(0.05, 0.09)) as f32;
+    add(&|camera| camera.vertical_fov += angle);
+    let few = (f64::from(first.film.x) * rng.uniform(0.955, 0.985)).round() as u32;
+    add(&|camera| camera.film.x = few);
     let rows = (f64::from(first.film.y) * rng.uniform(0.5, 0.8)).round() as u32;
     add(&|camera| camera.film.y = rows);
     let ratio = almost(rng, OLD);
@@ -127,6 +132,36 @@ pub fn almost_equal_cameras(
         samples.reverse();
     }
     all
+}
+
+/// Draws cameras with films of common sizes, whose sensors have another aspect ratio: that of the
+/// film with its sides exchanged, or any other.
+pub fn common_films(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
+    let films = rng.shuffled(COMMON_FILMS.to_vec());
+    let views = films.into_iter().enumerate().map(|(index, film)| {
+        let film = UVec2::from(film);
+        let exchanged = f64::from(film.y) / f64::from(film.x);
+        let aspect_ratio = if index % 2 == 0 && film.x != film.y {
+            exchanged
+        } else {
+            drawn(SENSORS[2 * (index / 2 % 2)][1], rng)
+        };
+        let camera = PinholeCamera {
+            vertical_fov: rng.uniform(25.0, 100.0) as f32,
+            aspect_ratio: aspect_ratio as f32,
+            film,
+        };
+        let mut samples: Vec<Sample> = (0..6).map(|_| sample(rng, film)).collect();
+        // Each axis is reversed once, so that this sample is a mirror image of the previous one.
+        for axis in [0, 1] {
+            let mut mirrored = samples[samples.len() - 1];
+            mirrored.pixel[axis] = film[axis] - 1 - mirrored.pixel[axis];
+            mirrored.offset[axis] = (1.0 - mirrored.offset[axis]).min(0.999);
+            samples.push(mirrored);
+        }
+        (camera, samples)
+    });
+    views.collect()
 }
 
 /// Draws cameras whose field of view is close to a round number of degrees and whose aspect ratio

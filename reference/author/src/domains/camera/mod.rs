@@ -10,8 +10,8 @@ use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::camera;
 
 pub use draw::{
-    almost_equal_cameras, almost_usual_cameras, cameras, drawn, extreme_views, films_of_few_pixels,
-    offset, sample, side,
+    almost_equal_cameras, almost_usual_cameras, cameras, common_films, drawn, extreme_views,
+    films_of_few_pixels, offset, sample, side,
 };
 
 /// The domain of `Camera::sample_ray`.
@@ -36,6 +36,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         PIXELS,
         FILM,
         FEW_PIXELS,
+        COMMON_FILM,
         VIEW,
         HISTORY,
     ],
@@ -55,6 +56,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
             "pixels",
             "film",
             "film of few pixels",
+            "film of a common size",
             "view",
             "sample before",
         ],
@@ -348,6 +350,39 @@ const FEW_PIXELS: Aspect<CameraCall> = Aspect {
         [1, 3] => Some(4),
         [2..=3, 2..=3] => Some(5),
         _ => None,
+    },
+};
+
+/// Sizes that many films have.
+const COMMON_FILMS: [(u32, u32); 8] = [
+    (1280, 720),
+    (1920, 1080),
+    (640, 480),
+    (1024, 1024),
+    (512, 512),
+    (256, 256),
+    (128, 128),
+    (64, 64),
+];
+
+/// Films of a common size, whose sensors don't have the film's aspect ratio.
+const COMMON_FILM: Aspect<CameraCall> = Aspect {
+    name: "film of a common size",
+    classes: &[
+        "1280 × 720",
+        "1920 × 1080",
+        "640 × 480",
+        "1024 × 1024",
+        "512 × 512",
+        "256 × 256",
+        "128 × 128",
+        "64 × 64",
+    ],
+    class: |call| {
+        let film = call.camera.film;
+        let is_square = (PIXELS.class)(call) == Some(0);
+        let mut films = COMMON_FILMS.into_iter();
+        films.position(|it| UVec2::from(it) == film && !is_square)
     },
 };
 

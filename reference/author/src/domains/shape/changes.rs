@@ -18,6 +18,26 @@ impl ShapeCall {
         self.scaled(1.0 + (0.005 + 0.004 * random.x) as f32)
     }
 
+    /// Returns the call with everything half as large, as seen from the world's origin. The range of
+    /// the ray stays the same.
+    pub fn in_a_smaller_world(&self, _: DVec3) -> Self {
+        const HALF: f32 = 0.5;
+        let shape = match moved(&self.shape, |point| HALF * point) {
+            Shape::Sphere {
+                center,
+                radius,
+                shape,
+            } => Shape::Sphere {
+                center,
+                radius: HALF * radius,
+                shape,
+            },
+            triangle => triangle,
+        };
+        let origin = HALF * self.ray.origin;
+        ShapeCall::new(shape, Ray { origin, ..self.ray })
+    }
+
     fn scaled(&self, factor: f32) -> Self {
         let middle = scan::bounds(&self.shape).center().as_vec3();
         let scaled = |point: Vec3| middle + factor * (point - middle);
@@ -45,12 +65,13 @@ impl ShapeCall {
     }
 
     /// Returns the call with a shape that differs only in its number.
-    pub fn with_other_number(&self, _: DVec3) -> Self {
+    pub fn with_other_number(&self, random: DVec3) -> Self {
         let mut call = ShapeCall::new(self.shape, self.ray);
         let (Shape::Sphere { shape, .. }
         | Shape::Triangle { shape, .. }
         | Shape::FlatTriangle { shape, .. }) = &mut call.shape;
-        *shape ^= 1;
+        // Any bit of the number can change.
+        *shape ^= 1 << ((0.5 + 0.499 * random.x) * 32.0) as u32;
         call
     }
 

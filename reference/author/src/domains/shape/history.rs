@@ -5,7 +5,9 @@ use protocol::Ray;
 
 use super::ShapeCall;
 use crate::domains::Call;
-use crate::domains::fields::{HARDLY, is_mirrored, is_same_line, mirrored, moved, turned};
+use crate::domains::fields::{
+    HARDLY, is_mirrored, is_mirrored_start, is_same_line, mirrored, mirrored_start, moved, turned,
+};
 use crate::domains::tables::Follow;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
@@ -45,6 +47,7 @@ pub const FOLLOW: &[Follow<ShapeCall>] = &[
         Some(vec![before.with_ray(Ray { dir, ..before.ray })])
     },
     |rng, before| Some(vec![before.with_ray(mirrored(rng, &before.ray)?)]),
+    |rng, before| Some(vec![before.with_ray(mirrored_start(rng, &before.ray)?)]),
     |rng, before| {
         let Ray { origin, dir, .. } = before.ray;
         let (origin, dir) = if rng.coin() {
@@ -113,6 +116,9 @@ pub fn class_of(call: &ShapeCall) -> usize {
     }
     if is_mirrored(&before, &ray) {
         return 9;
+    }
+    if is_mirrored_start(&before, &ray) {
+        return 12;
     }
     let angle = before.dir.as_dvec3().distance(ray.dir.as_dvec3());
     if same_start && same_range && angle < HARDLY {

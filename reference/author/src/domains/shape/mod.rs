@@ -80,11 +80,16 @@ pub const NUMBER: Aspect<ShapeCall> = Aspect {
     class: |call| Some(number_class(call.shape.number())),
 };
 
-/// Rays that start at the origin, like those of a camera.
+/// Rays that start at the origin, like those of a camera, or on an axis.
 pub const ORIGIN: Aspect<ShapeCall> = Aspect {
     name: "ray",
-    classes: &["from the origin"],
-    class: |call| (call.ray.origin == Vec3::ZERO).then_some(0),
+    classes: &["from the origin", "from an axis", "from between two axes"],
+    class: |call| match call.ray.origin.cmpeq(Vec3::ZERO).bitmask().count_ones() {
+        3 => Some(0),
+        2 => Some(1),
+        1 => Some(2),
+        _ => None,
+    },
 };
 
 /// The distance of the hit.
@@ -99,6 +104,9 @@ pub const HARDLY_TURNED: &str = "hardly another direction";
 
 /// The class of a call whose start hardly differs from that of the previous call.
 pub const HARDLY_MOVED: &str = "hardly another start";
+
+/// The class of a call whose start is a mirror image of the previous call's.
+pub const MIRRORED_START: &str = "a mirrored start";
 
 /// The previous call.
 pub const HISTORY: Aspect<ShapeCall> = Aspect {
@@ -116,6 +124,7 @@ pub const HISTORY: Aspect<ShapeCall> = Aspect {
         "a mirrored direction",
         HARDLY_TURNED,
         HARDLY_MOVED,
+        MIRRORED_START,
     ],
     class: |call| Some(history::class_of(call)),
 };

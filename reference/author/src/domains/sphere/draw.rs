@@ -39,7 +39,11 @@ pub fn tables(
 
 /// Draws a sphere with a radius in this class.
 fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
-    let size = fields::size(rng, size);
+    // Small fractions of a power of two, such as 0.5, 1.5 or 3, are common radii.
+    let size = match size {
+        4..=6 if rng.index(4) == 0 => rng.integer(1, 12) as f64 * [0.125, 0.25, 4.0][size - 4],
+        _ => fields::size(rng, size),
+    };
     let radius = size as f32;
     let mut center = fields::place(rng, size).as_vec3();
     let axis = rng.index(3);
@@ -125,6 +129,7 @@ const CHANGES: &[Change<ShapeCall>] = &[
     |call, random| call.elsewhere_along(1, random),
     |call, random| call.elsewhere_along(2, random),
     ShapeCall::with_other_number,
+    ShapeCall::in_a_smaller_world,
     |call, _| {
         let center = scan::bounds(&call.shape).center();
         call.moved_to_origin(center.as_vec3())

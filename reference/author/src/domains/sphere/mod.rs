@@ -7,7 +7,7 @@ use glam::Vec3;
 use protocol::Shape;
 
 use super::shape::{
-    self, DISTANCE, HARDLY_MOVED, HARDLY_TURNED, HISTORY, NUMBER, ORIGIN, ShapeCall,
+    self, DISTANCE, HARDLY_MOVED, HARDLY_TURNED, HISTORY, MIRRORED_START, NUMBER, ORIGIN, ShapeCall,
 };
 use super::{Aspect, FunctionDomain, not_asked};
 
@@ -52,7 +52,10 @@ pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
         not_asked(&["latitude"], &[], &["`None`"], "A miss has no latitude."),
         not_asked(
             &["call before"],
-            &["the same ray with its axes in another order"],
+            &[
+                "the same ray with its axes in another order",
+                MIRRORED_START,
+            ],
             &["normal", "unit_normal", "origin", "position", "shape", "uv"],
             "A ray like this hits only shapes near the origin, so it is enough if an exam tests \
              the distance to the hit.",

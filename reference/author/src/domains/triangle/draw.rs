@@ -1,5 +1,7 @@
 //! Draws triangles, and rays through and past them.
 
+use std::mem;
+
 use glam::{BVec2, BVec3, DVec2, DVec3, Vec3, vec2};
 use protocol::{Interval, Ray, Shape, Vertex};
 
@@ -271,9 +273,10 @@ fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
 
 /// Draws the weights of a point that is inside, near a corner, near an edge, or outside.
 fn weights(rng: &mut Rng) -> [f64; 3] {
-    let least = match rng.index(7) {
+    let least = match rng.index(8) {
         0 | 1 => return fields::weights_inside(rng, EDGE),
         6 => return close_to_a_corner(rng),
+        7 => return beyond_a_corner(rng),
         2 if rng.coin() => rng.log_uniform(5e-4, SMALL_WEIGHT),
         2 => rng.log_uniform(5e-4, EDGE),
         3 if rng.coin() => -rng.log_uniform(5e-4, NARROW_MISS),
@@ -298,10 +301,30 @@ fn close_to_a_corner(rng: &mut Rng) -> [f64; 3] {
     weights
 }
 
+/// Draws the weights of a point outside two edges.
+fn beyond_a_corner(rng: &mut Rng) -> [f64; 3] {
+    let mut weights = [(); 3].map(|()| -rng.log_uniform(1e-3, 1.0));
+    let corner = rng.index(3);
+    weights[corner] = 1.0 - weights[(corner + 1) % 3] - weights[(corner + 2) % 3];
+    weights
+}
+
 /// The ways a triangle can differ from the previous one.
 const CHANGES: &[Change<ShapeCall>] = &[
     ShapeCall::smaller,
     ShapeCall::with_other_number,
+    ShapeCall::in_a_smaller_world,
+    |call, random| with_exchanged(call, random, |one, other| mem::swap(one, other)),
+    |call, random| {
+        with_exchanged(call, random, |one, other| {
+            mem::swap(&mut one.uv, &mut other.uv)
+        })
+    },
+    |call, random| {
+        with_exchanged(call, random, |one, other| {
+            mem::swap(&mut one.normal, &mut other.normal);
+        })
+    },
     |call, _| {
         let [first, _, _] = scan::corners(&call.shape).unwrap_or_default();
         call.moved_to_origin(first.as_vec3())
@@ -322,6 +345,22 @@ const CHANGES: &[Change<ShapeCall>] = &[
         })
     },
 ];
+
+/// Returns the call with something exchanged between two corners of the triangle.
+fn with_exchanged(
+    call: &ShapeCall,
+    random: DVec3,
+    exchange: impl Fn(&mut Vertex, &mut Vertex),
+) -> ShapeCall {
+    let mut changed = ShapeCall::new(call.shape, call.ray);
+    if let Shape::Triangle { vertices, .. } = &mut changed.shape {
+        vertices.rotate_left(random.max_position());
+        let [one, other, _] = vertices;
+        exchange(one, other);
+        vertices.rotate_right(random.max_position());
+    }
+    changed
+}
 
 /// Returns the call with one corner of the triangle at a different position.
 fn with_other_corner(call: &ShapeCall, corner: usize, offset: Vec3) -> ShapeCall {

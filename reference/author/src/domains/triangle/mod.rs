@@ -11,7 +11,7 @@ use protocol::Shape;
 use self::plane::corner_normals;
 use super::fields::{DIAGONALS, diagonal_class};
 use super::shape::{
-    self, DISTANCE, HARDLY_MOVED, HARDLY_TURNED, HISTORY, NUMBER, ORIGIN, ShapeCall,
+    self, DISTANCE, HARDLY_MOVED, HARDLY_TURNED, HISTORY, MIRRORED_START, NUMBER, ORIGIN, ShapeCall,
 };
 use super::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::scan;
@@ -93,7 +93,12 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         ),
         not_asked(
             &["crossing"],
-            &["just outside an edge", "outside", "far outside"],
+            &[
+                "just outside an edge",
+                "outside",
+                "far outside",
+                "outside two edges",
+            ],
             &[],
             "A ray that passes outside the triangle hits nothing.",
         ),
@@ -109,7 +114,10 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         ),
         not_asked(
             &["call before"],
-            &["the same ray with its axes in another order"],
+            &[
+                "the same ray with its axes in another order",
+                MIRRORED_START,
+            ],
             &["normal", "origin", "position", "shape", "uv"],
             "A ray like this hits only shapes near the origin, so it is enough if an exam tests \
              the distance to the hit.",
@@ -558,9 +566,13 @@ const CROSSING: Aspect<ShapeCall> = Aspect {
         "just outside an edge",
         "outside",
         "far outside",
+        "outside two edges",
     ],
     class: |call| {
-        Some(match Plane::of(call)?.least_weight() {
+        let plane = Plane::of(call)?;
+        let negative = plane.weights.iter().filter(|weight| **weight < 0.0);
+        Some(match plane.least_weight() {
+            _ if negative.count() > 1 => 5,
             EDGE.. => 0,
             0.0.. => 1,
             -0.02.. => 2,

@@ -226,8 +226,14 @@ pub(super) const COST_TOWN: Declaration = Declaration {
         let [few, more] = [(20, 45), (46, 100)].map(|(min, max)| rng.integer(min, max) as usize);
         let mut sizes = vec![(few, 1), (more, 1)];
         sizes.extend(
-            [(180, 16, 24), (220, 25, 32), (350, 33, 45), (420, 46, 60)]
-                .map(|(count, min, max)| (count, rng.integer(min, max))),
+            [
+                (180, 16, 24),
+                (220, 25, 32),
+                (350, 33, 45),
+                (420, 46, 60),
+                (900, 70, 160),
+            ]
+            .map(|(count, min, max)| (count, rng.integer(min, max))),
         );
         [town, huge, clumps_questions(rng, &sizes)].concat()
     },

@@ -237,11 +237,12 @@ fn of_many() -> Vec<Draw> {
 /// Returns functions that draw a cluster and, far from it, a few outliers. The cluster has more
 /// than sixteen times as many primitives.
 fn of_outliers() -> Vec<Draw> {
-    let counts = [(18, 60), (100, 180)].into_iter();
+    let counts = [(18, 60), (100, 180), (250, 400)].into_iter();
     let draw = |(least, most): (u32, u32)| -> Draw {
         Box::new(move |rng| {
             let (count, chunk) = in_whole_chunks(rng.integer(least, most) as usize);
-            let far = chunk * (1 + rng.index((count / (20 * chunk)).max(1)));
+            // Among very many, there is only one chunk of them.
+            let far = chunk * (1 + rng.index((count.min(200) / (20 * chunk)).max(1)));
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
             let layout = Layout {
                 clumps: &[(0.0, 0.01, far), (0.9, 1.0, count - far)],
@@ -445,7 +446,7 @@ fn is_missed(shapes: &[Shape], max_leaf_size: usize, count: usize) -> bool {
 
 /// The number of strips in two layers, and the minimum space between the layers, as a multiple of
 /// the extent of the centres along the strips. The maximum space is eight times the minimum.
-const STACKS: [(usize, f64); 11] = [
+const STACKS: [(usize, f64); 12] = [
     (12, 0.0001),
     (12, 0.0001),
     (12, 0.001),
@@ -457,6 +458,7 @@ const STACKS: [(usize, f64); 11] = [
     (3, 0.01),
     (5, 0.01),
     (8, 0.001),
+    (112, 0.01),
 ];
 
 /// The extent of the strips' centres in the direction of the strips.

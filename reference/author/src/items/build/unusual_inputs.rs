@@ -230,7 +230,8 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
     });
     questions.push(build_question(&checks, growing, 1));
     // There are so many primitives that a builder could switch to a faster, less careful method.
-    let mut many = meshes::many_spheres(rng, 1100);
+    let count = rng.integer(3000, 4000) as usize;
+    let mut many = meshes::many_spheres(rng, count);
     many.push(meshes::sphere((100.0 * rng.direction()).round(), 1.0));
     questions.push(build_question(ALL, rng.shuffled(many), 1));
     with_domain(questions, rng, Split, 5, &[Outlier])

@@ -8,7 +8,7 @@ use protocol::{Rows, Sample};
 use super::{camera, camera_question, direction_question, middle_of, random_below};
 use crate::domains::camera::{
     ASPECT_RATIOS, FIELDS_OF_VIEW, ROUND_ANGLES, almost_equal_cameras, almost_usual_cameras,
-    cameras, drawn, extreme_views, films_of_few_pixels, offset, sample, side,
+    cameras, common_films, drawn, extreme_views, films_of_few_pixels, offset, sample, side,
 };
 use crate::items::{Declaration, groups};
 use crate::seed::Rng;
@@ -119,6 +119,7 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
         all.extend(wide);
         all.extend(extreme_views(rng));
         all.extend(films_of_few_pixels(rng));
+        all.extend(common_films(rng));
         all.extend(almost_usual_cameras(rng));
         all.extend(cameras(rng));
         let all = all.into_iter();

@@ -152,29 +152,33 @@ fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
     meshes::flat_triangle(corners, number)
 }
 
-/// Returns the rays, followed by up to five groups of additional rays. In each group, consecutive
-/// rays are closely related, but their hits are at clearly different distances.
+/// Returns the rays, followed by up to six groups of additional rays. In each group, consecutive
+/// rays are closely related, but their answers clearly differ.
 fn with_related_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
     /// The maximum number of attempts to draw the two rays of a group.
     const ATTEMPTS: usize = 2000;
     /// The minimum difference between the distances of the two hits, relative to the larger
     /// distance.
     const LEAST: f64 = 7e-4;
-    for group in 0..5 {
+    for group in 0..6 {
         let found = rng.attempt(ATTEMPTS, |rng| {
             let ray = ray_from_around(rng, tree);
             let other = match group {
                 0..3 => almost_the_same_ray(rng, &ray),
-                3 => mirrored(rng, &ray)?,
+                3 | 4 => mirrored(rng, &ray)?,
                 _ => Ray {
                     dir: -ray.dir,
                     ..ray
                 },
             };
             let distance = |ray: &Ray| Some(tree.expected_hit(&Ray64::from(ray))?.distance);
-            let (first, second) = (distance(&ray)?, distance(&other)?);
             let is_clear = is_clear_of_faces(tree, &other) && decoy::is_fair(tree, &[ray, other]);
-            let is_other = (first - second).abs() > LEAST * first.max(second);
+            let is_other = match (distance(&ray), distance(&other)) {
+                (Some(first), Some(second)) => {
+                    (first - second).abs() > LEAST * first.max(second) && group % 2 == 0
+                }
+                (first, second) => first.is_some() != second.is_some(),
+            };
             (is_other && is_clear).then_some([ray, other])
         });
         if let Some([first, second]) = found {

@@ -39,11 +39,15 @@ pub fn tables(
 
 /// Draws a sphere with a radius in this class.
 fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
-    // Small fractions of a power of two, such as 0.5, 1.5 or 3, are common radii.
-    let size = match size {
-        4..=6 if rng.index(4) == 0 => rng.integer(1, 12) as f64 * [0.125, 0.25, 4.0][size - 4],
-        _ => fields::size(rng, size),
+    // Some radii are common numbers, such as 0.5, 1.5 or 12.
+    let common = match size {
+        4 => Some(0.125 * f64::from(rng.integer(1, 7))),
+        5 => Some(0.5 * f64::from(rng.integer(2, 19))),
+        6 => Some(4.0 * f64::from(rng.integer(3, 24))),
+        _ => None,
     };
+    let common = common.filter(|_| rng.index(4) == 0);
+    let size = common.unwrap_or_else(|| fields::size(rng, size));
     let radius = size as f32;
     let mut center = fields::place(rng, size).as_vec3();
     let axis = rng.index(3);

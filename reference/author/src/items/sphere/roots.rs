@@ -43,9 +43,10 @@ pub(super) const BESIDE: Declaration = Declaration {
 pub(super) const RADIUS: Declaration = Declaration {
     id: "sphere.radius",
     title: "spheres of any radius are hit at the right distance",
-    look: "The square of the radius is part of the quadratic's c. Spheres can be tiny, and so can \
-           distances: compare each root with ray.range, not with a small constant.",
-    look_fits: &[Symptom::of(PRESENCE), Symptom::of("distance")],
+    look: "Work out both roots by hand for the ray shown: the square of the radius is part of the \
+           quadratic's c. Spheres can be tiny, and so can distances: which of the two roots is the \
+           first one in ray.range?",
+    look_fits: &[Symptom::of("distance")],
     section: "sphere.md#the-radius-is-not-always-one",
     tests: &["Returns the ray's…", "`distance` is the…"],
     questions: |rng| {

@@ -1,16 +1,19 @@
 //! Lists the contents of folders, but only to the depth that the layouts need.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use grader::disk::{self, Operation};
 use grader::files::{self, AtPath, PathError};
-use grader::submission::{is_archive_name, is_skipped_name};
+use grader::submission::{Archive, ArchiveLimits, is_archive_name, is_skipped_name};
 
 /// The number of subfolder levels to list. This is enough for a project inside a student's folder
 /// that is itself inside a tutorial's folder.
 const MAX_DEPTH: usize = 5;
+/// The number of levels to list in an archive: a platform's folder, and the names in it.
+const ARCHIVE_DEPTH: usize = 3;
 
 /// A file, a folder, or a link to a file or folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,6 +51,32 @@ impl Node {
     pub fn is_archive(&self) -> bool {
         !self.is_folder() && is_archive_name(&self.name)
     }
+}
+
+/// Lists the upper levels of an archive as if it were a folder. `None` if it cannot be read.
+pub fn list_archive(archive: &Node) -> Option<Node> {
+    let mut opened = Archive::open(&archive.path, ArchiveLimits::class()).ok()?;
+    let members = opened.listing().ok()?.members.into_iter();
+    let paths: BTreeSet<String> = members.map(|member| member.path).collect();
+    let mut root = archive.clone();
+    for path in paths {
+        let mut folder = &mut root;
+        let names = path.split('/').take(ARCHIVE_DEPTH);
+        for name in names.take_while(|name| !name.starts_with('.') && !is_skipped_name(name)) {
+            // The paths are sorted, so those in the same folder follow each other.
+            let inside = folder.children.get_or_insert_default();
+            if inside.last().is_none_or(|last| last.name != name) {
+                inside.push(Node {
+                    name: name.to_owned(),
+                    path: folder.path.join(name),
+                    children: None,
+                    is_link: false,
+                });
+            }
+            folder = inside.last_mut()?;
+        }
+    }
+    Some(root)
 }
 
 /// Lists a folder. Hidden and skipped files and folders are left out, and invalid Unicode in names

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::entry::Person;
-use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
+use crate::graded_class::{ClassRow, GradedClass, PersonGrade, SUPERSEDED, UNDECIDED};
 use crate::list_kind::ListKind;
 use crate::names::with_detail;
 use crate::outcome::{EntryOutcome, id_and_names};
@@ -142,23 +142,36 @@ impl FinalGrades {
     }
 
     /// Returns a sentence about the difference between a later grade and this run's grade for the
-    /// same person and submission. A new submission doesn't count as a change.
+    /// same person: the one for the same submission or, if that is new or didn't count, the one
+    /// that counted. A person's first submission doesn't count as a change.
     fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<String> {
-        self.of(&now.submission).next()?;
-        match self.find(now) {
-            Some(was) => (was.counts != now.counts).then(|| now.change(was, causes)),
-            None => now.counts.map(|_| {
-                let why = "the submission now counts for this person as well";
-                now.changed("–", &now.value(false), why)
-            }),
+        if now.status == SUPERSEDED {
+            return None;
         }
+        let same = self.find(now).filter(|was| was.status != SUPERSEDED);
+        let other = || self.counting(&now.person).filter(|_| now.status != UNDECIDED);
+        if let Some(was) = same.or_else(other) {
+            return (was.counts != now.counts).then(|| now.change(was, causes));
+        }
+        self.of(&now.submission).next()?;
+        now.counts.map(|_| {
+            let why = "the submission now counts for this person as well";
+            now.changed("–", &now.value(false), why)
+        })
+    }
+
+    /// Returns the grade that counts for a person.
+    fn counting(&self, person: &Person) -> Option<&FinalGrade> {
+        let mut own = self.grades.iter().filter(|own| own.counts.is_some());
+        own.find(|own| own.person.is_same(person))
     }
 
     /// Returns a sentence about an earlier grade that is missing from this run although its
     /// submission is still present.
     fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
-        (was.counts.is_some() && self.find(was).is_none()).then(|| {
+        let is_lost = self.find(was).is_none() && self.counting(&was.person).is_none();
+        (was.counts.is_some() && is_lost).then(|| {
             let why = "the submission no longer counts for this person";
             was.changed(&was.value(false), "–", why)
         })
@@ -227,8 +240,11 @@ impl FinalGrade {
             let is_new = |change: &&String| !was.changes.contains(change);
             why.extend(self.changes.iter().filter(is_new).cloned());
         }
-        if why.is_empty() {
-            why = causes.iter().map(|cause| (*cause).to_owned()).collect();
+        if was.submission != self.submission {
+            why = vec![format!("it counts instead of {}", was.submission)];
+        }
+        if why.is_empty() || was.submission != self.submission {
+            why.extend(causes.iter().map(|cause| (*cause).to_owned()));
         }
         let (was, now) = (was.value(with_maximum), self.value(with_maximum));
         self.changed(&was, &now, &why.join(", "))

@@ -201,7 +201,7 @@ impl ClassSummary {
             unlisted: count(|row| row.result.info.is_unlisted),
             superseded: count(ClassRow::is_superseded),
             undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
-            undated: count(|row| row.grades.iter().any(|grade| grade.is_undated)),
+            undated: count(|row| row.grades.iter().any(|grade| grade.undated().is_some())),
             tasks: tasks(&scores),
             sections,
             failed,
@@ -345,7 +345,7 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
         let missing = row.result.missing_files().map(|file| Reason {
             cause: "a file is missing".to_owned(),
             detail: file.to_owned(),
-            remedy: "; ask for it, or correct its name",
+            remedy: "; ask for it, using the message in hand-in-again, or correct its name",
         });
         let problem = problem.into_iter().chain(unlisted).chain(missing);
         let problem: Vec<Reason> = problem.collect();

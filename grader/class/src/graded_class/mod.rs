@@ -3,10 +3,15 @@
 use grader::policy::{FinalPoints, Policy, TaskPoints};
 
 use crate::entry::Person;
-use crate::late::{UnclearTime, is_undated, lateness};
+use crate::late::{UnclearTime, lateness};
 use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
 use crate::run::Settings;
+
+/// The status of a grade if another submission by the same person is used.
+pub const SUPERSEDED: &str = "another attempt counts";
+/// The status of a grade if nobody has chosen between several submissions by the same person.
+pub const UNDECIDED: &str = "several attempts";
 
 /// The results of a class.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -36,8 +41,6 @@ pub struct PersonGrade {
     pub counted: Option<FinalPoints>,
     /// The reason there are no final points.
     pub problem: Option<GradeProblem>,
-    /// Whether the submission is treated as on time because its submission time is unknown.
-    pub is_undated: bool,
     /// The manual points that staff gave.
     pub manual: Vec<ManualPoints>,
 }
@@ -121,7 +124,6 @@ impl ClassRow {
                 (Err(unclear), _) => (None, Some(GradeProblem::UnclearTime(unclear))),
             };
             PersonGrade {
-                is_undated: counted.is_some() && is_undated(policy, &result.info),
                 counted,
                 problem,
                 manual,
@@ -208,8 +210,8 @@ impl ClassRow {
             (_, Some(GradeProblem::UnclearTime(unclear))) if unclear.is_draft => "draft",
             (_, Some(GradeProblem::UnclearTime(_))) => "time unclear",
             (_, Some(GradeProblem::UnclearPerson(_))) => "person unclear",
-            (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
-            (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",
+            (_, Some(GradeProblem::OtherAttempt(_))) => SUPERSEDED,
+            (_, Some(GradeProblem::SeveralAttempts(_))) => UNDECIDED,
             (EntryOutcome::NothingToGrade(_), None) if grade.counted.is_some() => "points by hand",
             (EntryOutcome::NothingToGrade(_), None) => "nothing to grade",
         }
@@ -232,6 +234,11 @@ impl PersonGrade {
     /// Returns whether another attempt by the person is used.
     pub fn is_superseded(&self) -> bool {
         matches!(self.problem, Some(GradeProblem::OtherAttempt(_)))
+    }
+
+    /// Returns the final points if the lateness is assumed because the time isn't known.
+    pub fn undated(&self) -> Option<&FinalPoints> {
+        self.counted.as_ref().filter(|counted| counted.is_assumed)
     }
 
     /// Returns whether another attempt by the person is used or may still be chosen.

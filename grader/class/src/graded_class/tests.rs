@@ -280,21 +280,21 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
     };
     let undated = grade(EntryInfo::default(), graded(80));
     assert_eq!(
-        (undated.counted.as_ref().unwrap().points, undated.is_undated),
+        (undated.counted.as_ref().unwrap().points, undated.undated().is_some()),
         (80, true)
     );
-    assert!(!grade(EntryInfo::default(), nothing()).is_undated);
+    assert!(grade(EntryInfo::default(), nothing()).undated().is_none());
     let at = |time: &str| EntryInfo {
         submitted: Some(time.to_owned()),
         ..EntryInfo::default()
     };
     let late = grade(at("2026-11-21T10:00:00Z"), graded(80));
     assert_eq!(
-        (late.counted.as_ref().unwrap().points, late.is_undated),
+        (late.counted.as_ref().unwrap().points, late.undated().is_some()),
         (72, false)
     );
     let unclear = grade(at("yesterday"), graded(80));
-    assert_eq!((&unclear.counted, unclear.is_undated), (&None, false));
+    assert_eq!((&unclear.counted, unclear.undated().is_some()), (&None, false));
     let is_unclear = |problem| matches!(problem, Some(GradeProblem::UnclearTime(_)));
     assert!(is_unclear(unclear.problem));
 }

@@ -5,6 +5,7 @@
 
 use grader::handed_out::{HandedOut, TaskFile};
 
+use super::Layout;
 use crate::entry::{Entry, Source};
 use crate::file_tree::Node;
 use crate::names::{is_number, joined};
@@ -21,6 +22,7 @@ pub(super) fn reject_mixtures(
     entries: &mut [Entry],
     handed_out: &HandedOut,
     known: &[Member],
+    export: impl Fn(&Node) -> Option<Layout>,
 ) -> Vec<String> {
     let mut mixtures = Vec::new();
     for entry in entries {
@@ -33,7 +35,16 @@ pub(super) fn reject_mixtures(
             let mut people = entry.info.people.iter();
             people.any(|person| known.iter().any(|member| member.matches(person)))
         };
-        let why = side_by_side(node, handed_out).or_else(|| {
+        let of_platform = export(node).map(|layout| {
+            format!(
+                "{} is {} and not one submission: pass its path or, if nothing else is beside it, \
+                 use --layout {}; to grade several downloads together, unpack them into one folder",
+                node.name,
+                layout.description(),
+                layout.name()
+            )
+        });
+        let why = of_platform.or_else(|| side_by_side(node, handed_out)).or_else(|| {
             let inside = submissions_inside(node, handed_out)?;
             (!is_known()).then(|| {
                 format!(

@@ -29,7 +29,7 @@ use self::reader::Reader;
 use self::records::{SAKAI_MEMBERS, SAKAI_TIME};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::file_tree::Node;
+use crate::file_tree::{Node, list_archive};
 use crate::roster::Member;
 
 pub use crate::layout_kind::{Layout, LayoutChoice};
@@ -126,7 +126,8 @@ pub fn recognise(
     // plain layout, staff confirm that each entry is one submission.
     let mut mixtures = Vec::new();
     if layout == Layout::Plain && choice.layout.is_none() {
-        mixtures = mixture::reject_mixtures(root, &mut entries, handed_out, known);
+        let export = |node: &Node| export_inside(node, reader);
+        mixtures = mixture::reject_mixtures(root, &mut entries, handed_out, known, export);
     }
     entries.sort_by(|one, other| one.id.cmp(&other.id));
     make_ids_unique(&mut entries);
@@ -139,11 +140,8 @@ pub fn recognise(
     })
 }
 
-/// Recognises the layout of a folder. Rejects a folder that can be read in two ways.
-fn recognise_layout<'a>(
-    root: &Node,
-    reader: impl Fn(Layout) -> Reader<'a>,
-) -> Result<Layout, Error> {
+/// Returns the layouts that most names in a folder fit.
+fn layouts_by_names<'a>(root: &Node, reader: impl Fn(Layout) -> Reader<'a>) -> Vec<Layout> {
     let by_names = [
         Layout::Canvas,
         Layout::Moodle,
@@ -156,8 +154,36 @@ fn recognise_layout<'a>(
         let is_canvas_download = || reader(*layout).is_canvas_download(root);
         is_majority(root, platform) && (!platform.has_attachments || is_canvas_download())
     };
-    let found: Vec<Layout> = by_names.into_iter().filter(is_one).collect();
-    match found.as_slice() {
+    by_names.into_iter().filter(is_one).collect()
+}
+
+/// Returns the layout of an entry that contains a platform's export with several submissions or
+/// with a file that the platform adds to them.
+fn export_inside<'a>(node: &Node, reader: impl Fn(Layout) -> Reader<'a>) -> Option<Layout> {
+    let listed = list_archive(node).filter(|_| node.is_archive());
+    let node = listed.as_ref().unwrap_or(node);
+    let inside = match node.children() {
+        [only] if only.is_folder() => only,
+        _ => node,
+    };
+    if inside.find(METADATA).is_some() {
+        return Some(Layout::Gradescope);
+    }
+    let layout = layouts_by_names(inside, reader).into_iter().next()?;
+    let platform = Platform::of(layout);
+    let names = inside.children().iter().map(|node| node.name.as_str());
+    let ids = names.clone().flat_map(|name| first_readings(&platform.files, name));
+    let ids: BTreeSet<String> = ids.map(|parts| parts.fill_first(&platform.ids)).collect();
+    let mut names = names.filter(|name| platform.own_files.iter().any(|own| own == name));
+    (ids.len() > 1 || names.next().is_some()).then_some(layout)
+}
+
+/// Recognises the layout of a folder. Rejects a folder that can be read in two ways.
+fn recognise_layout<'a>(
+    root: &Node,
+    reader: impl Fn(Layout) -> Reader<'a>,
+) -> Result<Layout, Error> {
+    match layouts_by_names(root, reader).as_slice() {
         [] if root.name == TEAMS_SUBMITTED => Ok(Layout::Teams),
         [] if is_github_classroom(root) => Ok(Layout::GitHub),
         [] => Ok(Layout::Plain),

@@ -59,7 +59,8 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         ),
         (
             summary.undated,
-            "counted as on time, because their submission time is unknown",
+            "counted as on time or, if marked as late, as 1 day late, because it is unknown when they \
+             were submitted: see class.html",
         ),
     ];
     let counts = counts.iter().filter(|(count, _)| *count > 0);

@@ -12,8 +12,6 @@ use grader::submission::{Archive, ArchiveLimits, is_archive_name, is_skipped_nam
 /// The number of subfolder levels to list. This is enough for a project inside a student's folder
 /// that is itself inside a tutorial's folder.
 const MAX_DEPTH: usize = 5;
-/// The number of levels to list in an archive: a platform's folder, and the names in it.
-const ARCHIVE_DEPTH: usize = 3;
 
 /// A file, a folder, or a link to a file or folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,30 +51,24 @@ impl Node {
     }
 }
 
-/// Lists the upper levels of an archive as if it were a folder. `None` if it cannot be read.
-pub fn list_archive(archive: &Node) -> Option<Node> {
-    let mut opened = Archive::open(&archive.path, ArchiveLimits::class()).ok()?;
-    let members = opened.listing().ok()?.members.into_iter();
-    let paths: BTreeSet<String> = members.map(|member| member.path).collect();
-    let mut root = archive.clone();
-    for path in paths {
-        let mut folder = &mut root;
-        let names = path.split('/').take(ARCHIVE_DEPTH);
-        for name in names.take_while(|name| !name.starts_with('.') && !is_skipped_name(name)) {
-            // The paths are sorted, so those in the same folder follow each other.
-            let inside = folder.children.get_or_insert_default();
-            if inside.last().is_none_or(|last| last.name != name) {
-                inside.push(Node {
-                    name: name.to_owned(),
-                    path: folder.path.join(name),
-                    children: None,
-                    is_link: false,
-                });
-            }
-            folder = inside.last_mut()?;
-        }
+/// Returns the names in a folder or archive, or in the only folder in it.
+pub fn names_inside(node: &Node) -> BTreeSet<String> {
+    match node.children() {
+        [only] if only.is_folder() => return names_inside(only),
+        [] => {}
+        inside => return inside.iter().map(|node| node.name.clone()).collect(),
     }
-    Some(root)
+    let archive = Archive::open(&node.path, ArchiveLimits::class());
+    let listing = archive.and_then(|mut archive| archive.listing());
+    let members = listing.map_or(Vec::new(), |listing| listing.members);
+    let names = |depth| -> BTreeSet<String> {
+        let names = members.iter();
+        let names = names.filter_map(|member| member.path.split('/').nth(depth));
+        let names = names.filter(|name| !is_skipped_name(name));
+        names.map(str::to_owned).collect()
+    };
+    let outer = names(0);
+    if outer.len() == 1 { names(1) } else { outer }
 }
 
 /// Lists a folder. Hidden and skipped files and folders are left out, and invalid Unicode in names

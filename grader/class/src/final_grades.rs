@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::entry::Person;
-use crate::graded_class::{ClassRow, GradedClass, PersonGrade, SUPERSEDED, UNDECIDED};
+use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::list_kind::ListKind;
 use crate::names::with_detail;
 use crate::outcome::{EntryOutcome, id_and_names};
@@ -102,7 +102,7 @@ impl GradeHistory {
         let differs = |kind: &&ListKind| before.lists.get(kind) != self.now.lists.get(kind);
         causes.extend(LISTS.iter().filter(differs).map(|kind| kind.title()));
         let changes = self.now.grades.iter();
-        let changes = changes.filter_map(|now| before.change_to(now, &causes));
+        let changes = changes.filter_map(|now| before.change_to(now, &self.now, &causes));
         let gone = before.grades.iter().filter_map(|was| self.now.loss(was));
         let changes = changes.chain(gone).collect();
         Some(GradeChanges { causes, changes })
@@ -121,7 +121,8 @@ impl FinalGrades {
                 let earlier = last.iter().flat_map(|last| last.of(&row.result.id));
                 grades.extend(earlier.cloned());
             } else {
-                let people = row.people();
+                // The attempt that counts instead has a grade of its own.
+                let people = row.people().filter(|(_, grade)| !grade.is_superseded());
                 grades.extend(people.map(|(person, grade)| FinalGrade::new(row, person, grade)));
             }
         }
@@ -141,16 +142,15 @@ impl FinalGrades {
         grades.filter(move |grade| grade.submission == submission)
     }
 
-    /// Returns a sentence about the difference between a later grade and this run's grade for the
-    /// same person: the one for the same submission or, if that is new or didn't count, the one
-    /// that counted. A person's first submission doesn't count as a change.
-    fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<String> {
-        if now.status == SUPERSEDED {
-            return None;
-        }
-        let same = self.find(now).filter(|was| was.status != SUPERSEDED);
-        let other = || self.counting(&now.person).filter(|_| now.status != UNDECIDED);
-        if let Some(was) = same.or_else(other) {
+    /// Returns a sentence about the difference between a grade in `after` and this run's grade for
+    /// the same person: the one for the same submission or else the one that `after` lacks. A new
+    /// submission in addition to others doesn't count as a change.
+    fn change_to(&self, now: &FinalGrade, after: &Self, causes: &[&str]) -> Option<String> {
+        let other = || {
+            self.counting(&now.person)
+                .filter(|was| after.find(was).is_none())
+        };
+        if let Some(was) = self.find(now).or_else(other) {
             return (was.counts != now.counts).then(|| now.change(was, causes));
         }
         self.of(&now.submission).next()?;
@@ -221,6 +221,9 @@ impl FinalGrade {
         let maxima = [was, self].map(maximum);
         let with_maximum = maxima[0] != maxima[1] && maxima.iter().all(Option::is_some);
         let mut why = Vec::new();
+        if was.submission != self.submission {
+            why.push(format!("it counts instead of {}", was.submission));
+        }
         if was.graded != self.graded {
             why.push(format!("graded {} → {}", was.graded, self.graded));
         }
@@ -240,11 +243,8 @@ impl FinalGrade {
             let is_new = |change: &&String| !was.changes.contains(change);
             why.extend(self.changes.iter().filter(is_new).cloned());
         }
-        if was.submission != self.submission {
-            why = vec![format!("it counts instead of {}", was.submission)];
-        }
-        if why.is_empty() || was.submission != self.submission {
-            why.extend(causes.iter().map(|cause| (*cause).to_owned()));
+        if why.is_empty() {
+            why = causes.iter().map(|cause| (*cause).to_owned()).collect();
         }
         let (was, now) = (was.value(with_maximum), self.value(with_maximum));
         self.changed(&was, &now, &why.join(", "))

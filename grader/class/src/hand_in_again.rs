@@ -1,5 +1,5 @@
-//! Messages to the people whose submissions cannot be graded or lack a file. They say what was wrong and how to
-//! hand in again. Staff send the messages themselves: this program doesn't send anything.
+//! Messages to the people whose submissions cannot be graded or lack a file. They say what was wrong
+//! and how to hand in again. Staff send the messages themselves: this program doesn't send anything.
 
 use std::collections::BTreeSet;
 
@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::graded_class::GradedClass;
 use crate::identity::{Attempt, attempts_by_person};
 use crate::layout::unique_name;
+use crate::names::joined;
 use crate::outcome::EntryOutcome;
 use crate::store::Store;
 
@@ -39,17 +40,22 @@ pub fn write_messages(
         let grade = |(row, index): &Attempt| &class.rows[*row].grades[*index];
         let reason = |attempt: &Attempt| {
             let result = &class.rows[attempt.0].result;
+            // Otherwise, staff have decided, or the student did nothing wrong.
+            let is_open = grade(attempt).manual.is_empty() && !result.info.needs_staff;
             let why = match &result.outcome {
-                EntryOutcome::NothingToGrade(why) if grade(attempt).counted.is_none() => {
-                    Some(why.clone()).filter(|_| !result.info.needs_staff)
+                EntryOutcome::NothingToGrade(why) => Some(why.clone()),
+                EntryOutcome::Graded(score) => {
+                    let is_tested =
+                        |file: &&str| score.items().any(|item| item.message.starts_with(file));
+                    let files = joined(result.missing_files().filter(is_tested), ", ");
+                    let why =
+                        format!("these files are missing, so their tasks have 0 points: {files}");
+                    Some(why).filter(|_| !files.is_empty())
                 }
-                EntryOutcome::Graded(_) if grade(attempt).manual.is_empty() => {
-                    result.missing_tasks()
-                }
-                // Staff have decided, or the student did nothing wrong.
-                _ => None,
+                EntryOutcome::Fault(_) => None,
             };
-            why.map(|why| format!("{}: {why}", result.info.from))
+            let from = &result.info.from;
+            why.filter(|_| is_open).map(|why| format!("{from}: {why}"))
         };
         attempts.retain(|attempt| !grade(attempt).is_superseded());
         let reasons: Option<Vec<String>> = attempts.iter().map(reason).collect();

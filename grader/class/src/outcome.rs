@@ -171,13 +171,6 @@ impl TaskScore {
     }
 }
 
-impl ItemScore {
-    /// Returns whether the item wasn't graded because this file is missing.
-    fn lacks(&self, file: &str) -> bool {
-        self.verdict == "not_compiled" && self.message.starts_with(file)
-    }
-}
-
 /// A known mistake.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct Hint {
@@ -254,20 +247,6 @@ impl EntryResult {
         let files = self.score().into_iter();
         let files = files.flat_map(|score| &score.build.not_compiled);
         files.filter_map(|file| file.is_missing.then_some(file.file.as_str()))
-    }
-
-    /// Returns a sentence about the files that a graded submission lacks and their tasks in the
-    /// exam. `None` if it lacks none of these.
-    pub fn missing_tasks(&self) -> Option<String> {
-        let files = self.missing_files().filter_map(|file| {
-            let is_in = |task: &&TaskScore| task.items.iter().any(|item| item.lacks(file));
-            let tasks = self.score()?.tasks.iter().filter(is_in);
-            let tasks: Vec<&str> = tasks.map(|task| task.title.as_str()).collect();
-            let why = format!("{file} is missing, so you get 0 points for {}", tasks.join(", "));
-            (!tasks.is_empty()).then_some(why)
-        });
-        let files: Vec<String> = files.collect();
-        (!files.is_empty()).then(|| files.join("; "))
     }
 
     /// Returns the score, if any.

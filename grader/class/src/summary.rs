@@ -201,7 +201,7 @@ impl ClassSummary {
             unlisted: count(|row| row.result.info.is_unlisted),
             superseded: count(ClassRow::is_superseded),
             undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
-            undated: count(|row| row.grades.iter().any(|grade| grade.undated().is_some())),
+            undated: count(|row| row.grades.iter().any(|grade| grade.is_undated())),
             tasks: tasks(&scores),
             sections,
             failed,

@@ -8,11 +8,6 @@ use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
 use crate::run::Settings;
 
-/// The status of a grade if another submission by the same person is used.
-pub const SUPERSEDED: &str = "another attempt counts";
-/// The status of a grade if nobody has chosen between several submissions by the same person.
-pub const UNDECIDED: &str = "several attempts";
-
 /// The results of a class.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GradedClass {
@@ -210,8 +205,8 @@ impl ClassRow {
             (_, Some(GradeProblem::UnclearTime(unclear))) if unclear.is_draft => "draft",
             (_, Some(GradeProblem::UnclearTime(_))) => "time unclear",
             (_, Some(GradeProblem::UnclearPerson(_))) => "person unclear",
-            (_, Some(GradeProblem::OtherAttempt(_))) => SUPERSEDED,
-            (_, Some(GradeProblem::SeveralAttempts(_))) => UNDECIDED,
+            (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
+            (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",
             (EntryOutcome::NothingToGrade(_), None) if grade.counted.is_some() => "points by hand",
             (EntryOutcome::NothingToGrade(_), None) => "nothing to grade",
         }
@@ -236,9 +231,9 @@ impl PersonGrade {
         matches!(self.problem, Some(GradeProblem::OtherAttempt(_)))
     }
 
-    /// Returns the final points if the lateness is assumed because the time isn't known.
-    pub fn undated(&self) -> Option<&FinalPoints> {
-        self.counted.as_ref().filter(|counted| counted.is_assumed)
+    /// Returns whether the lateness is assumed, because the time isn't known.
+    pub fn is_undated(&self) -> bool {
+        self.counted.iter().any(|counted| counted.is_assumed)
     }
 
     /// Returns whether another attempt by the person is used or may still be chosen.

@@ -280,21 +280,24 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
     };
     let undated = grade(EntryInfo::default(), graded(80));
     assert_eq!(
-        (undated.counted.as_ref().unwrap().points, undated.undated().is_some()),
+        (
+            undated.counted.as_ref().unwrap().points,
+            undated.is_undated()
+        ),
         (80, true)
     );
-    assert!(grade(EntryInfo::default(), nothing()).undated().is_none());
+    assert!(!grade(EntryInfo::default(), nothing()).is_undated());
     let at = |time: &str| EntryInfo {
         submitted: Some(time.to_owned()),
         ..EntryInfo::default()
     };
     let late = grade(at("2026-11-21T10:00:00Z"), graded(80));
     assert_eq!(
-        (late.counted.as_ref().unwrap().points, late.undated().is_some()),
+        (late.counted.as_ref().unwrap().points, late.is_undated()),
         (72, false)
     );
     let unclear = grade(at("yesterday"), graded(80));
-    assert_eq!((&unclear.counted, unclear.undated().is_some()), (&None, false));
+    assert_eq!((&unclear.counted, unclear.is_undated()), (&None, false));
     let is_unclear = |problem| matches!(problem, Some(GradeProblem::UnclearTime(_)));
     assert!(is_unclear(unclear.problem));
 }

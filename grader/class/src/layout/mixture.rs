@@ -35,28 +35,29 @@ pub(super) fn reject_mixtures(
             let mut people = entry.info.people.iter();
             people.any(|person| known.iter().any(|member| member.matches(person)))
         };
-        let of_platform = export(node).map(|layout| {
-            format!(
-                "{} is {} and not one submission: pass its path or, if nothing else is beside it, \
-                 use --layout {}; to grade several downloads together, unpack them into one folder",
+        let of_platform = || {
+            let layout = export(node)?;
+            let (what, name, file) = (layout.description(), layout.name(), &node.name);
+            let or = format!(", or use --layout {name}");
+            let or = if node.is_folder() { or } else { String::new() };
+            Some(format!(
+                "{file} is {what}, not one submission: pass its path{or}; to grade several \
+                 downloads as one class, unpack them into one folder"
+            ))
+        };
+        let of_students = || {
+            let inside = submissions_inside(node, handed_out).filter(|_| !is_known())?;
+            Some(format!(
+                "the folder {} contains several submissions ({}): if they are from different \
+                 students, pass this folder, or move them out of it; if they are attempts by \
+                 one student, keep only the one that counts; if each contains part of one \
+                 submission, combine them in one folder",
                 node.name,
-                layout.description(),
-                layout.name()
-            )
-        });
-        let why = of_platform.or_else(|| side_by_side(node, handed_out)).or_else(|| {
-            let inside = submissions_inside(node, handed_out)?;
-            (!is_known()).then(|| {
-                format!(
-                    "the folder {} contains several submissions ({}): if they are from different \
-                     students, pass this folder, or move them out of it; if they are attempts by \
-                     one student, keep only the one that counts; if each contains part of one \
-                     submission, combine them in one folder",
-                    node.name,
-                    listed(&inside)
-                )
-            })
-        });
+                listed(&inside)
+            ))
+        };
+        let side_by_side = || side_by_side(node, handed_out);
+        let why = of_platform().or_else(side_by_side).or_else(of_students);
         if let Some(why) = why {
             entry.leave_to_staff(why.clone());
             mixtures.push(why);

@@ -29,7 +29,7 @@ use self::reader::Reader;
 use self::records::{SAKAI_MEMBERS, SAKAI_TIME};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::file_tree::{Node, list_archive};
+use crate::file_tree::{Node, names_inside};
 use crate::roster::Member;
 
 pub use crate::layout_kind::{Layout, LayoutChoice};
@@ -140,8 +140,8 @@ pub fn recognise(
     })
 }
 
-/// Returns the layouts that most names in a folder fit.
-fn layouts_by_names<'a>(root: &Node, reader: impl Fn(Layout) -> Reader<'a>) -> Vec<Layout> {
+/// Returns the layouts that most of the names in a folder fit.
+fn layouts_by_names<'a>(names: &[&str], reader: impl Fn(Layout) -> Reader<'a>) -> Vec<Layout> {
     let by_names = [
         Layout::Canvas,
         Layout::Moodle,
@@ -151,31 +151,25 @@ fn layouts_by_names<'a>(root: &Node, reader: impl Fn(Layout) -> Reader<'a>) -> V
     ];
     let is_one = |layout: &Layout| {
         let platform = Platform::of(*layout);
-        let is_canvas_download = || reader(*layout).is_canvas_download(root);
-        is_majority(root, platform) && (!platform.has_attachments || is_canvas_download())
+        let is_canvas_download = || reader(*layout).is_canvas_download(names);
+        is_majority(names, platform) && (!platform.has_attachments || is_canvas_download())
     };
     by_names.into_iter().filter(is_one).collect()
 }
 
-/// Returns the layout of an entry that contains a platform's export with several submissions or
-/// with a file that the platform adds to them.
+/// Returns the layout of an entry that is a platform's export, rather than one person's files from
+/// such an export.
 fn export_inside<'a>(node: &Node, reader: impl Fn(Layout) -> Reader<'a>) -> Option<Layout> {
-    let listed = list_archive(node).filter(|_| node.is_archive());
-    let node = listed.as_ref().unwrap_or(node);
-    let inside = match node.children() {
-        [only] if only.is_folder() => only,
-        _ => node,
-    };
-    if inside.find(METADATA).is_some() {
+    let names = names_inside(node);
+    let names = Vec::from_iter(names.iter().map(String::as_str));
+    if names.contains(&METADATA) {
         return Some(Layout::Gradescope);
     }
-    let layout = layouts_by_names(inside, reader).into_iter().next()?;
-    let platform = Platform::of(layout);
-    let names = inside.children().iter().map(|node| node.name.as_str());
-    let ids = names.clone().flat_map(|name| first_readings(&platform.files, name));
-    let ids: BTreeSet<String> = ids.map(|parts| parts.fill_first(&platform.ids)).collect();
-    let mut names = names.filter(|name| platform.own_files.iter().any(|own| own == name));
-    (ids.len() > 1 || names.next().is_some()).then_some(layout)
+    let layout = layouts_by_names(&names, reader).into_iter().next()?;
+    let Platform { files, ids, .. } = Platform::of(layout);
+    let people = names.iter().flat_map(|name| first_readings(files, name));
+    let people: BTreeSet<String> = people.map(|parts| parts.fill_first(ids)).collect();
+    (people.len() > 1 || names.iter().any(|name| is_record(name))).then_some(layout)
 }
 
 /// Recognises the layout of a folder. Rejects a folder that can be read in two ways.
@@ -183,7 +177,8 @@ fn recognise_layout<'a>(
     root: &Node,
     reader: impl Fn(Layout) -> Reader<'a>,
 ) -> Result<Layout, Error> {
-    match layouts_by_names(root, reader).as_slice() {
+    let names = root.children().iter().map(|node| node.name.as_str());
+    match layouts_by_names(&Vec::from_iter(names), reader).as_slice() {
         [] if root.name == TEAMS_SUBMITTED => Ok(Layout::Teams),
         [] if is_github_classroom(root) => Ok(Layout::GitHub),
         [] => Ok(Layout::Plain),
@@ -234,13 +229,13 @@ fn add_links<'a>(folder: &'a Node, links: &mut BTreeMap<&'a Path, &'a str>) {
     }
 }
 
-/// Returns whether more than half of the files and folders in `root` have names in the platform's
-/// format, ignoring those that the platform writes in addition to the submissions.
-fn is_majority(root: &Node, platform: &'static Platform) -> bool {
-    let is_own = |node: &&Node| platform.own_files.contains(&node.name);
-    let nodes = root.children().iter().filter(|node| !is_own(node));
-    let count = nodes.clone().filter(|node| is_name(platform, &node.name));
-    2 * count.count() > nodes.count()
+/// Returns whether more than half of the names are in the platform's format, ignoring those of files
+/// that the platform writes in addition to the submissions.
+fn is_majority(names: &[&str], platform: &'static Platform) -> bool {
+    let is_own = |name: &&&str| platform.own_files.iter().any(|own| own == **name);
+    let names = names.iter().filter(|name| !is_own(name));
+    let count = names.clone().filter(|name| is_name(platform, name));
+    2 * count.count() > names.count()
 }
 
 /// Turns ids into safe folder names and appends numbers to any names that would be equal on a

@@ -136,7 +136,8 @@ impl Reader<'_> {
             others.extend(texts.map(|found| UnmatchedPath::new(found.path, why)));
         }
         let id = parts.fill_first(&platform.ids);
-        let mut entry = Entry::new(id, person(platform, parts), &from, self.source(&files, others));
+        let source = self.source(&files, others);
+        let mut entry = Entry::new(id, person(platform, parts), &from, source);
         // If files were handed in, the source can only be missing because of their names.
         entry.info.needs_staff = !files.is_empty() && matches!(entry.source, Source::Missing(_));
         let mut named = files.iter().chain(&text);

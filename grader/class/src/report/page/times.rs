@@ -27,14 +27,10 @@ pub(super) fn times(class: &GradedClass) -> Markup {
     for counted in grades().filter_map(|(_, grade)| grade.counted.as_ref()) {
         *days.entry(counted.late_days).or_default() += 1;
     }
-    let mut undated: BTreeMap<u32, Vec<String>> = BTreeMap::new();
-    for (who, grade) in grades() {
-        if let Some(counted) = grade.undated() {
-            undated.entry(counted.late_days).or_default().push(who);
-        }
-    }
-    let listed = |people: &Vec<String>| match people.len() {
-        0..=MAX_NAMES => people.join(", "),
+    let undated = grades().filter(|(_, grade)| grade.is_undated());
+    let undated: Vec<String> = undated.map(|(who, _)| who).collect();
+    let undated = match undated.len() {
+        0..=MAX_NAMES => undated.join(", "),
         count => format!("{count} people (those without a time in grades.csv)"),
     };
     let is_unclear =
@@ -52,9 +48,9 @@ pub(super) fn times(class: &GradedClass) -> Markup {
                 td .number { (count) }
             } } }
         }
-        @for (days, people) in &undated { p {
-            "Counted as " (lateness(*days)) ", because the time is unknown: "
-            (sanitized(&listed(people))) "."
+        @if !undated.is_empty() { p {
+            "Counted as on time or, if marked as late, as 1 day late, because the time is unknown: "
+            (sanitized(&undated)) "."
         } }
         @if !unclear.is_empty() {
             p { "No final points until these problems are resolved:" }

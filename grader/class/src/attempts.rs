@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
 use crate::error::Error;
-use crate::graded_class::{ClassRow, GradeProblem};
+use crate::graded_class::GradeProblem::{self, OtherAttempt, SeveralAttempts};
+use crate::graded_class::{ClassRow, PersonGrade};
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
 use crate::manual_points::ManualPointsList;
@@ -28,7 +29,10 @@ pub fn count_points(
     }
     apply_rule(policy, &mut rows);
     for row in &rows {
-        for grade in row.grades.iter().filter(|grade| !grade.is_set_aside()) {
+        let is_single = |grade: &&PersonGrade| {
+            !matches!(grade.problem, Some(OtherAttempt(_) | SeveralAttempts(_)))
+        };
+        for grade in row.grades.iter().filter(is_single) {
             manual.check_range(&grade.manual, &row.result.outcome, exam)?;
         }
     }
@@ -47,10 +51,10 @@ fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
         let id = |row: &usize| rows[*row].result.id.clone();
         let chosen = choose(policy, rows, &attempts, &submissions);
         let problem = |row: &usize| match chosen {
-            Some(chosen) => GradeProblem::OtherAttempt(id(&chosen)),
+            Some(chosen) => OtherAttempt(id(&chosen)),
             None => {
                 let others = submissions.iter().filter(|other| *other != row);
-                GradeProblem::SeveralAttempts(others.map(id).collect())
+                SeveralAttempts(others.map(id).collect())
             }
         };
         let set_aside = attempts.iter().filter(|(row, _)| chosen != Some(*row));

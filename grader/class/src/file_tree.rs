@@ -53,10 +53,13 @@ impl Node {
 
 /// Returns the names in a folder or archive, or in the only folder in it.
 pub fn names_inside(node: &Node) -> BTreeSet<String> {
-    match node.children() {
-        [only] if only.is_folder() => return names_inside(only),
-        [] => {}
-        inside => return inside.iter().map(|node| node.name.clone()).collect(),
+    if let [only] = node.children()
+        && only.is_folder()
+    {
+        return names_inside(only);
+    }
+    if let Some(inside) = &node.children {
+        return inside.iter().map(|node| node.name.clone()).collect();
     }
     let archive = Archive::open(&node.path, ArchiveLimits::class());
     let listing = archive.and_then(|mut archive| archive.listing());

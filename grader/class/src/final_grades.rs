@@ -146,10 +146,8 @@ impl FinalGrades {
     /// the same person: the one for the same submission or else the one that `after` lacks. A new
     /// submission in addition to others doesn't count as a change.
     fn change_to(&self, now: &FinalGrade, after: &Self, causes: &[&str]) -> Option<String> {
-        let other = || {
-            self.counting(&now.person)
-                .filter(|was| after.find(was).is_none())
-        };
+        let is_gone = |was: &&FinalGrade| after.find(was).is_none();
+        let other = || self.counting(&now.person).filter(is_gone);
         if let Some(was) = self.find(now).or_else(other) {
             return (was.counts != now.counts).then(|| now.change(was, causes));
         }

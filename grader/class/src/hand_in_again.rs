@@ -41,7 +41,8 @@ pub fn write_messages(
         let reason = |attempt: &Attempt| {
             let result = &class.rows[attempt.0].result;
             // Otherwise, staff have decided, or the student did nothing wrong.
-            let is_open = grade(attempt).manual.is_empty() && !result.info.needs_staff;
+            let mut manual = grade(attempt).manual.iter();
+            let is_open = !result.info.needs_staff && manual.all(|own| own.delta == 0);
             let why = match &result.outcome {
                 EntryOutcome::NothingToGrade(why) => Some(why.clone()),
                 EntryOutcome::Graded(score) => {

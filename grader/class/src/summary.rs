@@ -387,6 +387,7 @@ fn missing_grade(row: &ClassRow) -> Option<Reason> {
 fn low_score(score: &ScoreSummary, fence: f64) -> Option<Reason> {
     let is_uncompiled = |item: &ItemScore| item.verdict == "not_compiled";
     let is_unwritten = |item: &ItemScore| item.verdict == "unimplemented";
+    let mut detail = String::new();
     let (cause, remedy) = match score.points {
         _ if score.items().all(is_uncompiled) => (
             "0 points: nothing compiles",
@@ -399,12 +400,11 @@ fn low_score(score: &ScoreSummary, fence: f64) -> Option<Reason> {
             "; ask for the right files",
         ),
         0 => ("0 points", "; read the report"),
-        points if f64::from(points) < fence => ("far below the others", "; read the report"),
+        points if f64::from(points) < fence => {
+            detail = format!("{points} points");
+            ("far below the others", "; read the report")
+        }
         _ => return None,
-    };
-    let detail = match score.points {
-        0 => String::new(),
-        points => format!("{points} points"),
     };
     Some(Reason {
         cause: cause.to_owned(),

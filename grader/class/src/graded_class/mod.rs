@@ -236,11 +236,6 @@ impl PersonGrade {
         self.counted.iter().any(|counted| counted.is_assumed)
     }
 
-    /// Returns whether another attempt by the person is used or may still be chosen.
-    pub fn is_set_aside(&self) -> bool {
-        self.is_superseded() || matches!(self.problem, Some(GradeProblem::SeveralAttempts(_)))
-    }
-
     /// Returns sentences that explain how the score contributes to the grade, followed by the
     /// staff's comments. No explanation is needed if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {

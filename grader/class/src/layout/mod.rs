@@ -14,8 +14,8 @@ mod records;
 mod template;
 mod times;
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
@@ -92,10 +92,9 @@ impl Layout {
 
 /// Returns whether a file with this name was written by a platform and should be read.
 pub fn is_record(name: &str) -> bool {
-    let lists = Platform::all().iter();
-    let mut lists = lists.filter_map(|platform| platform.list.as_deref());
-    [METADATA, SAKAI_TIME, SAKAI_MEMBERS].contains(&name)
-        || lists.any(|list| list == name)
+    let mut own = Platform::all().iter().flat_map(|own| &own.own_files);
+    [SAKAI_TIME, SAKAI_MEMBERS].contains(&name)
+        || own.any(|own| own == name)
         || !first_readings(&Platform::of(Layout::Blackboard).texts, name).is_empty()
 }
 
@@ -121,7 +120,7 @@ pub fn recognise(
         None => recognise_layout(root, reader)?,
     };
     let (mut entries, unmatched, notes) = reader(layout).read(root, metadata, choice)?;
-    reject_links(root, &mut entries);
+    reject_links(&mut entries);
     // In the other layouts, the platform says who handed in each entry. By explicitly choosing the
     // plain layout, staff confirm that each entry is one submission.
     let mut mixtures = Vec::new();
@@ -142,19 +141,11 @@ pub fn recognise(
 
 /// Returns the layouts that most of the names in a folder fit.
 fn layouts_by_names<'a>(names: &[&str], reader: impl Fn(Layout) -> Reader<'a>) -> Vec<Layout> {
-    let by_names = [
-        Layout::Canvas,
-        Layout::Moodle,
-        Layout::Blackboard,
-        Layout::Brightspace,
-        Layout::Sakai,
-    ];
-    let is_one = |layout: &Layout| {
-        let platform = Platform::of(*layout);
-        let is_canvas_download = || reader(*layout).is_canvas_download(names);
-        is_majority(names, platform) && (!platform.has_attachments || is_canvas_download())
-    };
-    by_names.into_iter().filter(is_one).collect()
+    let all = Platform::all().iter();
+    let all = all.filter(|own| own.is_known_by_names && is_majority(names, own));
+    let all = all.map(|platform| reader(platform.layout));
+    let all = all.filter(|own| !own.platform.has_attachments || own.is_canvas_download(names));
+    all.map(|reader| reader.platform.layout).collect()
 }
 
 /// Returns the layout of an entry that is a platform's export, rather than one person's files from
@@ -167,7 +158,8 @@ fn export_inside<'a>(node: &Node, reader: impl Fn(Layout) -> Reader<'a>) -> Opti
     }
     let layout = layouts_by_names(&names, reader).into_iter().next()?;
     let Platform { files, ids, .. } = Platform::of(layout);
-    let people = names.iter().flat_map(|name| first_readings(files, name));
+    let people = names.iter();
+    let people = people.filter_map(|name| first_readings(files, name).into_iter().next());
     let people: BTreeSet<String> = people.map(|parts| parts.fill_first(ids)).collect();
     (people.len() > 1 || names.iter().any(|name| is_record(name))).then_some(layout)
 }
@@ -207,25 +199,14 @@ fn is_github_classroom(root: &Node) -> bool {
 }
 
 /// Marks each entry whose files include a link as having no files.
-fn reject_links(root: &Node, entries: &mut [Entry]) {
-    let mut links = BTreeMap::new();
-    add_links(root, &mut links);
+fn reject_links(entries: &mut [Entry]) {
     for entry in entries {
         let mut paths = entry.source.paths().into_iter();
-        if let Some(name) = paths.find_map(|path| links.get(path)) {
+        if let Some(link) = paths.find(|path| path.is_symlink()) {
+            let name = link.file_name().unwrap_or_default().display();
             let why = format!("{name} is a link, and links are not followed");
             entry.source = Source::Missing(why);
         }
-    }
-}
-
-/// Adds the paths and names of all links in a folder to `links`.
-fn add_links<'a>(folder: &'a Node, links: &mut BTreeMap<&'a Path, &'a str>) {
-    for node in folder.children() {
-        if node.is_link {
-            links.insert(&node.path, &node.name);
-        }
-        add_links(node, links);
     }
 }
 

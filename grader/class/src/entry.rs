@@ -1,6 +1,5 @@
 //! The entries of a class, in a form that doesn't depend on the layout.
 
-use std::ops::Not;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -26,6 +25,7 @@ pub struct Entry {
 
 /// Information about a submission, which is stored with its result.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct EntryInfo {
     /// The people who get the points. There is always at least one.
     pub people: Vec<Person>,
@@ -33,45 +33,35 @@ pub struct EntryInfo {
     pub late: bool,
     /// Whether the platform's export marks every late submission, in which case a submission
     /// without a mark is on time.
-    #[serde(default, skip_serializing_if = "Not::not")]
     pub marks_late: bool,
     /// Whether corrected files, which were handed in later, have replaced the original ones.
-    #[serde(default, skip_serializing_if = "Not::not")]
     pub is_corrected: bool,
     /// Whether there is nothing to grade because of a problem with names or the export that only
     /// staff can correct.
-    #[serde(default, skip_serializing_if = "Not::not")]
     pub needs_staff: bool,
     /// Why it is unclear who handed in the submission, if it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unclear_person: Option<String>,
     /// Whether none of the people is on the lists that staff provided. `false` if there are no
     /// lists or if it is unclear who the people are.
-    #[serde(default, skip_serializing_if = "Not::not")]
     pub is_unlisted: bool,
     /// The number of this attempt among the attempts by the same people, if the platform counts
     /// attempts.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub attempt: Option<u32>,
     /// The submission time from the platform's export, in the platform's format.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
     /// The submission time from a list, if the export doesn't contain one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub listed: Option<ListedTime>,
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
     /// The file name that the platform requires for the page to hand back. In it, `{who}` stands
     /// for people's names, and `{number}` stands for a person's number. `None` if the platform
     /// accepts any name.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
     /// The pseudonym that graders see, or an empty string if there is none.
     #[serde(skip)]
     pub pseudonym: String,
     /// The group that the submission is named after, if its people were taken from a list of the
     /// group's members.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub team: Option<String>,
 }
 
@@ -92,41 +82,30 @@ pub struct Person {
     /// The full name.
     pub name: String,
     /// The email address.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub email: String,
     /// The university's student id.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub sid: String,
     /// The account name, for example on GitHub.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
     /// The number that the platform assigns to the person, such as the user id in Canvas or the
     /// participant number in Moodle. In Moodle's file names, it can also be a group's number, which
     /// may coincide with somebody else's personal number, so it is only used together with the
     /// name.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
     /// The group in the roster.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub group: String,
     /// The section or tutor in the roster.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub section: String,
     /// The extension in the roster: a number of days or a time.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub extension: String,
     /// The status in Moodle's worksheet, which may include an extension.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub status: String,
     /// Whether `name` comes from the name of a file or folder. If so, the name on a list is
     /// preferred.
-    #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
     /// Whether the person is only known to belong to the submission because of the roster's groups.
-    #[serde(skip_serializing_if = "Not::not")]
     pub is_from_group: bool,
     /// Whether the person is on a list, in which case `number` isn't a group's number.
-    #[serde(skip_serializing_if = "Not::not")]
     pub is_listed: bool,
 }
 

@@ -51,13 +51,8 @@ impl Node {
     }
 }
 
-/// Returns the names in a folder or archive, or in the only folder in it.
+/// Returns the names in a folder, in an archive, or in an archive's only folder.
 pub fn names_inside(node: &Node) -> BTreeSet<String> {
-    if let [only] = node.children()
-        && only.is_folder()
-    {
-        return names_inside(only);
-    }
     if let Some(inside) = &node.children {
         return inside.iter().map(|node| node.name.clone()).collect();
     }

@@ -45,10 +45,8 @@ pub fn write_messages(
             let is_open = !result.info.needs_staff && manual.all(|own| own.delta == 0);
             let why = match &result.outcome {
                 EntryOutcome::NothingToGrade(why) => Some(why.clone()),
-                EntryOutcome::Graded(score) => {
-                    let is_tested =
-                        |file: &&str| score.items().any(|item| item.message.starts_with(file));
-                    let files = joined(result.missing_files().filter(is_tested), ", ");
+                EntryOutcome::Graded(_) => {
+                    let files = joined(result.missing_files(), ", ");
                     let why =
                         format!("these files are missing, so their tasks have 0 points: {files}");
                     Some(why).filter(|_| !files.is_empty())

@@ -167,8 +167,8 @@ fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff(
     late.info.late = true;
     let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()], &[]);
     let texts = [
-        "80 of 100 points count towards the grade: 80 of 100 points earned, handed in 1 day late, \
-         which costs nothing.",
+        "80 of 100 points count towards the grade: 80 of 100 points earned, handed in late (how \
+         late is unknown, so it counts as 1 day), which costs nothing.",
     ];
     assert_eq!(late.counted_texts(), texts);
     assert_eq!(late.notes(), texts);

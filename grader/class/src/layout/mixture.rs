@@ -36,7 +36,7 @@ pub(super) fn reject_mixtures(
             people.any(|person| known.iter().any(|member| member.matches(person)))
         };
         let of_platform = || {
-            let layout = export(node)?;
+            let layout = export(node).filter(|_| !is_known())?;
             let (what, name, file) = (layout.description(), layout.name(), &node.name);
             let or = format!(", or use --layout {name}");
             let or = if node.is_folder() { or } else { String::new() };

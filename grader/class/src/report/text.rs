@@ -59,8 +59,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         ),
         (
             summary.undated,
-            "counted as on time or, if marked as late, as 1 day late, because it is unknown when they \
-             were submitted: see class.html",
+            "counted as on time or 1 day late, because their submission time is unknown",
         ),
     ];
     let counts = counts.iter().filter(|(count, _)| *count > 0);

@@ -8,7 +8,7 @@ use insta::assert_snapshot;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::harness::{TestClass, assert_contains, files_below, zip};
+use crate::harness::{TestClass, assert_contains, cell, files_below, zip};
 
 /// Returns an archive with the task files in a subfolder.
 fn archive() -> Vec<u8> {
@@ -70,6 +70,22 @@ fn gradescope() -> TestClass {
 #[test]
 fn reads_a_gradescope_export_with_groups() {
     assert_snapshot!(gradescope().preview());
+}
+
+/// The folder of submission 103 is missing, and submission 104 is not in the metadata.
+#[test]
+fn a_gradescope_record_without_a_folder_gets_no_points_and_no_message() {
+    let class = gradescope();
+    let printed = class.graded(&class.small_exam(&["camera.offset"]), &[]);
+    let expected = [
+        "submission_104: it is not in submission_metadata.yml",
+        "its folder is not in the export; correct this in the input, or give manual points",
+    ];
+    assert_contains(&printed, &expected);
+    let of = |column| cell(&class, "submission_103", "Empty Handed", column);
+    let expected = ["nothing to grade", "", "its folder is not in the export"];
+    assert_eq!(["status", "counts", "why"].map(of), expected);
+    assert!(!class.out().join("hand-in-again").exists());
 }
 
 #[test]

@@ -85,7 +85,7 @@ fn the_policy_chooses_among_attempts_by_their_times() {
     let best = ("policy", &*policy.replace("latest", "best"));
     let printed = class.graded_with(&exam, &[best], &[]);
     let [one, other] = ["19", "21"].map(|day| format!("john_doe_2026-11-{day}-10-00-00"));
-    let change = format!("\n  {one} (John Doe): 0 → 100: it counts instead of {other}, graded");
+    let change = format!("\n  {one} (John Doe): 0 → 2: it counts instead of {other}, graded");
     assert_contains(
         &printed,
         &["1 final grade changed (changed: the policy)", &change],

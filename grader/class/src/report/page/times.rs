@@ -49,7 +49,7 @@ pub(super) fn times(class: &GradedClass) -> Markup {
             } } }
         }
         @if !undated.is_empty() { p {
-            "Counted as on time or, if marked as late, as 1 day late, because the time is unknown: "
+            "Counted as on time or 1 day late (if marked as late), because the time is unknown: "
             (sanitized(&undated)) "."
         } }
         @if !unclear.is_empty() {

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
 use crate::error::Error;
+use crate::graded_class::ClassRow;
 use crate::graded_class::GradeProblem::{self, OtherAttempt, SeveralAttempts};
-use crate::graded_class::{ClassRow, PersonGrade};
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
 use crate::manual_points::ManualPointsList;
@@ -28,11 +28,10 @@ pub fn count_points(
         rows.push(ClassRow::new(result, policy, own, exam));
     }
     apply_rule(policy, &mut rows);
+    let is_set_aside = |own: &GradeProblem| matches!(own, OtherAttempt(_) | SeveralAttempts(_));
     for row in &rows {
-        let is_single = |grade: &&PersonGrade| {
-            !matches!(grade.problem, Some(OtherAttempt(_) | SeveralAttempts(_)))
-        };
-        for grade in row.grades.iter().filter(is_single) {
+        let grades = row.grades.iter();
+        for grade in grades.filter(|grade| !grade.problem.iter().any(is_set_aside)) {
             manual.check_range(&grade.manual, &row.result.outcome, exam)?;
         }
     }

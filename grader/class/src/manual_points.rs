@@ -36,6 +36,7 @@ pub struct ManualPoints {
     /// The person who gave the points.
     pub author: String,
     /// The date of the decision, as written in the file. May be empty.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub date: String,
 }
 

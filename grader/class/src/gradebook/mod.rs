@@ -102,7 +102,7 @@ impl Key {
     /// at the end of each cell is compared. Otherwise, cells are compared unchanged.
     fn new(kind: KeyKind, column: usize) -> Self {
         let text = match kind {
-            KeyKind::Number => number_in,
+            KeyKind::Number => |cell: &str| number_at_end(cell.trim()).to_owned(),
             KeyKind::Sid | KeyKind::Login | KeyKind::Email | KeyKind::Name => str::to_owned,
         };
         Key { kind, column, text }
@@ -143,11 +143,6 @@ impl Key {
         let differs = !known.is_empty() && !texts.is_empty() && !texts.contains(&known);
         matches!(self.kind, KeyKind::Sid | KeyKind::Number) && differs
     }
-}
-
-/// Returns `123` for `Participant 123`, in any language.
-fn number_in(cell: &str) -> String {
-    number_at_end(cell.trim()).to_owned()
 }
 
 /// The content of an excused student's cell, which is never overwritten.
@@ -295,17 +290,10 @@ fn match_rows<'c>(
             match found {
                 Some((key, [row_index])) if is_other(key, *row_index) => {
                     let listed = name_in(row_index);
-                    warnings.push(if key.kind == KeyKind::Number {
-                        format!(
-                            "{who} is not {listed}, who has the same number in this list: enter \
-                             the points by hand"
-                        )
-                    } else {
-                        format!(
-                            "{who} is not in this list: {listed} has a different number or student id; \
-                             enter the points by hand"
-                        )
-                    });
+                    warnings.push(format!(
+                        "{who} and {listed} in this list share only a name or a number: enter the \
+                         points by hand"
+                    ));
                 }
                 Some((_, [row_index])) => {
                     let of_row = matches.entry(*row_index).or_default();

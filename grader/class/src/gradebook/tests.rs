@@ -67,7 +67,7 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
             ],
             ["100", "", "80", ""],
             vec![
-                "Eve is not Doe, Jane, who has the same number in this list: enter the points by hand",
+                "Eve and Doe, Jane in this list share only a name or a number: enter the points by hand",
             ],
         ),
         (
@@ -127,8 +127,8 @@ fn a_namesake_with_another_id_gets_no_points() {
             let mut wanted = Vec::new();
             if is_other {
                 wanted.push(format!(
-                    "Jane Doe is not in this list: {name} has a different number or student id; \
-                     enter the points by hand"
+                    "Jane Doe and {name} in this list share only a name or a number: enter the \
+                     points by hand"
                 ));
             }
             assert_eq!(filled.warnings, wanted);

@@ -47,7 +47,8 @@ pub fn write_messages(
                 EntryOutcome::NothingToGrade(why) => Some(why.clone()),
                 EntryOutcome::Graded(_) => {
                     let files = joined(result.missing_files(), ", ");
-                    let why = format!("missing, so their tasks have 0 points: {files}");
+                    let why =
+                        format!("these files are missing, so their tasks have 0 points: {files}");
                     Some(why).filter(|_| !files.is_empty())
                 }
                 EntryOutcome::Fault(_) => None,

@@ -165,8 +165,8 @@ fn write_for_platforms(class: &GradedClass, store: &Store, lists: &Lists) -> Res
     for (name, filled) in fill_gradebooks(class, lists)? {
         // The changes are printed, so that the teacher can check them before uploading the file.
         print(text::render_gradebook(&filled));
-        store.write(&name, filled.table.to_csv())?;
-        print_path(store, &name);
+        store.write(name, filled.table.to_csv())?;
+        print_path(store, name);
     }
     for kind in &lists.drop_list {
         // The copy of a dropped gradebook would contain outdated points.
@@ -199,16 +199,14 @@ pub fn check_lists(lists: &Lists) -> Result<(), Error> {
 fn fill_gradebooks(
     class: &GradedClass,
     lists: &Lists,
-) -> Result<Vec<(String, FilledGradebook)>, Error> {
+) -> Result<Vec<(&'static str, FilledGradebook)>, Error> {
     let column = lists.column.as_deref();
-    let filled = ListKind::GRADEBOOKS.into_iter().filter_map(|kind| {
-        let path = &lists.get(kind)?;
-        let filled = match kind {
-            ListKind::Canvas => fill_canvas(path, column, class),
-            ListKind::Moodle => fill_moodle(path, class),
-            _ => fill_gradescope(path, class),
-        };
-        Some(filled.map(|filled| (format!("{}.csv", kind.name()), filled)))
-    });
-    filled.collect()
+    let canvas = lists.canvas.iter();
+    let canvas = canvas.map(|path| ("canvas.csv", fill_canvas(path, column, class)));
+    let moodle = lists.moodle.iter();
+    let moodle = moodle.map(|path| ("moodle.csv", fill_moodle(path, class)));
+    let gradescope = lists.gradescope.iter();
+    let gradescope = gradescope.map(|path| ("gradescope.csv", fill_gradescope(path, class)));
+    let all = canvas.chain(moodle).chain(gradescope);
+    all.map(|(name, filled)| Ok((name, filled?))).collect()
 }

@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
 use crate::error::Error;
-use crate::graded_class::{ClassRow, GradeProblem};
+use crate::graded_class::ClassRow;
+use crate::graded_class::GradeProblem::{self, OtherAttempt, SeveralAttempts};
 use crate::identity::{Attempt, attempts_by_person};
 use crate::late::submission_time;
 use crate::manual_points::ManualPointsList;
@@ -27,8 +28,10 @@ pub fn count_points(
         rows.push(ClassRow::new(result, policy, own, exam));
     }
     apply_rule(policy, &mut rows);
+    let is_set_aside = |own: &GradeProblem| matches!(own, OtherAttempt(_) | SeveralAttempts(_));
     for row in &rows {
-        for grade in row.grades.iter().filter(|grade| !grade.is_set_aside()) {
+        let grades = row.grades.iter();
+        for grade in grades.filter(|grade| !grade.problem.iter().any(is_set_aside)) {
             manual.check_range(&grade.manual, &row.result.outcome, exam)?;
         }
     }
@@ -47,10 +50,10 @@ fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
         let id = |row: &usize| rows[*row].result.id.clone();
         let chosen = choose(policy, rows, &attempts, &submissions);
         let problem = |row: &usize| match chosen {
-            Some(chosen) => GradeProblem::OtherAttempt(id(&chosen)),
+            Some(chosen) => OtherAttempt(id(&chosen)),
             None => {
                 let others = submissions.iter().filter(|other| *other != row);
-                GradeProblem::SeveralAttempts(others.map(id).collect())
+                SeveralAttempts(others.map(id).collect())
             }
         };
         let set_aside = attempts.iter().filter(|(row, _)| chosen != Some(*row));

@@ -26,6 +26,7 @@ pub struct Entry {
 
 /// Information about a submission, which is stored with its result.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct EntryInfo {
     /// The people who get the points. There is always at least one.
     pub people: Vec<Person>,
@@ -33,45 +34,35 @@ pub struct EntryInfo {
     pub late: bool,
     /// Whether the platform's export marks every late submission, in which case a submission
     /// without a mark is on time.
-    #[serde(default, skip_serializing_if = "Not::not")]
     pub marks_late: bool,
     /// Whether corrected files, which were handed in later, have replaced the original ones.
-    #[serde(default, skip_serializing_if = "Not::not")]
     pub is_corrected: bool,
     /// Whether there is nothing to grade because of a problem with names or the export that only
     /// staff can correct.
-    #[serde(default, skip_serializing_if = "Not::not")]
     pub needs_staff: bool,
     /// Why it is unclear who handed in the submission, if it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unclear_person: Option<String>,
     /// Whether none of the people is on the lists that staff provided. `false` if there are no
     /// lists or if it is unclear who the people are.
-    #[serde(default, skip_serializing_if = "Not::not")]
     pub is_unlisted: bool,
     /// The number of this attempt among the attempts by the same people, if the platform counts
     /// attempts.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub attempt: Option<u32>,
     /// The submission time from the platform's export, in the platform's format.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submitted: Option<String>,
     /// The submission time from a list, if the export doesn't contain one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub listed: Option<ListedTime>,
     /// The file or folder that the submission was read from, relative to the input.
     pub from: String,
     /// The file name that the platform requires for the page to hand back. In it, `{who}` stands
     /// for people's names, and `{number}` stands for a person's number. `None` if the platform
     /// accepts any name.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand_back_as: Option<String>,
     /// The pseudonym that graders see, or an empty string if there is none.
     #[serde(skip)]
     pub pseudonym: String,
     /// The group that the submission is named after, if its people were taken from a list of the
     /// group's members.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub team: Option<String>,
 }
 

@@ -1,12 +1,13 @@
 //! Lists the contents of folders, but only to the depth that the layouts need.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use grader::disk::{self, Operation};
 use grader::files::{self, AtPath, PathError};
-use grader::submission::{is_archive_name, is_skipped_name};
+use grader::submission::{Archive, ArchiveLimits, is_archive_name, is_skipped_name};
 
 /// The number of subfolder levels to list. This is enough for a project inside a student's folder
 /// that is itself inside a tutorial's folder.
@@ -48,6 +49,24 @@ impl Node {
     pub fn is_archive(&self) -> bool {
         !self.is_folder() && is_archive_name(&self.name)
     }
+}
+
+/// Returns the names in a folder, in an archive, or in an archive's only folder.
+pub fn names_inside(node: &Node) -> BTreeSet<String> {
+    if let Some(inside) = &node.children {
+        return inside.iter().map(|node| node.name.clone()).collect();
+    }
+    let archive = Archive::open(&node.path, ArchiveLimits::class());
+    let listing = archive.and_then(|mut archive| archive.listing());
+    let members = listing.map_or(Vec::new(), |listing| listing.members);
+    let names = |depth| -> BTreeSet<String> {
+        let names = members.iter();
+        let names = names.filter_map(|member| member.path.split('/').nth(depth));
+        let names = names.filter(|name| !is_skipped_name(name));
+        names.map(str::to_owned).collect()
+    };
+    let outer = names(0);
+    if outer.len() == 1 { names(1) } else { outer }
 }
 
 /// Lists a folder. Hidden and skipped files and folders are left out, and invalid Unicode in names

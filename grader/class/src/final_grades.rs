@@ -102,7 +102,7 @@ impl GradeHistory {
         let differs = |kind: &&ListKind| before.lists.get(kind) != self.now.lists.get(kind);
         causes.extend(LISTS.iter().filter(differs).map(|kind| kind.title()));
         let changes = self.now.grades.iter();
-        let changes = changes.filter_map(|now| before.change_to(now, &causes));
+        let changes = changes.filter_map(|now| before.change_to(now, &self.now, &causes));
         let gone = before.grades.iter().filter_map(|was| self.now.loss(was));
         let changes = changes.chain(gone).collect();
         Some(GradeChanges { causes, changes })
@@ -121,7 +121,8 @@ impl FinalGrades {
                 let earlier = last.iter().flat_map(|last| last.of(&row.result.id));
                 grades.extend(earlier.cloned());
             } else {
-                let people = row.people();
+                // The attempt that counts instead has a grade of its own.
+                let people = row.people().filter(|(_, grade)| !grade.is_superseded());
                 grades.extend(people.map(|(person, grade)| FinalGrade::new(row, person, grade)));
             }
         }
@@ -141,24 +142,34 @@ impl FinalGrades {
         grades.filter(move |grade| grade.submission == submission)
     }
 
-    /// Returns a sentence about the difference between a later grade and this run's grade for the
-    /// same person and submission. A new submission doesn't count as a change.
-    fn change_to(&self, now: &FinalGrade, causes: &[&str]) -> Option<String> {
-        self.of(&now.submission).next()?;
-        match self.find(now) {
-            Some(was) => (was.counts != now.counts).then(|| now.change(was, causes)),
-            None => now.counts.map(|_| {
-                let why = "the submission now counts for this person as well";
-                now.changed("–", &now.value(false), why)
-            }),
+    /// Returns a sentence about the difference between a grade in `after` and this run's grade for
+    /// the same person: the one for the same submission or else the one that `after` lacks. A new
+    /// submission in addition to others doesn't count as a change.
+    fn change_to(&self, now: &FinalGrade, after: &Self, causes: &[&str]) -> Option<String> {
+        let is_gone = |was: &&FinalGrade| after.find(was).is_none();
+        let other = || self.counting(&now.person).filter(is_gone);
+        if let Some(was) = self.find(now).or_else(other) {
+            return (was.counts != now.counts).then(|| now.change(was, causes));
         }
+        self.of(&now.submission).next()?;
+        now.counts.map(|_| {
+            let why = "the submission now counts for this person as well";
+            now.changed("–", &now.value(false), why)
+        })
+    }
+
+    /// Returns the grade that counts for a person.
+    fn counting(&self, person: &Person) -> Option<&FinalGrade> {
+        let mut own = self.grades.iter().filter(|own| own.counts.is_some());
+        own.find(|own| own.person.is_same(person))
     }
 
     /// Returns a sentence about an earlier grade that is missing from this run although its
     /// submission is still present.
     fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
-        (was.counts.is_some() && self.find(was).is_none()).then(|| {
+        let is_lost = self.find(was).is_none() && self.counting(&was.person).is_none();
+        (was.counts.is_some() && is_lost).then(|| {
             let why = "the submission no longer counts for this person";
             was.changed(&was.value(false), "–", why)
         })
@@ -208,6 +219,9 @@ impl FinalGrade {
         let maxima = [was, self].map(maximum);
         let with_maximum = maxima[0] != maxima[1] && maxima.iter().all(Option::is_some);
         let mut why = Vec::new();
+        if was.submission != self.submission {
+            why.push(format!("it counts instead of {}", was.submission));
+        }
         if was.graded != self.graded {
             why.push(format!("graded {} → {}", was.graded, self.graded));
         }

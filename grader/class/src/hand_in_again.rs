@@ -1,5 +1,5 @@
-//! Messages to the people whose submissions cannot be graded. They say what was wrong and how to
-//! hand in again. Staff send the messages themselves: this program doesn't send anything.
+//! Messages to the people whose submissions cannot be graded or lack a file. They say what was wrong
+//! and how to hand in again. Staff send the messages themselves: this program doesn't send anything.
 
 use std::collections::BTreeSet;
 
@@ -10,8 +10,9 @@ use judging::sanitize::{safe_folder_name, sanitize_line};
 use crate::entry::Person;
 use crate::error::Error;
 use crate::graded_class::GradedClass;
-use crate::identity::attempts_by_person;
+use crate::identity::{Attempt, attempts_by_person};
 use crate::layout::unique_name;
+use crate::names::joined;
 use crate::outcome::EntryOutcome;
 use crate::store::Store;
 
@@ -20,8 +21,8 @@ pub const FOLDER: &str = "hand-in-again";
 /// The maximum length of a name or a reason, in characters.
 const MAX_CHARS: usize = 1_000;
 
-/// Writes a message for each person who has submitted something, but nothing that can be graded.
-/// Removes the messages from the last run. Returns the number of messages written.
+/// Writes a message for each person who has submitted something, but nothing that can be graded or
+/// not all files. Removes the messages from the last run. Returns the number of messages written.
 pub fn write_messages(
     class: &GradedClass,
     store: &Store,
@@ -35,17 +36,27 @@ pub fn write_messages(
     let mut used = BTreeSet::new();
     let people = class.rows.iter();
     let people = people.map(|row| row.result.info.people.as_slice());
-    for attempts in attempts_by_person(people) {
-        let reason = |(row, index): &(usize, usize)| {
-            let row = &class.rows[*row];
-            let info = &row.result.info;
-            match &row.result.outcome {
-                // Staff have decided, or the student did nothing wrong.
-                _ if row.grades[*index].counted.is_some() || info.needs_staff => None,
-                EntryOutcome::NothingToGrade(why) => Some(format!("{}: {why}", info.from)),
-                EntryOutcome::Graded(_) | EntryOutcome::Fault(_) => None,
-            }
+    for mut attempts in attempts_by_person(people) {
+        let grade = |(row, index): &Attempt| &class.rows[*row].grades[*index];
+        let reason = |attempt: &Attempt| {
+            let result = &class.rows[attempt.0].result;
+            // Otherwise, staff have decided, or the student did nothing wrong.
+            let mut manual = grade(attempt).manual.iter();
+            let is_open = !result.info.needs_staff && manual.all(|own| own.delta == 0);
+            let why = match &result.outcome {
+                EntryOutcome::NothingToGrade(why) => Some(why.clone()),
+                EntryOutcome::Graded(_) => {
+                    let files = joined(result.missing_files(), ", ");
+                    let why =
+                        format!("these files are missing, so their tasks have 0 points: {files}");
+                    Some(why).filter(|_| !files.is_empty())
+                }
+                EntryOutcome::Fault(_) => None,
+            };
+            let from = &result.info.from;
+            why.filter(|_| is_open).map(|why| format!("{from}: {why}"))
         };
+        attempts.retain(|attempt| !grade(attempt).is_superseded());
         let reasons: Option<Vec<String>> = attempts.iter().map(reason).collect();
         if let (Some(reasons), [(row, index), ..]) = (reasons, attempts.as_slice()) {
             let person = &class.rows[*row].result.info.people[*index];
@@ -57,7 +68,7 @@ pub fn write_messages(
     Ok(used.len())
 }
 
-/// Renders the message that tells a person why nothing could be graded and how to hand in again.
+/// Renders the message that tells a person what could not be graded and how to hand in again.
 pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> String {
     let name = sanitize_line(person.display_name(), MAX_CHARS);
     let address = match person.email.as_str() {
@@ -71,7 +82,7 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
          \n\
          Hello {name},\n\
          \n\
-         Your submission could not be graded, for this reason:\n\
+         There is a problem with your submission:\n\
          \n\
          {}\n\
          Please pack your files again. To do so, run this command in the assignment's folder:\n\

@@ -88,10 +88,10 @@ impl Input {
         let of_several = if class.entries.is_empty() {
             layout::side_by_side(&root, handed_out)
         } else {
-            // If only a few entries are mixtures, students may have made mistakes, and the other
+            // If less than half of the entries are mixtures, students may have made mistakes, and the other
             // entries can be graded.
-            let is_most = 2 * class.mixtures.len() > class.entries.len();
-            class.mixtures.first().filter(|_| is_most).cloned()
+            let is_many = 2 * class.mixtures.len() >= class.entries.len();
+            class.mixtures.first().filter(|_| is_many).cloned()
         };
         if let Some(why) = of_several {
             let unpack = archive.map_or("", |_| "; unpack the archive first");

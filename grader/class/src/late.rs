@@ -74,12 +74,12 @@ pub fn lateness(
         Some(lateness) => Ok(lateness),
         None if info.is_late() && !extensions.is_empty() => Err(UnclearTime::new(ONLY_A_FLAG)),
         // Unless both times are known, a submission with a late flag is treated as one second past
-        // the grace period.
-        None if info.is_late() => {
+        // the grace period, and any other submission as on time.
+        None => {
             let grace = u64::from(policy.late.grace_minutes) * 60;
-            Ok(Lateness::of_seconds(grace + 1))
+            let seconds = if info.is_late() { grace + 1 } else { 0 };
+            Ok(Lateness::of_seconds(seconds).assumed(due.is_some() || info.is_late()))
         }
-        None => Ok(Lateness::NONE),
     }
 }
 
@@ -213,12 +213,6 @@ fn extension_problems<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<(&'a st
     policy.late.extensions.keys().filter_map(problem).collect()
 }
 
-/// Returns whether the submission has neither a time nor a late flag, although the policy sets a
-/// due time. Such a submission is treated as on time.
-pub fn is_undated(policy: &Policy, info: &EntryInfo) -> bool {
-    policy.late.due.is_some() && !info.is_late() && info.submitted().is_none()
-}
-
 #[cfg(test)]
 mod tests {
     use serde_json::json;
@@ -238,13 +232,14 @@ mod tests {
         let mut policy = policy("[late]\npercent_per_day = 10\ngrace_minutes = 5");
         let nobody = Person::default();
         let late = lateness(&policy, &late_flag(), &nobody).unwrap();
-        assert_eq!(late, Lateness::of_seconds(301));
+        let assumed = |seconds| Lateness::of_seconds(seconds).assumed(true);
+        assert_eq!(late, assumed(301));
         assert_eq!(policy.final_points(80, 100, late).points, 72);
         let on_time = lateness(&policy, &EntryInfo::default(), &nobody);
         assert_eq!(on_time, Ok(Lateness::NONE));
-        assert!(!is_undated(&policy, &EntryInfo::default()));
         policy.late.due = "2026-11-20T23:59:59Z".parse().ok();
-        assert!(is_undated(&policy, &EntryInfo::default()) && !is_undated(&policy, &late_flag()));
+        let on_time = lateness(&policy, &EntryInfo::default(), &nobody);
+        assert_eq!(on_time, Ok(assumed(0)));
     }
 
     #[test]
@@ -303,8 +298,6 @@ mod tests {
         };
         assert_eq!(seconds("2026-11-20T11:00:00Z", true), Ok(0));
         assert_eq!(seconds("2026-11-20T12:00:07Z", false), Ok(7));
-        let info = submitted("2026-11-20T12:00:07Z", false);
-        assert!(!is_undated(&policy, &info));
         let unclear = seconds("yesterday", false).unwrap_err();
         assert!(unclear.why.contains("the submission time \"yesterday\""));
     }
@@ -314,7 +307,7 @@ mod tests {
         let info = submitted("yesterday", true);
         assert_eq!(submission_time(&Policy::default(), &info), Ok(None));
         let late = lateness(&Policy::default(), &info, &Person::default());
-        assert_eq!(late, Ok(Lateness::of_seconds(1)));
+        assert_eq!(late.unwrap().seconds, 1);
         // The latest attempt is chosen by its time, even without a due time.
         let latest = policy("[attempts]\ncounts = 'latest'");
         assert!(submission_time(&latest, &info).is_err());

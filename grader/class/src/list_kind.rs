@@ -60,7 +60,6 @@ pub struct ListCopy {
     /// The path on the command line, for messages.
     pub given_as: String,
     /// The column to fill in if the list is a gradebook from Canvas.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
     /// Whether the list comes from the merged shards rather than from the merge's command line.
     #[serde(default, skip_serializing_if = "Not::not")]

@@ -194,11 +194,8 @@ impl UsedLists {
                 self.kept.insert(kind, list);
                 self.copies.insert(kind, copy);
             }
-            let lists = self.kept.clone();
-            let run = Run {
-                lists,
-                ..run.clone()
-            };
+            let mut run = run.clone();
+            run.lists.clone_from(&self.kept);
             self.save(store, &run)?;
         }
         finished

@@ -4,23 +4,7 @@
 use crate::names::are_equal;
 
 /// Sentences that don't affect the grade, from Moodle's `mod/assign/lang/en/assign.php`.
-const KNOWN: [&str; 14] = [
-    "Submitted for grading",
-    "Submitted",
-    "No submission",
-    "Submission changes not allowed",
-    "Graded",
-    "Not graded",
-    // This follows `Graded - `.
-    "follow up submission received",
-    "Not marked",
-    "In marking",
-    "Marking completed",
-    "In review",
-    "Ready for release",
-    "Released",
-    "No attempt",
-];
+const KNOWN: &str = include_str!("moodle_status.txt");
 /// Sentences about files that the student hasn't submitted.
 const UNSUBMITTED: [&str; 2] = ["Draft (not submitted)", "Reopened"];
 const EXTENSION: &str = "Extension granted until:";
@@ -46,14 +30,14 @@ impl<'a> MoodleStatus<'a> {
         let mut status = MoodleStatus::default();
         let sentences = cell.split(" - ").map(str::trim);
         for sentence in sentences.filter(|sentence| !sentence.is_empty()) {
-            let is_one_of = |known: &[&str]| known.iter().any(|known| are_equal(known, sentence));
+            let is_sentence = |known: &str| are_equal(known, sentence);
             if let Some(until) = sentence.strip_prefix(EXTENSION) {
                 status.extension = Some(until.trim());
-            } else if is_one_of(&UNSUBMITTED) {
+            } else if UNSUBMITTED.into_iter().any(is_sentence) {
                 status.unsubmitted = Some(sentence);
             } else if sentence.ends_with(LATE) {
                 status.is_late = true;
-            } else if !is_one_of(&KNOWN) && !sentence.starts_with(OVERDUE) {
+            } else if !KNOWN.lines().any(is_sentence) && !sentence.starts_with(OVERDUE) {
                 status.unknown = Some(sentence);
             }
         }

@@ -242,11 +242,13 @@ impl EntryResult {
             .map_or(&[], |score| &score.build.ignored_copies)
     }
 
-    /// Returns the names of the files that a graded submission lacks.
+    /// Returns the names of the files that a graded submission lacks and that the exam is about.
     pub fn missing_files(&self) -> impl Iterator<Item = &str> {
-        let files = self.score().into_iter();
-        let files = files.flat_map(|score| &score.build.not_compiled);
-        files.filter_map(|file| file.is_missing.then_some(file.file.as_str()))
+        self.score().into_iter().flat_map(|score| {
+            let files = score.build.not_compiled.iter();
+            let files = files.filter_map(|file| file.is_missing.then_some(file.file.as_str()));
+            files.filter(|file| score.items().any(|item| item.message.starts_with(file)))
+        })
     }
 
     /// Returns the score, if any.

@@ -19,7 +19,6 @@ pub struct Run {
     /// The state of the round.
     pub state: RoundState,
     /// The shard that is graded. `None` for the whole class.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
     /// The policy, the roster and the other lists. The folder contains copies of them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -39,7 +38,6 @@ pub struct Run {
     /// The settings that the scores depend on.
     pub settings: Settings,
     /// The settings of the last finished round before this one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub before: Option<Settings>,
 }
 

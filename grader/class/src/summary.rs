@@ -201,7 +201,7 @@ impl ClassSummary {
             unlisted: count(|row| row.result.info.is_unlisted),
             superseded: count(ClassRow::is_superseded),
             undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
-            undated: count(|row| row.grades.iter().any(|grade| grade.is_undated)),
+            undated: count(|row| row.grades.iter().any(|grade| grade.is_undated())),
             tasks: tasks(&scores),
             sections,
             failed,
@@ -345,7 +345,7 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
         let missing = row.result.missing_files().map(|file| Reason {
             cause: "a file is missing".to_owned(),
             detail: file.to_owned(),
-            remedy: "; ask for it, or correct its name",
+            remedy: "; ask for it, using the message in hand-in-again, or correct its name",
         });
         let problem = problem.into_iter().chain(unlisted).chain(missing);
         let problem: Vec<Reason> = problem.collect();
@@ -387,6 +387,7 @@ fn missing_grade(row: &ClassRow) -> Option<Reason> {
 fn low_score(score: &ScoreSummary, fence: f64) -> Option<Reason> {
     let is_uncompiled = |item: &ItemScore| item.verdict == "not_compiled";
     let is_unwritten = |item: &ItemScore| item.verdict == "unimplemented";
+    let mut detail = String::new();
     let (cause, remedy) = match score.points {
         _ if score.items().all(is_uncompiled) => (
             "0 points: nothing compiles",
@@ -399,12 +400,11 @@ fn low_score(score: &ScoreSummary, fence: f64) -> Option<Reason> {
             "; ask for the right files",
         ),
         0 => ("0 points", "; read the report"),
-        points if f64::from(points) < fence => ("far below the others", "; read the report"),
+        points if f64::from(points) < fence => {
+            detail = format!("{points} points");
+            ("far below the others", "; read the report")
+        }
         _ => return None,
-    };
-    let detail = match score.points {
-        0 => String::new(),
-        points => format!("{points} points"),
     };
     Some(Reason {
         cause: cause.to_owned(),

@@ -2,6 +2,7 @@
 //! empty, so that they don't fill the disk. A file that cannot be unpacked is reported without
 //! affecting the others.
 
+use std::error::Error as StdError;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Component, Path};
@@ -10,8 +11,7 @@ use grader::build::build_dir::BuildDir;
 use grader::files::{self, AtPath, PathError};
 use grader::handed_out::HandedOut;
 use grader::submission::{
-    Archive, ArchiveError, ArchiveLimits, Member, is_archive_name, is_skipped_name,
-    may_be_task_file,
+    Archive, ArchiveLimits, Member, is_archive_name, is_skipped_name, may_be_task_file,
 };
 
 use crate::error::Error;
@@ -50,31 +50,19 @@ pub fn unpack(
     parent: &Path,
     handed_out: &HandedOut,
 ) -> Result<UnpackedArchive, Error> {
-    unpack_files(path, parent, handed_out).map_err(|error| match error {
-        UnpackError::Archive(why) => {
-            let path = path.display();
-            Error::user(format!(
-                "{path}: {why}; alternatively, unpack the archive yourself and pass the path of the folder"
-            ))
-        }
-        UnpackError::File(error) => Error::user(error),
+    unpack_files(path, parent, handed_out).map_err(|why| {
+        let path = path.display();
+        Error::user(format!(
+            "{path}: {why}; alternatively, unpack the archive yourself and pass the path of the folder"
+        ))
     })
-}
-
-/// The reason that an archive cannot be unpacked.
-#[derive(Debug, thiserror::Error)]
-enum UnpackError {
-    #[error(transparent)]
-    Archive(#[from] ArchiveError),
-    #[error(transparent)]
-    File(#[from] PathError),
 }
 
 fn unpack_files(
     path: &Path,
     parent: &Path,
     handed_out: &HandedOut,
-) -> Result<UnpackedArchive, UnpackError> {
+) -> Result<UnpackedArchive, Box<dyn StdError>> {
     let bytes = fs::metadata(path).at("read", path)?.len();
     let mut archive = Archive::open(path, ArchiveLimits::class())?;
     let listing = archive.listing()?;
@@ -101,7 +89,7 @@ fn unpack_files(
             files::write_with_parents(target, bytes)
         });
         problems.extend(put?);
-        Ok::<_, UnpackError>(())
+        Ok::<_, Box<dyn StdError>>(())
     };
     for (member, why) in not_read {
         put(member, why.map_or(Ok(&[]), Err))?;

@@ -23,6 +23,8 @@ pub struct FinalPoints {
     pub changes: Vec<String>,
     /// The number of days that have started since the due time, including free days.
     pub late_days: u32,
+    /// Whether the submission time isn't known, so that `late_days` is assumed.
+    pub is_assumed: bool,
     /// The consequence of being late.
     pub deduction: Deduction,
 }
@@ -116,7 +118,12 @@ impl FinalPoints {
             return None;
         }
         let days = |days: u32| counted(days as usize, "day");
-        let late = format!("handed in {} late", days(self.late_days));
+        let late = match days(self.late_days) {
+            days if self.is_assumed => {
+                format!("handed in late (how late is unknown, so it counts as {days})")
+            }
+            days => format!("handed in {days} late"),
+        };
         Some(match self.deduction {
             Deduction::None => format!("{late}, which costs nothing"),
             Deduction::FreeDays => format!("{late}, which is within the free days"),

@@ -46,6 +46,7 @@ impl Policy {
             manual: tasks.iter().map(|task| task.manual).sum(),
             changes: basis.changes,
             late_days,
+            is_assumed: lateness.is_assumed,
             deduction,
         }
     }

@@ -13,6 +13,8 @@ pub struct Lateness {
     pub seconds: u64,
     /// Days since the due time. A day that has only started counts in full.
     pub(super) days: u32,
+    /// Whether the time isn't known, so that the lateness is assumed.
+    pub is_assumed: bool,
 }
 
 impl Lateness {
@@ -20,13 +22,25 @@ impl Lateness {
     pub const NONE: Lateness = Lateness {
         seconds: 0,
         days: 0,
+        is_assumed: false,
     };
 
     /// Returns the lateness of a submission that is this many seconds late. Every day counts as 24
     /// hours, since the time of the submission is unknown.
     pub fn of_seconds(seconds: u64) -> Self {
         let days = u32::try_from(seconds.div_ceil(DAY)).unwrap_or(u32::MAX);
-        Lateness { seconds, days }
+        Lateness {
+            seconds,
+            days,
+            ..Lateness::NONE
+        }
+    }
+
+    /// Returns this lateness, for a submission whose time isn't known.
+    #[must_use]
+    pub fn assumed(mut self, is_assumed: bool) -> Self {
+        self.is_assumed = is_assumed;
+        self
     }
 
     /// Returns the time from `due` to the submission, in full seconds. If a time zone is given,
@@ -41,7 +55,7 @@ impl Lateness {
         };
         let around = by_hours.days.saturating_sub(1)..=by_hours.days.saturating_add(1);
         let days = around.into_iter().find(is_over).unwrap_or(by_hours.days);
-        Lateness { seconds, days }
+        Lateness { days, ..by_hours }
     }
 }
 

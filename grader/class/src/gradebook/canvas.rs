@@ -16,17 +16,8 @@ const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and pas
 /// The title of the last of the columns that identify people.
 const SECTION: &str = "Section";
 /// Canvas silently ignores any column whose title contains one of these texts.
-const IGNORED_TITLES: [&str; 9] = [
-    "Current Score",
-    "Current Points",
-    "Current Grade",
-    "Final Score",
-    "Final Points",
-    "Final Grade",
-    "Override Score",
-    "Override Grade",
-    "Override Status",
-];
+const IGNORED_TITLES: &str = "Current Score,Current Points,Current Grade,Final Score,Final Points,\
+                              Final Grade,Override Score,Override Grade,Override Status";
 
 /// Reads the gradebook at `path` and fills in the class's points. `column` is the title or number
 /// of the assignment's column.
@@ -79,7 +70,7 @@ fn find_target(
 ) -> Result<usize, Error> {
     let names = table.header.iter().enumerate().skip(section + 1);
     let names: Vec<(usize, &str)> = names.map(|(index, name)| (index, name.trim())).collect();
-    let is_ignored = |name: &str| IGNORED_TITLES.iter().any(|title| name.contains(title));
+    let is_ignored = |name: &str| IGNORED_TITLES.split(',').any(|title| name.contains(title));
     let is_wanted = |title: &str| {
         let (name, number) = split_title(title);
         match column {

@@ -3,7 +3,7 @@
 use grader::policy::{FinalPoints, Policy, TaskPoints};
 
 use crate::entry::Person;
-use crate::late::{UnclearTime, is_undated, lateness};
+use crate::late::{UnclearTime, lateness};
 use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
 use crate::run::Settings;
@@ -36,8 +36,6 @@ pub struct PersonGrade {
     pub counted: Option<FinalPoints>,
     /// The reason there are no final points.
     pub problem: Option<GradeProblem>,
-    /// Whether the submission is treated as on time because its submission time is unknown.
-    pub is_undated: bool,
     /// The manual points that staff gave.
     pub manual: Vec<ManualPoints>,
 }
@@ -121,7 +119,6 @@ impl ClassRow {
                 (Err(unclear), _) => (None, Some(GradeProblem::UnclearTime(unclear))),
             };
             PersonGrade {
-                is_undated: counted.is_some() && is_undated(policy, &result.info),
                 counted,
                 problem,
                 manual,
@@ -234,9 +231,9 @@ impl PersonGrade {
         matches!(self.problem, Some(GradeProblem::OtherAttempt(_)))
     }
 
-    /// Returns whether another attempt by the person is used or may still be chosen.
-    pub fn is_set_aside(&self) -> bool {
-        self.is_superseded() || matches!(self.problem, Some(GradeProblem::SeveralAttempts(_)))
+    /// Returns whether the lateness is assumed, because the time isn't known.
+    pub fn is_undated(&self) -> bool {
+        self.counted.iter().any(|counted| counted.is_assumed)
     }
 
     /// Returns sentences that explain how the score contributes to the grade, followed by the

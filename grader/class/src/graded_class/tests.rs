@@ -167,8 +167,8 @@ fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff(
     late.info.late = true;
     let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()], &[]);
     let texts = [
-        "80 of 100 points count towards the grade: 80 of 100 points earned, handed in 1 day late, \
-         which costs nothing.",
+        "80 of 100 points count towards the grade: 80 of 100 points earned, handed in late (how \
+         late is unknown, so it counts as 1 day), which costs nothing.",
     ];
     assert_eq!(late.counted_texts(), texts);
     assert_eq!(late.notes(), texts);
@@ -280,21 +280,24 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
     };
     let undated = grade(EntryInfo::default(), graded(80));
     assert_eq!(
-        (undated.counted.as_ref().unwrap().points, undated.is_undated),
+        (
+            undated.counted.as_ref().unwrap().points,
+            undated.is_undated()
+        ),
         (80, true)
     );
-    assert!(!grade(EntryInfo::default(), nothing()).is_undated);
+    assert!(!grade(EntryInfo::default(), nothing()).is_undated());
     let at = |time: &str| EntryInfo {
         submitted: Some(time.to_owned()),
         ..EntryInfo::default()
     };
     let late = grade(at("2026-11-21T10:00:00Z"), graded(80));
     assert_eq!(
-        (late.counted.as_ref().unwrap().points, late.is_undated),
+        (late.counted.as_ref().unwrap().points, late.is_undated()),
         (72, false)
     );
     let unclear = grade(at("yesterday"), graded(80));
-    assert_eq!((&unclear.counted, unclear.is_undated), (&None, false));
+    assert_eq!((&unclear.counted, unclear.is_undated()), (&None, false));
     let is_unclear = |problem| matches!(problem, Some(GradeProblem::UnclearTime(_)));
     assert!(is_unclear(unclear.problem));
 }

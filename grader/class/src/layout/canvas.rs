@@ -3,6 +3,8 @@
 
 use std::collections::BTreeSet;
 
+use grader::submission::is_archive_name;
+
 use super::names::{SubmissionNode, first_readings};
 use super::platforms::Platform;
 use super::reader::Reader;
@@ -16,9 +18,9 @@ impl Reader<'_> {
     /// contain two numbers, such as parts of a date. Such files can be recognised because they all
     /// have the same number or name where the student's would be, or because two of them have the
     /// same attachment number.
-    pub fn is_canvas_download(&self, root: &Node) -> bool {
-        let nodes = root.children().iter();
-        let names = nodes.map(|node| (node, first_readings(&self.platform.files, &node.name)));
+    pub fn is_canvas_download(&self, names: &[&str]) -> bool {
+        let names = names.iter();
+        let names = names.map(|name| (name, first_readings(&self.platform.files, name)));
         let names: Vec<_> = names.filter(|(_, ways)| !ways.is_empty()).collect();
         if names.iter().any(|(_, ways)| self.is_listed(&ways[0])) {
             return true;
@@ -31,9 +33,10 @@ impl Reader<'_> {
         let whos = count(&["{canvas_name}", "anon"]);
         let named = "{canvas_name}_{number}_{attachment}";
         let attachments = count(&[named, "anon_{anonymous}_{attachment}"]);
-        let archives = names.iter().filter(|(node, _)| node.is_archive()).count();
+        let archives = names.iter().filter(|(name, _)| is_archive_name(name));
         let is_anonymous = names.iter().all(|(_, ways)| ways[0].has("anonymous"));
-        let is_of_one = (users == 1 && archives > 1) || (users > 1 && whos == 1 && !is_anonymous);
+        let is_of_one =
+            (users == 1 && archives.count() > 1) || (users > 1 && whos == 1 && !is_anonymous);
         attachments == names.len() && !is_of_one
     }
 }

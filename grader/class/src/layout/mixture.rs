@@ -5,6 +5,7 @@
 
 use grader::handed_out::{HandedOut, TaskFile};
 
+use super::Layout;
 use crate::entry::{Entry, Source};
 use crate::file_tree::Node;
 use crate::names::{is_number, joined};
@@ -21,6 +22,7 @@ pub(super) fn reject_mixtures(
     entries: &mut [Entry],
     handed_out: &HandedOut,
     known: &[Member],
+    export: impl Fn(&Node) -> Option<Layout>,
 ) -> Vec<String> {
     let mut mixtures = Vec::new();
     for entry in entries {
@@ -33,19 +35,29 @@ pub(super) fn reject_mixtures(
             let mut people = entry.info.people.iter();
             people.any(|person| known.iter().any(|member| member.matches(person)))
         };
-        let why = side_by_side(node, handed_out).or_else(|| {
-            let inside = submissions_inside(node, handed_out)?;
-            (!is_known()).then(|| {
-                format!(
-                    "the folder {} contains several submissions ({}): if they are from different \
-                     students, pass this folder, or move them out of it; if they are attempts by \
-                     one student, keep only the one that counts; if each contains part of one \
-                     submission, combine them in one folder",
-                    node.name,
-                    listed(&inside)
-                )
-            })
-        });
+        let of_platform = || {
+            let layout = export(node).filter(|_| !is_known())?;
+            let (what, name, file) = (layout.description(), layout.name(), &node.name);
+            let or = format!(", or use --layout {name}");
+            let or = if node.is_folder() { or } else { String::new() };
+            Some(format!(
+                "{file} is {what}, not one submission: pass its path{or}; to grade several \
+                 downloads as one class, unpack them into one folder"
+            ))
+        };
+        let of_students = || {
+            let inside = submissions_inside(node, handed_out).filter(|_| !is_known())?;
+            Some(format!(
+                "the folder {} contains several submissions ({}): if they are from different \
+                 students, pass this folder, or move them out of it; if they are attempts by \
+                 one student, keep only the one that counts; if each contains part of one \
+                 submission, combine them in one folder",
+                node.name,
+                listed(&inside)
+            ))
+        };
+        let side_by_side = || side_by_side(node, handed_out);
+        let why = of_platform().or_else(side_by_side).or_else(of_students);
         if let Some(why) = why {
             entry.leave_to_staff(why.clone());
             mixtures.push(why);

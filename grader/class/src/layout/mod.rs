@@ -14,8 +14,8 @@ mod records;
 mod template;
 mod times;
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
@@ -29,7 +29,7 @@ use self::reader::Reader;
 use self::records::{SAKAI_MEMBERS, SAKAI_TIME};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::file_tree::Node;
+use crate::file_tree::{Node, names_inside};
 use crate::roster::Member;
 
 pub use crate::layout_kind::{Layout, LayoutChoice};
@@ -92,10 +92,9 @@ impl Layout {
 
 /// Returns whether a file with this name was written by a platform and should be read.
 pub fn is_record(name: &str) -> bool {
-    let lists = Platform::all().iter();
-    let mut lists = lists.filter_map(|platform| platform.list.as_deref());
-    [METADATA, SAKAI_TIME, SAKAI_MEMBERS].contains(&name)
-        || lists.any(|list| list == name)
+    let mut own = Platform::all().iter().flat_map(|own| &own.own_files);
+    [SAKAI_TIME, SAKAI_MEMBERS].contains(&name)
+        || own.any(|own| own == name)
         || !first_readings(&Platform::of(Layout::Blackboard).texts, name).is_empty()
 }
 
@@ -121,12 +120,13 @@ pub fn recognise(
         None => recognise_layout(root, reader)?,
     };
     let (mut entries, unmatched, notes) = reader(layout).read(root, metadata, choice)?;
-    reject_links(root, &mut entries);
+    reject_links(&mut entries);
     // In the other layouts, the platform says who handed in each entry. By explicitly choosing the
     // plain layout, staff confirm that each entry is one submission.
     let mut mixtures = Vec::new();
     if layout == Layout::Plain && choice.layout.is_none() {
-        mixtures = mixture::reject_mixtures(root, &mut entries, handed_out, known);
+        let export = |node: &Node| export_inside(node, reader);
+        mixtures = mixture::reject_mixtures(root, &mut entries, handed_out, known, export);
     }
     entries.sort_by(|one, other| one.id.cmp(&other.id));
     make_ids_unique(&mut entries);
@@ -139,25 +139,38 @@ pub fn recognise(
     })
 }
 
+/// Returns the layouts that most of the names in a folder fit.
+fn layouts_by_names<'a>(names: &[&str], reader: impl Fn(Layout) -> Reader<'a>) -> Vec<Layout> {
+    let all = Platform::all().iter();
+    let all = all.filter(|own| own.is_known_by_names && is_majority(names, own));
+    let all = all.map(|platform| reader(platform.layout));
+    let all = all.filter(|own| !own.platform.has_attachments || own.is_canvas_download(names));
+    all.map(|reader| reader.platform.layout).collect()
+}
+
+/// Returns the layout of an entry that is a platform's export, rather than one person's files from
+/// such an export.
+fn export_inside<'a>(node: &Node, reader: impl Fn(Layout) -> Reader<'a>) -> Option<Layout> {
+    let names = names_inside(node);
+    let names = Vec::from_iter(names.iter().map(String::as_str));
+    if names.contains(&METADATA) {
+        return Some(Layout::Gradescope);
+    }
+    let layout = layouts_by_names(&names, reader).into_iter().next()?;
+    let Platform { files, ids, .. } = Platform::of(layout);
+    let people = names.iter();
+    let people = people.filter_map(|name| first_readings(files, name).into_iter().next());
+    let people: BTreeSet<String> = people.map(|parts| parts.fill_first(ids)).collect();
+    (people.len() > 1 || names.iter().any(|name| is_record(name))).then_some(layout)
+}
+
 /// Recognises the layout of a folder. Rejects a folder that can be read in two ways.
 fn recognise_layout<'a>(
     root: &Node,
     reader: impl Fn(Layout) -> Reader<'a>,
 ) -> Result<Layout, Error> {
-    let by_names = [
-        Layout::Canvas,
-        Layout::Moodle,
-        Layout::Blackboard,
-        Layout::Brightspace,
-        Layout::Sakai,
-    ];
-    let is_one = |layout: &Layout| {
-        let platform = Platform::of(*layout);
-        let is_canvas_download = || reader(*layout).is_canvas_download(root);
-        is_majority(root, platform) && (!platform.has_attachments || is_canvas_download())
-    };
-    let found: Vec<Layout> = by_names.into_iter().filter(is_one).collect();
-    match found.as_slice() {
+    let names = root.children().iter().map(|node| node.name.as_str());
+    match layouts_by_names(&Vec::from_iter(names), reader).as_slice() {
         [] if root.name == TEAMS_SUBMITTED => Ok(Layout::Teams),
         [] if is_github_classroom(root) => Ok(Layout::GitHub),
         [] => Ok(Layout::Plain),
@@ -186,35 +199,24 @@ fn is_github_classroom(root: &Node) -> bool {
 }
 
 /// Marks each entry whose files include a link as having no files.
-fn reject_links(root: &Node, entries: &mut [Entry]) {
-    let mut links = BTreeMap::new();
-    add_links(root, &mut links);
+fn reject_links(entries: &mut [Entry]) {
     for entry in entries {
         let mut paths = entry.source.paths().into_iter();
-        if let Some(name) = paths.find_map(|path| links.get(path)) {
+        if let Some(link) = paths.find(|path| path.is_symlink()) {
+            let name = link.file_name().unwrap_or_default().display();
             let why = format!("{name} is a link, and links are not followed");
             entry.source = Source::Missing(why);
         }
     }
 }
 
-/// Adds the paths and names of all links in a folder to `links`.
-fn add_links<'a>(folder: &'a Node, links: &mut BTreeMap<&'a Path, &'a str>) {
-    for node in folder.children() {
-        if node.is_link {
-            links.insert(&node.path, &node.name);
-        }
-        add_links(node, links);
-    }
-}
-
-/// Returns whether more than half of the files and folders in `root` have names in the platform's
-/// format, ignoring those that the platform writes in addition to the submissions.
-fn is_majority(root: &Node, platform: &'static Platform) -> bool {
-    let is_own = |node: &&Node| platform.own_files.contains(&node.name);
-    let nodes = root.children().iter().filter(|node| !is_own(node));
-    let count = nodes.clone().filter(|node| is_name(platform, &node.name));
-    2 * count.count() > nodes.count()
+/// Returns whether more than half of the names are in the platform's format, ignoring those of files
+/// that the platform writes in addition to the submissions.
+fn is_majority(names: &[&str], platform: &'static Platform) -> bool {
+    let is_own = |name: &&&str| platform.own_files.iter().any(|own| own == **name);
+    let names = names.iter().filter(|name| !is_own(name));
+    let count = names.clone().filter(|name| is_name(platform, name));
+    2 * count.count() > names.count()
 }
 
 /// Turns ids into safe folder names and appends numbers to any names that would be equal on a

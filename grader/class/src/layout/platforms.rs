@@ -31,6 +31,8 @@ pub struct Platform {
     pub layout: Layout,
     /// The name used in messages.
     pub description: String,
+    /// Whether the names alone show that a folder has this layout.
+    pub is_known_by_names: bool,
     /// Templates for the names of the folders between the class's folder and the submissions, one
     /// list for each level.
     pub outer_folders: Vec<Vec<String>>,

@@ -25,6 +25,8 @@ const SHARED_NUMBER: &str = "another file has the same user number but a differe
 /// The reason for not grading two files with the same name, which Canvas never exports.
 const REPEATED_FILE: &str = "two of its files have the same name: remove the one that does not \
                              count, or put each student's files into a separate folder";
+/// The reason for not grading an archive that Canvas exports together with a newer one.
+const OLDER: &str = "a newer archive with this name was handed in, which is graded instead";
 /// The reason for not grading two downloads that were unpacked into one folder.
 const SEVERAL: &str = "it is in several folders with this name: keep the one that counts";
 /// The fields that may differ between the files of one submission.
@@ -134,7 +136,8 @@ impl Reader<'_> {
             others.extend(texts.map(|found| UnmatchedPath::new(found.path, why)));
         }
         let id = parts.fill_first(&platform.ids);
-        let mut entry = Entry::new(id, person(platform, parts), &from, self.source(&files));
+        let source = self.source(&files, others);
+        let mut entry = Entry::new(id, person(platform, parts), &from, source);
         // If files were handed in, the source can only be missing because of their names.
         entry.info.needs_staff = !files.is_empty() && matches!(entry.source, Source::Missing(_));
         let mut named = files.iter().chain(&text);
@@ -150,8 +153,8 @@ impl Reader<'_> {
         entry
     }
 
-    /// Returns the location of a submission's files.
-    fn source(&self, files: &[SubmissionNode]) -> Source {
+    /// Returns the location of a submission's files. Older archives are added to `others`.
+    fn source(&self, files: &[SubmissionNode], others: &mut Vec<UnmatchedPath>) -> Source {
         let name = |found: &SubmissionNode| found.parts.get("file").to_owned();
         let is_folder = |found: &SubmissionNode| found.node.is_folder();
         if let [only] = files
@@ -175,8 +178,11 @@ impl Reader<'_> {
         // Files that were handed in again come later in the list.
         for found in files.iter().rev() {
             let base = without_number(&name(found));
-            // If several archives were handed in under the same name, the newest is used.
-            if is_renamed && found.node.is_archive() && !archives.insert(base.clone()) {
+            // If several archives were handed in under the same name, the newest is used. If none
+            // of them has this name without a number, they can be parts: `part-1.zip`, `part-2.zip`.
+            let is_version = is_renamed && found.node.is_archive() && names.contains(&base);
+            if is_version && !archives.insert(base.clone()) {
+                others.push(UnmatchedPath::new(&found.path, OLDER));
                 continue;
             }
             // The names of files other than task files may themselves end in numbers.

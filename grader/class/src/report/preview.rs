@@ -51,7 +51,7 @@ pub fn render_warnings(class: &RecognisedClass) -> String {
     for ids in several_of_one_person(&class.entries) {
         let ids = joined(ids.into_iter().map(sentence), " and ");
         text += &format!(
-            "\n  {ids} belong to the same person: remove all but one, or let the policy choose with \
+            "\n  {ids} belong to the same person: remove all but one, unless the policy chooses with \
              [attempts]\n"
         );
     }

@@ -59,7 +59,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         ),
         (
             summary.undated,
-            "counted as on time, because their submission time is unknown",
+            "counted as on time or 1 day late, because their submission time is unknown",
         ),
     ];
     let counts = counts.iter().filter(|(count, _)| *count > 0);

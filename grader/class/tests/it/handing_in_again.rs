@@ -113,6 +113,29 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
     assert_eq!(texts(&class).len(), 4);
 }
 
+/// The other files that Fay's submission lacks are not in the exam.
+#[test]
+fn a_missing_file_costs_its_tasks_points_and_can_be_handed_in_later() {
+    let class = TestClass::named("class")
+        .with_reference("ann")
+        .with("fay/sphere.rs", source("reference/src/sphere.rs"));
+    let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
+    let printed = class.graded(&exam, &[]);
+    assert_contains(&printed, &["1 message for students who need to resubmit"]);
+    let [text] = texts(&class).try_into().unwrap();
+    let expected = [
+        "To: fay",
+        "- fay: these files are missing, so their tasks have 0 points: camera.rs\n",
+    ];
+    assert_contains(&text, &expected);
+    let page = class.read("students/fay/feedback.html");
+    assert_contains(&page, &["camera.rs is missing"]);
+
+    let manual = "student,task,delta,comment,author\nfay,camera,1,shown in class,Tess\n";
+    class.graded_with(&exam, &[("manual-points", manual)], &[]);
+    assert!(texts(&class).is_empty(), "staff have decided");
+}
+
 #[test]
 fn a_corrected_hand_in_without_its_submission_is_an_error() {
     let class = class();

@@ -8,7 +8,7 @@ use insta::assert_snapshot;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::harness::{TestClass, all_files, assert_contains, files_below, zip};
+use crate::harness::{TestClass, all_files, assert_contains, cell, files_below, zip};
 
 /// Returns an archive with the task files in a subfolder.
 fn archive() -> Vec<u8> {
@@ -70,6 +70,22 @@ fn gradescope() -> TestClass {
 #[test]
 fn reads_a_gradescope_export_with_groups() {
     assert_snapshot!(gradescope().preview());
+}
+
+/// The folder of submission 103 is missing, and submission 104 is not in the metadata.
+#[test]
+fn a_gradescope_record_without_a_folder_gets_no_points_and_no_message() {
+    let class = gradescope();
+    let printed = class.graded(&class.small_exam(&["camera.offset"]), &[]);
+    let expected = [
+        "submission_104: it is not in submission_metadata.yml",
+        "its folder is not in the export; correct this in the input, or give manual points",
+    ];
+    assert_contains(&printed, &expected);
+    let of = |column| cell(&class, "submission_103", "Empty Handed", column);
+    let expected = ["nothing to grade", "", "its folder is not in the export"];
+    assert_eq!(["status", "counts", "why"].map(of), expected);
+    assert!(!class.out().join("hand-in-again").exists());
 }
 
 #[test]
@@ -145,7 +161,67 @@ fn canvas_attachments_are_in_the_order_of_their_numbers() {
         .with("doejane_7001_1000_hw-1.zip", archive())
         .with("leeann_7002_9001_hw.zip", archive());
     let preview = class.preview();
-    assert_contains(&preview, &["doejane_7001_1000_hw-1.zip and 1 more"]);
+    let older = "doejane_7001_999_hw.zip: a newer archive with this name was handed in";
+    assert_contains(&preview, &["doejane_7001_1000_hw-1.zip and 1 more", older]);
+}
+
+#[test]
+fn numbered_archives_of_one_canvas_user_can_be_parts() {
+    let part = |file: &'static str| zip([(file, "text")]);
+    let class = TestClass::named("submissions")
+        .with("doejane_7001_9001_part-1.zip", part("camera.rs"))
+        .with("doejane_7001_9002_part-2.zip", part("bvh.rs"))
+        .with("leeann_7002_9003_hw-1.zip", part("bvh.rs"))
+        .with("leeann_7002_9004_hw-2.zip", zip([("bvh.rs", "newer")]));
+    let preview = class.preview();
+    let expected = [
+        "doejane: 2 of 5 files",
+        "leeann: nothing to grade",
+        "hw-1.zip",
+    ];
+    assert_contains(&preview, &expected);
+}
+
+#[test]
+fn an_export_is_not_graded_as_one_submission() {
+    let moodle = |people: &[&str]| {
+        let path = |name| format!("{name}_assignsubmission_file_/camera.rs");
+        zip(people.iter().map(|name| (path(name), "text")))
+    };
+    let class = TestClass::named("downloads")
+        .with("CG-77.zip", moodle(&["Ann Lee_301", "Bob_302"]))
+        .with("CG-78.zip", moodle(&["Carl_303"]));
+    let expected = [
+        "CG-77.zip is a Moodle download, not one submission: pass its path; to grade several",
+        "with --layout folders, each folder is one submission",
+    ];
+    assert_contains(&class.refused_preview(&[]), &expected);
+    let preview = class.preview_of(&class.input(), &["--layout", "folders"]);
+    assert_contains(&preview, &["2 of 2 can be graded"]);
+
+    // One student's files from a platform are one submission.
+    let class = TestClass::named("class")
+        .with("ann/leeann_7001_9001_hw.zip", archive())
+        .with("bob.zip", moodle(&["Bob_302"]));
+    assert_contains(&class.preview(), &["ann: all", "2 of 2 can be graded"]);
+
+    // Sakai's archive has a fixed name, unless somebody has renamed it.
+    let file = "Path tracer/Doe, Jane(jdoe)/Submission attachment(s)/camera.rs";
+    let list =
+        "Path tracer,Points\n\nDisplay ID,ID,Last Name,First Name,grade\njdoe,jdoe,Doe,Jane,\n";
+    let sakai = zip([(file, "text"), ("Path tracer/grades.csv", list)]);
+    let class = TestClass::named("beside").with("week 3.zip", &sakai);
+    let error = class.refused_preview(&[]);
+    let expected = "week 3.zip is a Sakai download, not one submission: pass its path;";
+    assert_contains(&error, &[expected]);
+    let archive = class.input().join("week 3.zip");
+    let preview = class.preview_of(&archive, &["--layout", "sakai"]);
+    assert_contains(&preview, &["1 submission in a Sakai download", "Jane Doe"]);
+    let class = TestClass::named("week 3")
+        .with(file, "text")
+        .with("Path tracer/grades.csv", list);
+    let error = class.refused_preview(&[]);
+    assert_contains(&error, &["pass its path, or use --layout sakai;"]);
 }
 
 #[test]

@@ -80,6 +80,16 @@ fn the_policy_chooses_among_attempts_by_their_times() {
     assert_contains(&of("19", "why"), &["john_doe_2026-11-21-10-00-00"]);
     assert_eq!(of("21", "late_days"), "1");
     assert_eq!(of("21", "submitted"), "2026-11-21 10:00:00");
+
+    // The change is listed once for each person, although two of the submissions' grades changed.
+    let best = ("policy", &*policy.replace("latest", "best"));
+    let printed = class.graded_with(&exam, &[best], &[]);
+    let [one, other] = ["19", "21"].map(|day| format!("john_doe_2026-11-{day}-10-00-00"));
+    let change = format!("\n  {one} (John Doe): 0 → 2: it counts instead of {other}, graded");
+    assert_contains(
+        &printed,
+        &["1 final grade changed (changed: the policy)", &change],
+    );
 }
 
 #[test]

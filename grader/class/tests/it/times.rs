@@ -32,6 +32,24 @@ fn assert_open(class: &TestClass, submission: &str, name: &str, status: &str, re
     assert_eq!(cell(class, submission, name, "counts"), "");
 }
 
+/// Canvas says that a submission is late, but not how late.
+#[test]
+fn a_late_flag_without_a_time_is_said_to_count_as_one_day() {
+    let class = TestClass::named("submissions")
+        .with("doejane_LATE_7001_9001_camera.rs", camera())
+        .with("leeann_7002_9002_camera.rs", camera());
+    let exam = class.small_exam(&["camera.offset"]);
+    let policy = ("policy", "[late]\npercent_per_day = 10\n");
+    let printed = class.graded_with(&exam, &[policy], &["--hand-back"]);
+    assert_contains(&printed, &["1 counted as on time or 1 day late, because"]);
+    let sentence = "handed in late (how late is unknown, so it counts as 1 day), so 10 % of";
+    for page in ["class.html", "students/doejane_7001/feedback.html"] {
+        assert_contains(&class.read(page), &[sentence]);
+    }
+    let times = "because the time is unknown: doejane_7001 (doejane).";
+    assert_contains(&class.read("class.html"), &[times]);
+}
+
 #[test]
 fn a_wrong_year_is_never_on_time_or_late() {
     let rows = [

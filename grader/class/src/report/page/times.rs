@@ -27,7 +27,7 @@ pub(super) fn times(class: &GradedClass) -> Markup {
     for counted in grades().filter_map(|(_, grade)| grade.counted.as_ref()) {
         *days.entry(counted.late_days).or_default() += 1;
     }
-    let undated = grades().filter(|(_, grade)| grade.is_undated);
+    let undated = grades().filter(|(_, grade)| grade.is_undated());
     let undated: Vec<String> = undated.map(|(who, _)| who).collect();
     let undated = match undated.len() {
         0..=MAX_NAMES => undated.join(", "),
@@ -48,9 +48,10 @@ pub(super) fn times(class: &GradedClass) -> Markup {
                 td .number { (count) }
             } } }
         }
-        @if !undated.is_empty() {
-            p { "Counted as on time, because the time is unknown: " (sanitized(&undated)) "." }
-        }
+        @if !undated.is_empty() { p {
+            "Counted as on time or 1 day late (if marked as late), because the time is unknown: "
+            (sanitized(&undated)) "."
+        } }
         @if !unclear.is_empty() {
             p { "No final points until these problems are resolved:" }
             ul { @for (who, grade) in &unclear { li {

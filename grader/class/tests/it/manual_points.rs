@@ -110,5 +110,5 @@ fn a_row_must_fit_the_attempt_that_counts() {
     assert_eq!(grade("best"), ["", "1"]);
     std::fs::remove_dir_all(class.input().join("u1")).unwrap();
     let error = class.refused(&exam, &[]);
-    assert!(error.contains("-1 points is out of range: 0 of"), "{error}");
+    assert!(error.contains("-1 points is out of range"), "{error}");
 }

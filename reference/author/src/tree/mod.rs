@@ -213,24 +213,7 @@ impl Tree {
         let mut copy: Vec<TreeNode> = tree.nodes.iter().map(copied).collect();
         copy.rotate_left(1);
         tree.nodes.extend(copy);
-        if rng.coin() {
-            tree.fill_unused_fields(rng);
-        }
         tree
-    }
-
-    /// Fills the fields that have no meaning with arbitrary values: the children of leaves, which are
-    /// equal, and the primitives of all other nodes.
-    fn fill_unused_fields(&mut self, rng: &mut Rng) {
-        let (nodes, shapes) = (self.nodes.len(), self.shapes.len());
-        for node in &mut self.nodes {
-            if node.is_leaf() {
-                let any = rng.index(nodes) as u32;
-                (node.l, node.r) = (any, any);
-            } else {
-                (node.start, node.size) = (rng.index(shapes) as u32, rng.integer(1, 4));
-            }
-        }
     }
 
     /// Swaps two nodes and updates all indices that refer to them.

@@ -32,7 +32,7 @@ impl ShapeCall {
                 radius: HALF * radius,
                 shape,
             },
-            triangle => triangle,
+            triangle @ (Shape::Triangle { .. } | Shape::FlatTriangle { .. }) => triangle,
         };
         let origin = HALF * self.ray.origin;
         ShapeCall::new(shape, Ray { origin, ..self.ray })

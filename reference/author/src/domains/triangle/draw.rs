@@ -314,7 +314,7 @@ const CHANGES: &[Change<ShapeCall>] = &[
     ShapeCall::smaller,
     ShapeCall::with_other_number,
     ShapeCall::in_a_smaller_world,
-    |call, random| with_exchanged(call, random, |one, other| mem::swap(one, other)),
+    |call, random| with_exchanged(call, random, mem::swap),
     |call, random| {
         with_exchanged(call, random, |one, other| {
             mem::swap(&mut one.uv, &mut other.uv)

@@ -15,10 +15,13 @@ use crate::solutions::Solutions;
 use crate::solutions::workbench::Answers;
 
 /// The maximum number of elements that a signature records for an item.
-const MAX_ELEMENTS: usize = 24;
+const MAX_ELEMENTS: usize = 32;
 /// The minimum number of recorded elements, even if fewer would distinguish all known mistakes. The
 /// additional elements help to recognise unknown mistakes.
 const MIN_ELEMENTS: usize = 12;
+/// The number of each mistake's wrong answers to record, so that a mistake that gives only a few of
+/// these answers isn't taken for the same.
+const WRONG_ANSWERS: usize = 4;
 
 /// Adds to the exam every known mistake's answers to some of its questions.
 pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
@@ -128,7 +131,7 @@ fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> boo
 
 /// Returns the elements that best distinguish the mistakes from each other and from correct
 /// answers. The choice is greedy: each step adds the element that distinguishes the most remaining
-/// pairs.
+/// pairs. Then adds more wrong answers of the mistakes that have only few wrong answers so far.
 fn choose_elements(
     correct: &[ObservedAnswer],
     by_mistake: &[(u32, &[ObservedAnswer])],
@@ -157,6 +160,16 @@ fn choose_elements(
         }
         pairs.retain(|pair| !differ(best, pair));
         chosen.insert(best);
+    }
+    for (_, observed) in by_mistake {
+        let is_wrong = |element: &usize| !observed[*element].matches(&correct[*element]);
+        let wrong: Vec<usize> = (0..correct.len()).filter(is_wrong).collect();
+        let known = wrong.iter().filter(|&it| chosen.contains(it)).count();
+        let more = known..WRONG_ANSWERS.min(wrong.len());
+        // Answers from all parts of the item differ more than neighbours do.
+        let spread = more.map(|index| wrong[index * wrong.len() / WRONG_ANSWERS]);
+        let room = MAX_ELEMENTS.saturating_sub(chosen.len());
+        chosen.extend(spread.take(room));
     }
     chosen.into_iter().collect()
 }

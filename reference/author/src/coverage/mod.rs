@@ -262,7 +262,8 @@ mod tests {
         let sentences = ["A flat box can be hit.", "Use `times`."].map(str::to_owned);
         coverage.add_task(task, &sentences, &authored);
         let expected = [
-            "bbox: `flat` must refer to exactly one sentence, not to \"Another sentence.\"",
+            "bbox: `flat` must refer to exactly one sentence, not to \"Another sentence.\": quote it \
+             up to its full stop, or only its beginning, followed by an ellipsis (…)",
             "bbox: \"A flat box can be hit.\" needs either items or a reason",
             "bbox: \"Use `times`.\" needs either items or a reason",
         ];

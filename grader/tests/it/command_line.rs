@@ -144,7 +144,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             counting,
             "sphere.from_inside",
             &[
-                "verdict  correct in isolation, but not together",
+                "verdict  correct in isolation, but not when asked together",
                 "distance; the error is",
             ],
         ),

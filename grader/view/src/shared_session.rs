@@ -67,8 +67,7 @@ impl SharedSession {
         read(&self.lock().session, Instant::now())
     }
 
-    /// Waits until `find` finds what it is looking for in the session, such as a job, and returns
-    /// it.
+    /// Waits until `find` returns something from the session, such as a job, and returns it.
     pub fn wait_for<T>(&self, mut find: impl FnMut(&mut Session, Instant) -> Option<T>) -> T {
         let mut shared = self.lock();
         loop {

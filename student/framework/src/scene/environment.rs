@@ -41,7 +41,7 @@ impl EnvironmentMap {
         if width != 2 * height || width > MAX_FILM_SIDE || height == 0 {
             return Err(format!(
                 "the map has {width} × {height} pixels: a map of all directions is twice as wide \
-                    as it is high, and at most {MAX_FILM_SIDE} pixels wide"
+                 as it is high, and at most {MAX_FILM_SIDE} pixels wide"
             ));
         }
         if radiance.len() != (width * height) as usize {

@@ -1,5 +1,7 @@
 //! Aspects of the tree that an exact sweep builds.
 
+use glam::DVec3;
+
 use super::BuildCall;
 use crate::domains::Aspect;
 use crate::domains::fields::class_up_to;
@@ -20,14 +22,9 @@ pub const BEST_AXIS: Aspect<BuildCall> = Aspect {
         "less than a thousandth",
     ],
     class: |call| {
-        let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
-        if boxes.len() <= call.max_leaf_size as usize {
-            return None;
-        }
-        let centers = Bounds::around(boxes.iter().map(Bounds::center));
-        let extent = centers.max - centers.min;
-        let part = extent[sweep::best_axis(&boxes)?] / extent.max_element();
-        Some(match (boxes.len(), part) {
+        let (extents, axis) = extents_and_best_axis(call)?;
+        let part = extents[axis] / extents.max_element();
+        Some(match (call.shapes.len(), part) {
             (_, 1.0..) => 0,
             (_, ..1e-3) => 7,
             (..=8, 0.1..) => 4,
@@ -50,17 +47,23 @@ pub const RANK: Aspect<BuildCall> = Aspect {
         "the shortest, with over 100 primitives",
     ],
     class: |call| {
-        let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
-        if boxes.len() <= call.max_leaf_size as usize {
-            return None;
-        }
-        let centers = Bounds::around(boxes.iter().map(Bounds::center));
-        let extents = (centers.max - centers.min).to_array();
-        let extent = extents[sweep::best_axis(&boxes)?];
-        let rank = extents.iter().filter(|&&other| other > extent).count();
-        Some(rank + usize::from(rank == 2 && boxes.len() > 100))
+        let (extents, axis) = extents_and_best_axis(call)?;
+        let all = extents.to_array();
+        let rank = all.iter().filter(|&&other| other > extents[axis]).count();
+        Some(rank + usize::from(rank == 2 && call.shapes.len() > 100))
     },
 };
+
+/// Returns how far the centres extend along each axis, and the axis of the best split. Returns
+/// `None` if all primitives fit into one leaf.
+fn extents_and_best_axis(call: &BuildCall) -> Option<(DVec3, usize)> {
+    let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+    if boxes.len() <= call.max_leaf_size as usize {
+        return None;
+    }
+    let centers = Bounds::around(boxes.iter().map(Bounds::center));
+    Some((centers.max - centers.min, sweep::best_axis(&boxes)?))
+}
 
 /// The number of levels of the tree.
 pub const LEVELS: Aspect<BuildCall> = Aspect {

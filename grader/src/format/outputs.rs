@@ -148,7 +148,8 @@ fn checkout() -> PathBuf {
 /// Returns the folder of the task files relative to the checkout. The result is empty if the files
 /// aren't below the checkout.
 fn folder_in_checkout(submitted: &Path, checkout: &Path, handed_out: &HandedOut) -> String {
-    let below = handed_out.folders_in(submitted).next();
+    let folders = handed_out.folders_in(submitted);
+    let below = folders.first();
     let folder = below.and_then(|below| submitted.join(below).canonicalize().ok());
     let relative = folder.and_then(|folder| {
         let relative = folder.strip_prefix(checkout.canonicalize().ok()?).ok()?;

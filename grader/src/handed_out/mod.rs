@@ -8,6 +8,7 @@ mod own_lines;
 mod rays;
 mod tokens;
 
+use std::cmp::Reverse;
 use std::fmt;
 use std::path::Path;
 
@@ -155,16 +156,20 @@ impl HandedOut {
         }
     }
 
-    /// Returns the folders in which the assignment expects task files, leaving out folders that
-    /// contain none. The paths are relative to the submission's folder.
-    pub fn folders_in(&self, submission: &Path) -> impl Iterator<Item = &'static str> {
-        let has_task_file = move |below: &&str| {
+    /// Returns the folders in which the assignment expects task files, those with the most files
+    /// first, leaving out folders that contain none. The paths are relative to the submission's
+    /// folder.
+    pub fn folders_in(&self, submission: &Path) -> Vec<&'static str> {
+        let count = |below: &str| {
             let folder = submission.join(below);
-            let mut names = self.file_names();
-            names.any(|name| folder.join(name).symlink_metadata().is_ok())
+            let names = self.file_names();
+            names.filter(|name| folder.join(name).symlink_metadata().is_ok()).count()
         };
         let folders = self.assignment.folders.iter().copied();
-        folders.filter(has_task_file)
+        let counted = folders.map(|below| (count(below), below));
+        let mut found: Vec<(usize, &str)> = counted.filter(|(count, _)| *count > 0).collect();
+        found.sort_by_key(|(count, _)| Reverse(*count));
+        found.into_iter().map(|(_, below)| below).collect()
     }
 
     /// Returns the given methods of a task file that are missing from `text` or differ there from

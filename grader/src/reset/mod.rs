@@ -15,7 +15,6 @@ use crate::machine::backup;
 use crate::machine::files::AtPath;
 use crate::machine::system;
 use crate::report::atomic_write;
-use crate::submission::places;
 use crate::workspace::{Workspace, display_path};
 
 /// Resets the named tasks in a submission's folder, by default the student's own work. Returns a
@@ -139,8 +138,14 @@ impl FileChange {
         let kept = kept.map_or(String::new(), |kept| {
             format!("  your old file is kept as {}\n", display_path(&kept))
         });
+        let others = source.others.iter().map(|other| other.join(self.file));
+        let others = others.filter(|other| other.exists()).map(|other| {
+            let other = display_path(&other);
+            format!("  {other} is another copy of this file and wasn't changed\n")
+        });
+        let others: String = others.collect();
         Ok(format!(
-            "{}: {part} reset to the version that was handed out\n{kept}",
+            "{}: {part} reset to the version that was handed out\n{kept}{others}",
             display_path(&path)
         ))
     }
@@ -182,11 +187,14 @@ fn fresh_methods(
 /// A folder with task files.
 struct SourceFolder {
     path: PathBuf,
+    /// The submission's other folders with task files. Nothing is reset in them.
+    others: Vec<PathBuf>,
 }
 
 impl SourceFolder {
     /// Finds the folder that contains a submission's task files, looking only in the places where
-    /// the assignment expects them.
+    /// the assignment expects them. If several folders contain task files, it is the one with the
+    /// most.
     fn find(folder: &Path, handed_out: &HandedOut) -> Result<Self, Error> {
         refuse_link(folder)?;
         if !folder.is_dir() {
@@ -196,27 +204,24 @@ impl SourceFolder {
                 folder.display()
             )));
         }
-        let found: Vec<&str> = handed_out.folders_in(folder).collect();
-        match found[..] {
-            [] => Err(Error::User(format!(
+        let found = handed_out.folders_in(folder);
+        let [below, others @ ..] = &found[..] else {
+            return Err(Error::User(format!(
                 "{} contains none of {}: pass the folder that contains the task files, such as `student`",
                 folder.display(),
                 handed_out.file_list()
-            ))),
-            [below] => {
-                let mut path = folder.to_owned();
-                for part in below.split('/').filter(|part| !part.is_empty()) {
-                    path.push(part);
-                    refuse_link(&path)?;
-                }
-                Ok(SourceFolder { path })
-            }
-            _ => Err(Error::User(format!(
-                "{} has task files in {}: pass the folder that you mean",
-                folder.display(),
-                places(&found)
-            ))),
+            )));
+        };
+        let mut path = folder.to_owned();
+        for part in below.split('/').filter(|part| !part.is_empty()) {
+            path.push(part);
+            refuse_link(&path)?;
         }
+        let others = others.iter().map(|below| folder.join(below).components().collect());
+        Ok(SourceFolder {
+            path,
+            others: others.collect(),
+        })
     }
 
     /// Returns the bytes of a file, or `None` if it doesn't exist.

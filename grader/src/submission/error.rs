@@ -163,7 +163,7 @@ pub fn listed(names: &[String]) -> String {
 }
 
 /// Lists the folders and files of [`SubmissionError::Ambiguous`] for a message.
-pub fn places(paths: &[impl AsRef<str>]) -> String {
+fn places(paths: &[impl AsRef<str>]) -> String {
     let name = |path| match path {
         "" => "its top level",
         path => path,

@@ -18,14 +18,7 @@ impl SourcePaths {
     /// Finds the folder of a submission's task files. If several folders contain task files, it is
     /// the one with the most, as in [`Submission::collect`](crate::submission::Submission::collect).
     pub fn of(submission: &Path, handed_out: &'static HandedOut) -> Self {
-        let count = |below: &&str| {
-            let folder = submission.join(below);
-            let names = handed_out.file_names();
-            names.filter(|name| folder.join(name).is_file()).count()
-        };
-        let folders: Vec<&str> = handed_out.folders_in(submission).collect();
-        // Of folders with equally many files, this returns the first.
-        let below = folders.into_iter().rev().max_by_key(count);
+        let below = handed_out.folders_in(submission).first().copied();
         SourcePaths {
             folder: below.map(|below| submission.join(below).components().collect()),
             handed_out,

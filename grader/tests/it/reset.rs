@@ -142,13 +142,23 @@ fn archives_unknown_tasks_and_folders_without_tasks_are_refused() {
         "if this is an archive, unpack it first",
     );
     assert_refused(&reset(&submission, &["sphre"]), "did you mean sphere?");
-    let copies = Submission::reference("twice").with("src/bvh.rs", "");
-    assert_refused(&reset(&copies, &["bvh"]), "in its top level and src");
     let empty = tempfile::tempdir().unwrap();
     assert_refused(
         &reset_at(empty.path(), &["bvh"]),
         "contains none of camera.rs",
     );
+}
+
+#[test]
+fn with_copies_in_several_folders_the_folder_with_the_most_files_is_reset() {
+    let submission = Submission::reference("twice").with("src/bvh.rs", "// old");
+    let output = reset(&submission, &["bvh.rs"]);
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(text(&submission, "bvh.rs"), starter("bvh.rs"));
+    assert_eq!(text(&submission, "src/bvh.rs"), "// old");
+    let message = String::from_utf8_lossy(&output.stdout);
+    let other = "src/bvh.rs is another copy of this file and wasn't changed";
+    assert!(message.contains(other), "{message}");
 }
 
 #[cfg(unix)]

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub const PRESENCE: &str = "hit or miss";
 
 /// A wrong quantity, and the side on which it is wrong. In the data of an assignment or an item, a
-/// symptom without a side stands for both sides.
+/// symptom without a side stands for any answer that isn't reversed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Symptom {
@@ -20,7 +20,7 @@ pub struct Symptom {
     pub side: Option<Side>,
 }
 
-/// Whether a quantity is too small or too large.
+/// Whether a quantity is too small, too large or reversed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
@@ -28,6 +28,8 @@ pub enum Side {
     Less,
     /// The answer is too large, or there should be none.
     More,
+    /// The answer is the opposite direction.
+    Reversed,
 }
 
 impl Symptom {
@@ -60,10 +62,22 @@ impl Symptom {
         }
     }
 
+    /// Creates the symptom of a direction that points the opposite way.
+    pub const fn reversed(what: &'static str) -> Self {
+        Symptom {
+            side: Some(Side::Reversed),
+            what: Cow::Borrowed(what),
+        }
+    }
+
     /// Returns whether this symptom, which comes from an assignment's or an item's data, covers the
     /// observed symptom.
     pub fn includes(&self, observed: &Symptom) -> bool {
-        self.what == observed.what && (self.side.is_none() || self.side == observed.side)
+        let is_side = match self.side {
+            Some(_) => self.side == observed.side,
+            None => observed.side != Some(Side::Reversed),
+        };
+        self.what == observed.what && is_side
     }
 }
 

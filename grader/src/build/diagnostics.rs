@@ -35,6 +35,8 @@ struct Span {
     #[serde(default)]
     line_start: Option<u32>,
     #[serde(default)]
+    label: Option<String>,
+    #[serde(default)]
     text: Vec<SourceLine>,
 }
 
@@ -104,10 +106,21 @@ impl Diagnostic {
     }
 
     /// Returns the 1-based line number of the error if it is in this file, or else the number of
-    /// the first line in this file that the message refers to.
+    /// the first line in this file that the message refers to. If a brace isn't closed, it is the
+    /// line of that brace, since the error itself is at the end of the file.
     pub fn line_in(&self, file: &str) -> Option<u32> {
-        let mut spans = self.spans_in_order();
-        spans.find(|span| span.file_name == file)?.line_start
+        let mut spans = self.spans_in_order().filter(|span| span.file_name == file);
+        let labelled = |text: &str| {
+            let mut spans = self.spans.iter().filter(|span| span.file_name == file);
+            spans.find(|span| {
+                span.label
+                    .as_ref()
+                    .is_some_and(|label| label.contains(text))
+            })
+        };
+        let brace =
+            labelled("might not be properly closed").or_else(|| labelled("unclosed delimiter"));
+        brace.or_else(|| spans.next())?.line_start
     }
 
     /// Returns whether the error is in this file and isn't caused by something missing in another
@@ -176,6 +189,25 @@ mod tests {
         let error = &errors(&line.replace('\n', ""))[0];
         assert_eq!(error.line_in("sphere.rs"), Some(7));
         assert_eq!(error.line_in("bvh.rs"), None);
+    }
+
+    #[test]
+    fn a_brace_that_is_not_closed_is_named_instead_of_the_end_of_the_file() {
+        let span = |line: u32, label: &str, is_primary: bool| {
+            format!(
+                r#"{{"file_name":"bvh.rs","is_primary":{is_primary},"line_start":{line},"label":"{label}"}}"#
+            )
+        };
+        let outer = span(2, "unclosed delimiter", false);
+        let inner = span(4, "this delimiter might not be properly closed...", false);
+        let end = span(14, "", true);
+        for (spans, line) in [
+            (format!("{outer},{end}"), 2),
+            (format!("{outer},{inner},{end}"), 4),
+        ] {
+            let message = format!(r#"{{"message":"m","level":"error","spans":[{spans}]}}"#);
+            assert_eq!(errors(&message)[0].line_in("bvh.rs"), Some(line));
+        }
     }
 
     const IN_SPHERE: &str = r#"{"file_name":"sphere.rs","is_primary":true}"#;

@@ -163,7 +163,9 @@ impl HandedOut {
         let count = |below: &str| {
             let folder = submission.join(below);
             let names = self.file_names();
-            names.filter(|name| folder.join(name).symlink_metadata().is_ok()).count()
+            names
+                .filter(|name| folder.join(name).symlink_metadata().is_ok())
+                .count()
         };
         let folders = self.assignment.folders.iter().copied();
         let counted = folders.map(|below| (count(below), below));

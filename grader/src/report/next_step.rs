@@ -16,25 +16,21 @@ use crate::score::{Score, TaskScore, Verdict, VerdictKind};
 /// The width of the text to the right of the labels.
 const TEXT_WIDTH: usize = 70;
 
-/// Returns advice on what to do next, followed by an empty line, if at least one of the selected
-/// tasks is complete. The advice is only for students who grade their own work with the practice
-/// exam.
+/// Returns advice on what to do next, followed by an empty line, unless only tasks that aren't
+/// complete yet were selected. The advice is only for students who grade their own work with the
+/// practice exam.
 pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignment) -> String {
     let is_own_work = score.rerun_command.exam.is_none() && score.isolation == Isolation::None;
     if !is_own_work {
         return String::new();
     }
     let is_complete = |task: &TaskScore| task.points == task.max_points;
-    let selected = || {
-        score
-            .tasks
-            .iter()
-            .filter(|task| selection.includes(task.id))
-    };
-    if !selected().any(is_complete) {
+    let tasks = score.tasks.iter();
+    let mut selected = tasks.filter(|task| selection.includes(task.id));
+    if !selection.is_all() && !selected.clone().any(is_complete) {
         return String::new();
     }
-    match selected().find(|task| !is_complete(task)) {
+    match selected.find(|task| !is_complete(task)) {
         Some(task) => row(&title_and_chapter(task)),
         // The tasks that were not selected were not graded.
         None if !selection.is_all() => row("`cargo grade` shows what the other tasks need"),
@@ -69,15 +65,19 @@ pub fn first_step(
         VerdictKind::Passed
         | VerdictKind::Failed
         | VerdictKind::NoAnswer
-        | VerdictKind::Pending => format!("fix `{}` in {method}: {}", info.method, item.title),
+        | VerdictKind::Pending => format!("fix `{}` in {method}", info.method),
     };
     let what = format!("{}: {}", item.id, item.message);
+    // What is wrong can be something other than the item's title says, such as a miss instead of a
+    // wrong normal.
+    let title = (item.verdict.kind() == VerdictKind::Failed).then(|| item.title.clone());
     // The step for a file that doesn't compile already names a section.
     let read = item.where_to_read().or(task.chapter.as_ref());
     let read = read.filter(|_| item.verdict != Verdict::NotCompiled);
     let hint = (!item.hints.is_empty()).then(|| joined_hints(&item.hints, hints));
     let rows = [
         ("next", Some(step)),
+        ("goal", title),
         ("what", Some(what)),
         ("look", item.where_to_look().cloned()),
         ("hint", hint),
@@ -120,6 +120,10 @@ fn compile_step(score: &Score, file: &str, message: &str) -> String {
             "{message}: if you have renamed it, change the name back. `cargo grade --reset {file}` \
              restores the original file"
         );
+    }
+    if report.line.is_none() && !report.message.contains('\n') {
+        // The reason nothing was compiled, such as an empty file.
+        return report.message.clone();
     }
     let line = report.line.map_or(String::new(), |line| format!(":{line}"));
     let mut lines = report.message.lines();

@@ -217,7 +217,9 @@ impl SourceFolder {
             path.push(part);
             refuse_link(&path)?;
         }
-        let others = others.iter().map(|below| folder.join(below).components().collect());
+        let others = others
+            .iter()
+            .map(|below| folder.join(below).components().collect());
         Ok(SourceFolder {
             path,
             others: others.collect(),

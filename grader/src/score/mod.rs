@@ -378,6 +378,11 @@ impl ItemScore {
         }
     }
 
+    /// Returns whether the answers are wrong and no hint or clue says more about them.
+    pub fn has_no_clue(&self) -> bool {
+        self.verdict.kind() == VerdictKind::Failed && self.hints.is_empty() && self.clue.is_none()
+    }
+
     /// Returns the text that says where to look: the clue from this failure or, failing that, the
     /// item's own text. If there is a hint, the item's own text is left out, since it may be about
     /// another part of the code.

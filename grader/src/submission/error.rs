@@ -17,6 +17,8 @@ const MAX_NAMES: usize = 10;
 pub enum TaskFileError {
     /// The file doesn't exist.
     Missing,
+    /// The file contains only white space.
+    Empty,
     /// The path is a folder, a link or a device.
     NotRegular,
     /// The file is longer than any reasonable solution.
@@ -117,6 +119,9 @@ impl TaskFileError {
     pub fn message(&self, name: &str) -> String {
         match self {
             TaskFileError::Missing => format!("{name} is missing"),
+            TaskFileError::Empty => {
+                format!("{name} is empty: `cargo grade --reset {name}` restores the original file")
+            }
             TaskFileError::NotRegular => format!("{name} is not a regular file"),
             TaskFileError::TooLong => format!("{name} is longer than 1 MiB"),
             TaskFileError::NotText(line) => format!(

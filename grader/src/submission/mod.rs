@@ -26,7 +26,7 @@ use search::Search;
 
 pub use archive::{Archive, ArchiveError, ArchiveLimits, Listing, Member};
 pub use choice::is_skipped_name;
-pub use error::{SubmissionError, TaskFileError, listed, places};
+pub use error::{SubmissionError, TaskFileError, listed};
 pub use limit::Limit;
 pub use names::{is_archive_name, may_be_task_file};
 
@@ -297,11 +297,15 @@ fn decode(bytes: Vec<u8>) -> Result<String, TaskFileError> {
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(TaskFileError::TooLong);
     }
-    String::from_utf8(bytes).map_err(|error| {
+    let text = String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
         TaskFileError::NotText(line)
-    })
+    })?;
+    match text.trim() {
+        "" => Err(TaskFileError::Empty),
+        _ => Ok(text),
+    }
 }
 
 /// Returns notes that list the other files found and say that they aren't used.

@@ -8,7 +8,7 @@ use judging::section::Section;
 
 use crate::handed_out::HandedOut;
 use crate::score::{ItemScore, Verdict, VerdictKind};
-use crate::verdict::{add_clue, add_hints, has_no_clue};
+use crate::verdict::{add_clue, add_hints};
 
 /// Adds the hints for the mistakes that explain a task's answers, which come from the submission's
 /// own program or from the program with substituted parts. If no mistake explains the answers, adds
@@ -63,10 +63,14 @@ fn add_symptom_clue(
     let is_alike = |other: &&ItemScore| {
         other.symptom.as_ref() == Some(symptom) && other.verdict.kind() == VerdictKind::Failed
     };
+    if line.clue_section.is_some() {
+        // The item has a clue with a section of its own.
+        return;
+    }
     let clues = &handed_out.assignment.info(item.task).clues;
     let of_symptom = clues.of_symptom(symptom);
     let of_symptom = of_symptom.filter(|_| !item.has_look_for(symptom));
-    let first = earlier.iter().find(is_alike).filter(|_| has_no_clue(line));
+    let first = earlier.iter().find(is_alike).filter(|_| line.has_no_clue());
     line.symptom_clue = match first {
         Some(first) => Some(format!(
             "{} fails in the same way: fix that first.",

@@ -117,6 +117,11 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
             score_answers(item, judgements, &mut score, handed_out);
             if *right_alone {
                 score.clue = Some(clue::KEPT_STATE.to_owned());
+                let clues = &handed_out.assignment.info(item.task).clues;
+                score.clue_section = match clues.section_on_kept_state {
+                    Some(section) => Some(Section::new(section)),
+                    None => item.section.as_ref().map(Section::whole_chapter),
+                };
             }
         }
     }
@@ -163,7 +168,10 @@ pub fn file_message(file: &str, why: &NotCompiled) -> String {
     match why {
         NotCompiled::Unreadable(unreadable) => unreadable.message(file),
         NotCompiled::MissingDeclaration(part) => {
-            format!("{file} has no `{part}`, which other files use")
+            format!(
+                "{file} has no `{part}`, which other files use: restore its line, or restore the \
+                 original file with `cargo grade --reset {file}`"
+            )
         }
         NotCompiled::Error { text, .. } | NotCompiled::Compiler(text) => {
             sanitize(text, MAX_COMPILER_CHARS)
@@ -387,14 +395,9 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
 
 /// Adds a clue to an item with wrong answers, unless a hint or another clue is more helpful.
 pub fn add_clue(line: &mut ItemScore, clue: Option<&str>) {
-    if has_no_clue(line) {
+    if line.has_no_clue() {
         line.clue = clue.map(str::to_owned);
     }
-}
-
-/// Returns whether an item's answers are wrong and no hint or clue says more about them.
-pub(crate) fn has_no_clue(line: &ItemScore) -> bool {
-    line.verdict.kind() == VerdictKind::Failed && line.hints.is_empty() && line.clue.is_none()
 }
 
 /// Returns the score of an item that was graded with substituted parts. This is the score that

@@ -75,6 +75,9 @@ pub struct TaskClues {
     pub if_nothing_is_hit: Option<&'static str>,
     /// The clue for code that overflows the stack. `None` if nothing is known about the recursion.
     pub if_stack_overflows: Option<&'static str>,
+    /// The section of the handout about code that keeps state from one call to the next. `None` if
+    /// the chapter doesn't discuss it.
+    pub section_on_kept_state: Option<&'static str>,
     /// The clues for wrong answers to items whose own advice is about another symptom. The first
     /// clue that covers the symptom is used.
     pub by_symptom: &'static [SymptomClue],
@@ -84,8 +87,8 @@ pub struct TaskClues {
 /// have the same cause.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SymptomClue {
-    /// The quantities. If the clue only applies when a quantity is too small, or only when it is
-    /// too large, that side is specified too.
+    /// The quantities. If the clue only applies when a quantity is too small, too large or
+    /// reversed, that side is specified too.
     pub symptoms: &'static [Symptom],
     /// The clue.
     pub clue: &'static str,
@@ -98,6 +101,7 @@ impl TaskClues {
     pub const NONE: TaskClues = TaskClues {
         if_nothing_is_hit: None,
         if_stack_overflows: None,
+        section_on_kept_state: None,
         by_symptom: &[],
     };
 

@@ -5,6 +5,7 @@ use glam::Vec3;
 use protocol::Value;
 
 use super::{FieldType, Tolerance, in_units_of, number, point};
+use crate::symptom::Side;
 
 /// Tolerance for unit vectors, which limits the length of their difference.
 pub(crate) const TOLERANCE: f32 = 1e-3;
@@ -25,6 +26,11 @@ impl FieldType for Direction {
             return f64::INFINITY;
         };
         error(self.0, *wanted, TOLERANCE)
+    }
+
+    fn side(&self, wanted: &Value) -> Option<Side> {
+        let opposite = Direction(-self.0);
+        (opposite.error(wanted, 1.0) <= 1.0).then_some(Side::Reversed)
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {
@@ -75,6 +81,21 @@ mod tests {
             assert!(error <= 1.0, "{length}: {error}");
         }
         assert!(error(-wanted * 1e38, wanted, TOLERANCE) > 1.0);
+    }
+
+    #[test]
+    fn only_the_opposite_direction_is_reversed() {
+        let side = |got: Vec3| Direction(got).side(&Value::Direction(Vec3::Y));
+        assert_eq!(side(-2.0 * Vec3::Y), Some(Side::Reversed));
+        for other in [
+            Vec3::Y,
+            Vec3::X,
+            Vec3::new(0.1, -1.0, 0.0),
+            Vec3::ZERO,
+            Vec3::NAN,
+        ] {
+            assert_eq!(side(other), None, "{other}");
+        }
     }
 
     #[test]

@@ -45,7 +45,8 @@ pub(crate) trait FieldType {
         f64::INFINITY
     }
 
-    /// Returns whether the value is smaller or larger than expected, if its type has an order.
+    /// Returns whether the value is smaller than expected, larger, or reversed, where its type
+    /// allows this.
     fn side(&self, _wanted: &Value) -> Option<Side> {
         None
     }

@@ -20,7 +20,7 @@ const SHAPE: &str = "The shape in the trace is the number in `self.shape`: copy 
 pub(super) const CAMERA: TaskClues = TaskClues {
     by_symptom: &[
         SymptomClue {
-            symptoms: &[Symptom::of("direction")],
+            symptoms: &[Symptom::of("direction"), Symptom::reversed("direction")],
             clue: "Work out by hand where the ray shown crosses the sensor, and compare x, y and z with the \
                 values in your code: which of them differ, and are they shifted, scaled or swapped?",
             section: "camera.md#from-pixel-to-sensor",
@@ -93,6 +93,12 @@ pub(super) const TRIANGLE: TaskClues = TaskClues {
             section: "triangle.md#interpolate-the-given-normals",
         },
         SymptomClue {
+            symptoms: &[Symptom::reversed("normal")],
+            clue: "Your normal is the opposite of the correct one. It belongs to the surface, so it stays \
+                the same whichever side the ray comes from: where does your code change its sign?",
+            section: "triangle.md#do-not-flip-the-normal",
+        },
+        SymptomClue {
             symptoms: &[Symptom::of("uv")],
             clue: "The uv is w · uv0 + u · uv1 + v · uv2: w = 1 − u − v belongs to p0, u to p1 and v to \
                 p2.",
@@ -160,7 +166,7 @@ pub(super) const SPHERE: TaskClues = TaskClues {
             section: "sphere.md#what-to-return",
         },
         SymptomClue {
-            symptoms: &[Symptom::of("normal")],
+            symptoms: &[Symptom::of("normal"), Symptom::reversed("normal")],
             clue: "The normal points from the centre to the hit, even if the ray comes from inside.",
             section: "sphere.md#the-normal-points-away-from-the-centre",
         },
@@ -305,6 +311,7 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
          shown from the root. Does your code enter the boxes that the ray hits, and test all primitives in \
          the leaves? If it finds a hit, is the hit kept, compared the right way round, and returned?",
     ),
+    section_on_kept_state: Some("traversal.md#keep-nothing-between-two-rays"),
     by_symptom: &[
         SymptomClue {
             symptoms: &[Symptom::MISS],
@@ -344,6 +351,7 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
             symptoms: &[
                 Symptom::of("position"),
                 Symptom::of("normal"),
+                Symptom::reversed("normal"),
                 Symptom::of("uv"),
                 Symptom::of("shape"),
             ],

@@ -37,7 +37,7 @@ pub(super) const THROUGH: Declaration = Declaration {
 
 pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
     id: "bbox.slab_after_slab",
-    title: "a ray that is never in all three slabs at the same time misses",
+    title: "a ray hits the box if it is in all three slabs at the same time",
     look: "Compare the axes with each other, and with times: the ray misses if and only if the \
         latest entry comes after the earliest exit, no matter how small these times are.",
     look_fits: &[Symptom::of(PRESENCE)],

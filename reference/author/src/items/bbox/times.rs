@@ -9,7 +9,7 @@ use crate::oracle::Ray64;
 
 pub(super) const BEHIND: Declaration = Declaration {
     id: "bbox.behind",
-    title: "a box behind the ray is missed",
+    title: "a box ahead of the ray is hit, and one behind it is missed",
     look: "If a box is behind the origin, its times are negative, so no part of the ray's path through it \
         is within times. An interval that would end before it begins is a miss, too.",
     look_fits: &[Symptom::HIT],

@@ -1,6 +1,6 @@
 //! Items about which of the two roots is the hit, if either is.
 
-use judging::symptom::{PRESENCE, Symptom};
+use judging::symptom::Symptom;
 
 use super::questions;
 use crate::domains::fields::{EVERY_SIZE, TINY, USUAL};
@@ -30,10 +30,10 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
 
 pub(super) const BESIDE: Declaration = Declaration {
     id: "sphere.beside",
-    title: "a ray that passes beside the sphere misses it",
+    title: "a ray hits the sphere, unless it passes beside it",
     look: "Without real roots, there is no hit. With two roots, there may be a hit. Work out the \
         value under the square root for the ray shown, before you take the root.",
-    look_fits: &[Symptom::of(PRESENCE)],
+    look_fits: &[Symptom::HIT],
     section: "sphere.md#the-square-root-of-a-negative-number",
     tests: &["Returns the ray's…"],
     questions: |rng| questions(rng, &[], USUAL, is_ahead),
@@ -42,7 +42,7 @@ pub(super) const BESIDE: Declaration = Declaration {
 
 pub(super) const RADIUS: Declaration = Declaration {
     id: "sphere.radius",
-    title: "spheres of any radius are hit at the right distance",
+    title: "a sphere of any radius is hit like any other",
     look: "Work out both roots by hand for the ray shown: the square of the radius is part of the \
            quadratic's c. Spheres can be tiny, and so can distances: which of the two roots is the \
            first one in ray.range?",
@@ -70,7 +70,7 @@ pub(super) const RADIUS: Declaration = Declaration {
 
 pub(super) const BEHIND: Declaration = Declaration {
     id: "sphere.behind",
-    title: "a sphere behind the ray is missed",
+    title: "a sphere ahead of the ray is hit, and one behind it is missed",
     look: "If the sphere is behind the ray, both roots are negative, so they are outside ray.range. If it \
         is ahead, both are positive. Work out both for the ray shown.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
@@ -100,7 +100,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
 
 pub(super) const FAR_ROOT: Declaration = Declaration {
     id: "sphere.far_root",
-    title: "if the near side is before the range, the far side is hit",
+    title: "if the near side is before the range, the far side is hit if it is in the range",
     look: "The range need not start at 0. If the near root is outside the range and the far root \
         is inside it, the far root counts.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
@@ -131,7 +131,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
 
 pub(super) const RANGE_WITHIN: Declaration = Declaration {
     id: "sphere.range_within",
-    title: "a ray whose range contains neither root misses",
+    title: "a ray whose range contains neither root misses, and any other hits",
     look: "Between the roots, the ray is inside the sphere and hits nothing. Beyond both, it has left the \
         sphere. A root is a hit if and only if it is in ray.range, no matter how small it is.",
     section: "sphere.md#check-each-root-by-itself",

@@ -15,7 +15,7 @@ pub(super) const POSITION: Declaration = Declaration {
     look: "The position is ray.origin + t · ray.dir, with the t that you return as the distance. \
         This point is in world space, and its distance from the centre is the radius.",
     look_fits: &[Symptom::of("position")],
-    section: "sphere.md#the-sphere-is-not-always-at-the-origin",
+    section: "sphere.md#what-to-return",
     tests: &["`distance` is the…"],
     questions: |rng| questions(rng, &["position"], EVERY_SIZE, |_| true),
     ..Declaration::in_group(groups::SPHERE_SURFACE)

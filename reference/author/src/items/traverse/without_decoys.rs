@@ -26,7 +26,7 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
     look: "Follow the ray shown through the tree, box by box, starting at the root: which \
            primitives need to be tested, and which of their hits is the closest? Then see which \
            primitives your code tests, and which hit it keeps after each.",
-    look_fits: &[Symptom::MISS, Symptom::of("distance")],
+    look_fits: &[Symptom::more("distance")],
     section: "traversal.md#the-first-hit-need-not-be-the-closest",
     tests: &["Returns the ray's…", "Boxes overlap, so…"],
     questions: |rng| {
@@ -481,8 +481,8 @@ pub(super) const MIXED: Declaration = Declaration {
     id: "traverse.mixed",
     title: "a tree can hold spheres and triangles",
     look: "Primitive::hit tests both kinds, and their distances are compared in the same way.",
-    look_fits: &[Symptom::MISS, Symptom::of("distance")],
-    section: "traversal.md#the-first-hit-need-not-be-the-closest",
+    look_fits: &[Symptom::more("distance")],
+    section: "traversal.md#the-algorithm",
     tests: &["Returns the ray's…"],
     questions: |rng| {
         let shapes = (0..36).map(|i| {

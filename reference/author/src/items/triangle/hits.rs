@@ -44,7 +44,7 @@ pub(super) const INSIDE: Declaration = Declaration {
 
 pub(super) const OUTSIDE: Declaration = Declaration {
     id: "triangle.outside",
-    title: "a ray that crosses the plane beyond an edge misses",
+    title: "a ray hits the triangle within its three edges, and misses it beyond them",
     look: "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three edges, the \
            weight of the opposite corner is negative.",
     look_fits: &[Symptom::HIT],
@@ -76,7 +76,7 @@ pub(super) const FROM_BEHIND: Declaration = Declaration {
 
 pub(super) const RANGE_MAX: Declaration = Declaration {
     id: "triangle.range_max",
-    title: "there is no hit beyond the end of the ray's range",
+    title: "t can be at most the end of the ray's range",
     look: "A ray through the triangle hits it if and only if t is in ray.range, no matter how small the \
         triangle is. Which comparison in your code decides this for the ray shown?",
     look_fits: &[Symptom::of(PRESENCE)],
@@ -92,7 +92,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
 
 pub(super) const RANGE_MIN: Declaration = Declaration {
     id: "triangle.range_min",
-    title: "there is no hit before the start of the ray's range",
+    title: "t must be at least the start of the ray's range",
     look: "The range has two ends, and it doesn't have to start at 0. Compare t with these two ends, not \
         with a constant, no matter how small.",
     look_fits: &[Symptom::of(PRESENCE)],
@@ -108,7 +108,7 @@ pub(super) const RANGE_MIN: Declaration = Declaration {
 
 pub(super) const BEHIND_THE_RAY: Declaration = Declaration {
     id: "triangle.behind_the_ray",
-    title: "a triangle behind the ray is missed",
+    title: "a triangle ahead of the ray is hit, and one behind it is missed",
     look: "Work out t for the ray shown. If the triangle is behind the ray, t is negative, even though the \
         weights look like those of a hit. If it is ahead, t is in ray.range.",
     section: "triangle.md#hits-behind-the-origin-do-not-count",

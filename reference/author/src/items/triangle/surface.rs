@@ -81,7 +81,7 @@ pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
     title: "seen from behind, the normal stays the same",
     look: "The normal belongs to the surface, not to the ray, so it is never flipped toward the \
            ray.",
-    look_fits: &[Symptom::of("normal")],
+    look_fits: &[Symptom::reversed("normal")],
     section: "triangle.md#do-not-flip-the-normal",
     tests: &["Do not flip the normal…"],
     questions: |rng| questions(rng, &["normal"], USUAL, is_from_either_side),

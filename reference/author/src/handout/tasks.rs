@@ -1,4 +1,4 @@
-//! The parts of the handout that are generated: its lists of tasks, and each task's contract.
+//! The generated parts of the handout: its lists of tasks and the contract of each task.
 
 use std::path::Path;
 

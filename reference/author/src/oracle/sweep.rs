@@ -99,7 +99,7 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
 /// The minimum cost of the second-best partition, relative to the best.
 const MIN_RATIO: f64 = 1.05;
 
-/// Returns whether all builders agree, despite rounding, on whether a plane perpendicular to this
+/// Returns true if rounding cannot make builders disagree on whether a plane perpendicular to this
 /// axis also separates these sides. They agree if the sides' centres are clearly separated, clearly
 /// mixed, or all equal.
 fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) -> bool {

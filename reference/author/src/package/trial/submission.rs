@@ -11,7 +11,8 @@ use crate::package::Platform;
 
 /// The folder with the corpus of hostile submissions.
 const CORPUS: &str = "grader/tests/hostile/entries";
-/// The placeholders in the corpus, and the files they stand for, which the attacks look for.
+/// The placeholders in the corpus, and the files that they stand for. The attacks look for these
+/// files.
 const TARGETS: [(&str, &str); 2] = [
     ("@KEY@", "/opt/pathtracing/exam.json"),
     ("@OUT@", "/opt/pathtracing/target/graded"),

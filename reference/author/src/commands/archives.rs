@@ -44,8 +44,8 @@ pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> C
 fn say_what_is_published(light: LightFiles) {
     if light == LightFiles::Solved {
         println!(
-            "students can read the solution to part two, which draws the pictures: use `--light stubs` \
-             if they should write both parts"
+            "students can read the solution to part two, which draws the pictures: use `--light \
+             stubs` if they should write both parts"
         );
     }
 }

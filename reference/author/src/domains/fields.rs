@@ -306,7 +306,8 @@ fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
 }
 
 /// The largest angle, in radians, between two directions that count as hardly different. Also the
-/// largest distance between two such starts, as a multiple of the size of the rays' target.
+/// largest distance between two starts that count as hardly different, as a multiple of the size of
+/// the rays' target.
 pub const HARDLY: f64 = 4e-4;
 
 /// Returns the ray with its direction turned by this angle, in radians.

@@ -9,7 +9,7 @@ use crate::seed::Rng;
 /// A subject, and the arguments of the calls on it.
 pub type SubjectCalls<C> = (<C as Call>::Subject, Vec<<C as Call>::Input>);
 
-/// Draws the arguments of a call. Returns `None` if the contract does not allow them.
+/// Picks random arguments for a call. Returns `None` if the contract does not allow them.
 type DrawInput<'a, C> = &'a dyn Fn(&mut Rng, &<C as Call>::Subject) -> Option<<C as Call>::Input>;
 
 /// Returns the same call on a subject that differs in a single property. The vector has random
@@ -26,7 +26,7 @@ pub struct Generator<'a, C: Call> {
     pub domain: &'static FunctionDomain<C>,
     /// Picks a random subject of this size.
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
-    /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
+    /// Picks random arguments for a call. Returns `None` if the contract does not allow them.
     pub input: DrawInput<'a, C>,
     /// The ways a subject can differ from the previous one, to detect state kept between calls.
     pub changes: &'a [Change<C>],

@@ -65,7 +65,7 @@ fn is_same(path: &Path, picture: &RgbImage) -> bool {
     found.dimensions() == picture.dimensions() && mean <= TOLERANCE
 }
 
-/// A workspace like a student's, in which pictures are drawn with the code of solutions.
+/// A workspace like a student's, for rendering pictures with the code of solutions.
 struct Workspace {
     folder: PathBuf,
     reference: Sources,

@@ -1,4 +1,4 @@
-//! Items about the interval of times in which a box can be hit.
+//! Items about the interval of times during which a box can be hit.
 
 use judging::symptom::Symptom;
 

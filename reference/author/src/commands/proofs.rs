@@ -44,8 +44,8 @@ pub(super) fn mistakes(
     let thin = detections.problems();
     let caught = failed.fails.len() - thin.len();
     let line = format!(
-        "{caught} of {} mistakes clearly caught, with {} seeds each, and {} for the {THINNEST} with \
-         the thinnest margins",
+        "{caught} of {} mistakes clearly caught, with {} seeds each, or {} for the {THINNEST} that \
+         are caught least clearly",
         failed.fails.len(),
         seeds.all,
         seeds.thinnest

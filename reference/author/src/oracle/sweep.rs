@@ -69,10 +69,10 @@ pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
     below(boxes, &mut indices, max_leaf_size)
 }
 
-/// Returns the coordinates of the two centres between which the best partition splits this axis.
-/// Returns `None` if the best partition is along another axis, or if a different partition is
-/// nearly as good. If there are only a few primitives, the alternatives include partitions whose
-/// sides cannot be separated by a plane.
+/// Returns the coordinates of the two neighbouring centres that the best partition separates along
+/// this axis. Returns `None` if the best partition is along another axis, or if a different
+/// partition is nearly as good. If there are only a few primitives, the alternatives include
+/// partitions whose sides cannot be separated by a plane.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let mut all: Vec<Partition> = (0..3)

@@ -267,8 +267,9 @@ impl Mistake {
         });
         let Some((known, variant)) = found else {
             bail!(
-                "{id}: the catalogue of mistakes must contain all these ids, and variants.toml \
-                 must contain the variant, which must solve the mistake's task"
+                "{id}: the catalogue of mistakes must contain the mistake and its `true_hints`, \
+                 and variants.toml must contain a variant with this id that solves the mistake's \
+                 task"
             );
         };
         let mut expected = known.expected.clone();

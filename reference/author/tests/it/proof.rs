@@ -143,8 +143,9 @@ fn reports_an_independent_mistake_that_does_not_apply() {
     ];
     for (id, variant) in names {
         let expected = format!(
-            "{id} in {variant}: the catalogue of mistakes must contain all these ids, and \
-             variants.toml must contain the variant, which must solve the mistake's task"
+            "{id} in {variant}: the catalogue of mistakes must contain the mistake and its \
+             `true_hints`, and variants.toml must contain a variant with this id that solves the \
+             mistake's task"
         );
         assert_eq!(message(mistake(id, variant)), expected);
     }

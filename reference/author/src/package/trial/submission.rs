@@ -88,7 +88,7 @@ fn with_attacks(
             attack = attack.replace(placeholder, path);
         }
         for (_, text) in files.iter_mut().filter(|(name, _)| name == attacked) {
-            ensure!(text.contains(head), "{attacked} has no `{head}`");
+            ensure!(text.contains(head), "{attacked} does not contain `{head}`");
             *text = text.replacen(head, &format!("{head}\n        attack();"), 1) + &attack;
         }
     }

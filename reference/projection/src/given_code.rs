@@ -24,8 +24,8 @@ pub enum GivenCodeError {
 
 /// Returns the code that completes a variant, so that it can replace the reference's task file.
 /// `reference` is the marked text of that file. An item defined by the variant replaces the item of
-/// the same name, which can be a method that students write, a given method, or a given struct that
-/// the variant adds private fields to.
+/// the same name. That item can be a method that students write, a given method, or a given struct
+/// that the variant adds private fields to.
 ///
 /// The given code comes after the variant's own code, so that the compiler's errors refer to lines
 /// of the variant's file.

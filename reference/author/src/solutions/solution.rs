@@ -38,7 +38,7 @@ impl Solution {
     ///
     /// # Panics
     ///
-    /// Panics if the solution isn't about any task, as is the case for the reference.
+    /// Panics if the solution isn't about any task. The reference, for example, isn't.
     pub fn task(&self) -> Task {
         self.expected.tasks[0]
     }

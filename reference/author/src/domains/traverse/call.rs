@@ -172,7 +172,7 @@ impl TraverseCall {
     }
 
     /// Returns whether an unreferenced primitive in front of the answer is about as large as the
-    /// tree, or `None` if no unreferenced primitive is in front of the answer.
+    /// tree, or `None` if there is no such primitive.
     pub(super) fn unreferenced_in_front(&self) -> Option<bool> {
         /// A primitive counts as about as large as the tree if, along two axes, its extent is at
         /// least this fraction of the tree's.

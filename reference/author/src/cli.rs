@@ -10,12 +10,12 @@ use crate::generated_file::Mode;
 use crate::light::LightFiles;
 use crate::package::Platform;
 
-/// The default output folders for the book with all chapters and for the book with only the
+/// The default output folders: one for the complete book, and one for the book with only the
 /// students' chapters.
 const DEFAULT_BOOK: &str = "target/handout";
 const DEFAULT_STUDENTS_BOOK: &str = "target/students-handout";
 
-/// Writes every generated file in this repository, and tests the exam
+/// Writes every generated file in this repository and tests the exam
 #[derive(Debug, Parser)]
 #[command(name = "cargo author", bin_name = "cargo author", version)]
 pub struct Cli {
@@ -36,7 +36,7 @@ pub enum Command {
     Exams(CheckArgs),
     /// Print the final exam for a seed
     Exam {
-        /// The seed that all questions are drawn from; keep it secret
+        /// The seed that all questions are generated from; keep it secret
         #[arg(long)]
         seed: u64,
     },
@@ -59,10 +59,10 @@ pub enum Command {
     Bundle(BundleArgs),
     /// Write the autograder package that instructors upload to a platform
     Package(PackageArgs),
-    /// For each known mistake, write the items that it fails whatever the seed, and the table of
-    /// the items that it fails in the practice exam
+    /// List the items that each known mistake fails regardless of the seed, and write the table of
+    /// the items that each fails in the practice exam
     Mistakes(MistakesArgs),
-    /// Write the table of the contract's sentences and the items that test them
+    /// Write the table that shows which items test each sentence of the contract
     Coverage(CheckArgs),
     /// Measure how well hints recognise known and unknown mistakes, using the practice exam or
     /// final exams
@@ -97,8 +97,8 @@ pub struct BundleArgs {
     /// The students' book to include as handout/book, as built by `cargo book --students`
     #[arg(long, value_name = "FOLDER")]
     pub book: Option<PathBuf>,
-    /// Part two's files: solved, so that part one's pictures are in full light, or stubs to be
-    /// written
+    /// Part two's files: solved, so that part one's pictures are fully lit, or stubs for students
+    /// to fill in
     #[arg(long, value_name = "FILES", value_enum, default_value_t)]
     pub light: LightFiles,
     /// Leave out the files that students write, so that they can unpack the archive over an older
@@ -143,14 +143,13 @@ pub struct PackageArgs {
 #[derive(Clone, Debug, Args)]
 pub struct MistakesArgs {
     /// The number of seeds to grade the mistakes with, counting from 0; the default is 20, or 1
-    /// with `--check`. The 50 mistakes that are caught least clearly are graded with ten times as
-    /// many
+    /// with `--check`. The 50 least clearly caught mistakes are graded with ten times as many
     #[arg(long, value_name = "N")]
     pub seeds: Option<u64>,
-    /// Write only the table and leave the lists unchanged, which takes a minute
+    /// Write only the table, which takes a minute; leave the lists unchanged
     #[arg(long, conflicts_with_all = ["seeds", "check"])]
     pub table: bool,
-    /// Whether to write or to check the lists and the table.
+    /// Whether to write the lists and the table, or to check them.
     #[command(flatten)]
     pub check: CheckArgs,
     /// Whether to record the result.
@@ -164,19 +163,19 @@ pub struct HintsArgs {
     /// The seeds of final exams, such as 0..20
     #[arg(long, value_parser = parse_seeds)]
     pub seeds: Option<Range<u64>>,
-    /// Measure two mistakes at once: all pairs in the same task, or only the given number of pairs
+    /// Measure pairs of mistakes in the same task: all of them, or only the given number
     #[arg(long, value_name = "N", conflicts_with = "seeds")]
     #[allow(
         clippy::option_option,
         reason = "the option can be absent, have no value, or have a value"
     )]
     pub pairs: Option<Option<usize>>,
-    /// Measure known mistakes made in variants, with the practice exam; fail if one of them doesn't
-    /// cost any points
+    /// Measure known mistakes in the code of variants, with the practice exam; fail if one of them
+    /// costs no points
     #[arg(long, conflicts_with_all = ["seeds", "pairs"])]
     pub independent: bool,
     /// Measure wrong solutions that aren't known mistakes, with the practice exam; fail if one of
-    /// them doesn't cost any points
+    /// them costs no points
     #[arg(long, conflicts_with_all = ["seeds", "pairs", "independent"])]
     pub unknown: bool,
     /// Whether to record the result.
@@ -255,7 +254,7 @@ pub struct CheckArgs {
 /// The `--record` flag of commands that take a long time.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct RecordArgs {
-    /// Write the result into the table of long runs, with the date and the commit
+    /// Add the result to the table of long runs, with the date and the commit
     #[arg(long)]
     pub record: bool,
 }

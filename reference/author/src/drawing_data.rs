@@ -1,5 +1,5 @@
-//! Data for a report's drawings: the intermediate results of a correct solution, which are drawn
-//! next to a wrong answer. The data is added to an exam after its questions have been generated.
+//! Data for the drawings in a report: the intermediate results of a correct solution, shown next to
+//! a wrong answer. The data is added to an exam after its questions have been generated.
 
 use judging::drawing_data::{DrawingData, TraversalStep};
 use judging::exam::Exam;
@@ -41,7 +41,7 @@ fn drawing_data(question: &Question) -> DrawingData {
                 .collect(),
         );
     }
-    // An empty tree has no root area to divide costs by.
+    // Costs are relative to the root's area, and an empty tree has no root.
     if let Question::Build {
         shapes,
         max_leaf_size,
@@ -54,7 +54,8 @@ fn drawing_data(question: &Question) -> DrawingData {
     DrawingData::None
 }
 
-/// Returns, for each axis, the interval where the ray's line is between the box's two planes.
+/// For each axis, returns the interval in which the ray's line is between the box's two planes
+/// perpendicular to that axis.
 fn slabs(bounds: &Bounds, ray: &Ray) -> [Interval; 3] {
     let line = Ray64::from(ray).within(Interval::new(f32::NEG_INFINITY, f32::INFINITY));
     [0, 1, 2].map(|axis| match bounds.slab(axis).span(&line) {

@@ -25,7 +25,7 @@ impl GeneratedFile {
     }
 }
 
-/// The choice between writing generated files and checking them.
+/// Whether to write generated files or to check them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Write the files that differ.

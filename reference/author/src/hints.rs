@@ -1,5 +1,5 @@
-//! Adds the signatures of known mistakes to an exam. The grader's hints are based on them. To
-//! record the signatures, every mistake is built and run on the exam's questions, like any
+//! Adds the signatures of known mistakes to an exam. The grader bases its hints on these
+//! signatures. To record them, every mistake is built and run on the exam's questions, like any
 //! submission.
 
 use std::collections::BTreeSet;
@@ -19,11 +19,11 @@ const MAX_ELEMENTS: usize = 32;
 /// The minimum number of recorded elements, even if fewer would distinguish all known mistakes. The
 /// additional elements help to recognise unknown mistakes.
 const MIN_ELEMENTS: usize = 12;
-/// The number of each mistake's wrong answers to record, so that a mistake that gives only a few of
-/// these answers isn't taken for the same.
+/// The number of wrong answers to record for each mistake. With fewer, the mistake could be
+/// confused with a different one that gives only a few of the same wrong answers.
 const WRONG_ANSWERS: usize = 4;
 
-/// Adds to the exam every known mistake's answers to some of its questions.
+/// Adds all known mistakes to the exam, along with each mistake's answers to some of the questions.
 pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
     let answers: Vec<Vec<Option<Vec<ObservedAnswer>>>> = solutions
         .mistakes
@@ -131,7 +131,8 @@ fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> boo
 
 /// Returns the elements that best distinguish the mistakes from each other and from correct
 /// answers. The choice is greedy: each step adds the element that distinguishes the most remaining
-/// pairs. Then adds more wrong answers of the mistakes that have only few wrong answers so far.
+/// pairs. Then, for each mistake with too few wrong answers among the chosen elements, adds more
+/// elements that the mistake gets wrong.
 fn choose_elements(
     correct: &[ObservedAnswer],
     by_mistake: &[(u32, &[ObservedAnswer])],
@@ -153,8 +154,8 @@ fn choose_elements(
         else {
             break;
         };
-        // Elements without a gain only help to tell unknown mistakes from known ones, so add them
-        // only up to the minimum.
+        // Elements without a gain only help to tell unknown mistakes from known ones, so add such
+        // elements only up to the minimum.
         if gain == 0 && chosen.len() >= MIN_ELEMENTS {
             break;
         }
@@ -166,7 +167,7 @@ fn choose_elements(
         let wrong: Vec<usize> = (0..correct.len()).filter(is_wrong).collect();
         let known = wrong.iter().filter(|&it| chosen.contains(it)).count();
         let more = known..WRONG_ANSWERS.min(wrong.len());
-        // Answers from all parts of the item differ more than neighbours do.
+        // Answers from different parts of an item differ more than neighbouring ones.
         let spread = more.map(|index| wrong[index * wrong.len() / WRONG_ANSWERS]);
         let room = MAX_ELEMENTS.saturating_sub(chosen.len());
         chosen.extend(spread.take(room));

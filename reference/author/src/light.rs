@@ -1,5 +1,5 @@
-//! Part two's files, generated from `reference/light`. Students get them with stubs, or solved, so
-//! that part one's pictures are in full light.
+//! Part two's files, generated from `reference/light`. Students get them either as stubs or solved.
+//! If they are solved, part one's pictures are fully lit.
 
 use std::path::Path;
 
@@ -27,11 +27,11 @@ const EXAMPLES: &str = "#[cfg(test)]\n";
 /// Whether students get part two solved or as stubs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LightFiles {
-    /// The solution: students write part one, and its pictures are in full light.
+    /// The solution: students write only part one, and its pictures are fully lit.
     #[default]
     Solved,
-    /// The files with stubs: students write both parts, and pictures are drawn in clay until part
-    /// two is written.
+    /// The files with stubs: students write both parts, and pictures are rendered in clay until
+    /// part two is written.
     Stubs,
 }
 
@@ -62,7 +62,8 @@ impl LightFiles {
     }
 }
 
-/// Returns the text of a file without the worked examples, which are for those who write the file.
+/// Returns the text of a file without the worked examples, which only help students who write the
+/// file themselves.
 fn without_examples(text: &str) -> &str {
     // The line before the examples is empty.
     let end = text.find(EXAMPLES).map(|start| start - 1);

@@ -9,7 +9,7 @@ use crate::marks::{Line, MarkError, lines_without_solutions};
 /// The indentation of the items in an `impl` block.
 const IN_IMPL: &str = "    ";
 
-/// The reason there is no given code for a variant.
+/// The reason that a variant cannot be completed with given code.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GivenCodeError {
     /// The marks in the reference are wrong.
@@ -24,8 +24,8 @@ pub enum GivenCodeError {
 
 /// Returns the code that completes a variant, so that it can replace the reference's task file.
 /// `reference` is the marked text of that file. An item defined by the variant replaces the item of
-/// the same name, which can be a method that students write, a given method, or a given struct to
-/// which the variant adds private fields.
+/// the same name. That item can be a method that students write, a given method, or a given struct
+/// that the variant adds private fields to.
 ///
 /// The given code comes after the variant's own code, so that the compiler's errors refer to lines
 /// of the variant's file.
@@ -36,7 +36,7 @@ pub fn given_code(reference: &str, variant: &str) -> Result<String, GivenCodeErr
             Line::Given(line) => Some(line),
             Line::Starter(..) => None,
         })
-        // These comments are only allowed at the top of a file.
+        // Comments for the whole file are only allowed at its top.
         .filter(|line| !line.starts_with("//!"))
         .collect();
     let variant: Vec<&str> = variant.lines().collect();

@@ -1,5 +1,5 @@
-//! The items of a file, or of an `impl` block. They are found by indentation, without parsing any
-//! Rust, so the file must be formatted by rustfmt.
+//! The items of a file, or of an `impl` block. They are found by indentation, without parsing Rust,
+//! so the file must be formatted by rustfmt.
 
 use std::ops::Range;
 

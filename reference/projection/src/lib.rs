@@ -1,4 +1,4 @@
-//! Turns a task file of the reference, in which the solutions are marked, into one of three things:
+//! Turns a task file of the reference, which marks the solutions, into one of three things:
 //!
 //! - [`starter`]: the file that students get, with stubs instead of the solutions
 //! - [`solution`]: the file with the solutions, but without the marks

@@ -1,5 +1,4 @@
-//! The marks in the reference's task files. The files are read line by line, without parsing any
-//! Rust:
+//! The marks in the reference's task files. The files are read line by line, without parsing Rust:
 //!
 //! ```text
 //! // solution          starts a region with a solution
@@ -42,7 +41,7 @@ pub enum MarkProblem {
 pub(crate) enum Line<'a> {
     /// A line of given code.
     Given(&'a str),
-    /// A line of the starter: its indentation and its text after the mark.
+    /// A line of the starter: its indentation, and the text after the mark.
     Starter(&'a str, &'a str),
 }
 

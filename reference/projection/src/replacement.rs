@@ -19,7 +19,7 @@ pub struct Replacement {
     pub files: Vec<(PathBuf, String)>,
 }
 
-/// The error that is returned if a variant's file or folder cannot be read.
+/// The error returned if a file or folder of a variant cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot read {}: {source}", path.display())]
 pub struct ReadError {
@@ -30,8 +30,8 @@ pub struct ReadError {
 }
 
 /// Reads a variant's files from `folder`, which contains all variants. `parts` are the paths of its
-/// parts without `.rs`. If `parts` is empty, the variant has one part, whose path is the variant's
-/// id with a slash instead of the dot.
+/// parts without `.rs`. If `parts` is empty, the variant has a single part, whose path is the
+/// variant's id with a slash instead of the dot.
 pub fn replacements(
     folder: &Path,
     id: &str,
@@ -101,7 +101,7 @@ fn uses(code: &str, name: &str) -> bool {
     words.contains(&name) && !words.windows(2).any(|pair| pair == ["fn", name])
 }
 
-/// Returns the sorted paths of the files in a subfolder. There are none if the folder doesn't
+/// Returns the sorted paths of the files in a subfolder, or an empty list if the subfolder doesn't
 /// exist.
 fn names(folder: &Path, subfolder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder.join(subfolder)).into_iter().flatten();

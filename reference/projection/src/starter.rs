@@ -16,7 +16,7 @@ pub fn starter(reference: &str) -> Result<String, MarkError> {
 
 /// Returns the solved text for a marked file of the reference, without the marks.
 pub fn solution(reference: &str) -> Result<String, MarkError> {
-    // Report wrong marks.
+    // Fail if there are wrong marks.
     lines_without_solutions(reference)?;
     let lines = lines_without_marks(reference);
     Ok(lines.flat_map(|line| [line, "\n"]).collect())

@@ -1,5 +1,5 @@
-//! The submission's `Bvh` with a different builder, so that `Bvh::hit` is graded on correct trees.
-//! The submission's `Bvh::build` is graded in another task.
+//! The submission's `Bvh` with a different builder, so that `Bvh::hit` is graded with correct
+//! trees. The submission's `Bvh::build` is graded in a different task.
 
 use std::ops::Deref;
 

@@ -54,8 +54,8 @@ pub fn zip(bundle: &Bundle) -> Result<Vec<u8>, ZipError> {
 /// Returns the bytes of an archive in which every path begins with `top`. `top` is empty or ends
 /// with `/`.
 pub fn zip_with_prefix(bundle: &Bundle, top: &str) -> Result<Vec<u8>, ZipError> {
-    // Fix the time, system and permissions. Otherwise, the bytes would depend on when and where the
-    // archive is created.
+    // Use a fixed time, system and permissions. Otherwise, the bytes would depend on when and where
+    // the archive is created.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .compression_level(Some(9))

@@ -1,5 +1,5 @@
-//! Tries out a bundle as a student with a fresh installation of Rust would: runs `.ci/bundle` with
-//! an empty home folder and without a network.
+//! Tries out a bundle the way a student with a fresh installation of Rust would: runs `.ci/bundle`
+//! with an empty home folder and without a network.
 
 use std::env;
 use std::fs;

@@ -20,7 +20,7 @@ struct Package {
 }
 
 /// Returns the files in cargo's registry folder that cargo needs to build the crates in a lock
-/// file: the index entry and the archive of each crate. Each file comes with its path in that
+/// file: the index entry and the archive of each crate. Each file is paired with its path in that
 /// folder. Crates for other systems are skipped, because cargo hasn't fetched them and doesn't need
 /// them here.
 pub fn registry_files(lock: &str) -> Result<Vec<(String, Vec<u8>)>> {

@@ -19,11 +19,11 @@ const TEST_KEYS: [&str; 3] = ["dev-dependencies", "bench", "test"];
 
 /// The profile for benches. It configures packages that aren't in the bundle.
 const STAFF_PROFILE: &str = "bench";
-/// The package with settings of its own in a profile that isn't in the bundle.
+/// The package that has its own settings in a profile but isn't in the bundle.
 const STAFF_PACKAGE: &str = "author";
 
-/// Adds the cargo aliases and the manifests of the root and of the students' crates, without the entries for
-/// staff. Also trims the manifests that are already in the bundle.
+/// Adds the cargo aliases, the root manifest and the manifests of the students' crates, without the
+/// entries for staff. Also trims the manifests that are already in the bundle.
 pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     let text = |path: &str| files::read_to_string(root.join(path));
     for path in STUDENT_MANIFESTS {
@@ -71,8 +71,8 @@ pub(super) fn add_trimmed(root: &Path, bundle: &mut Bundle) -> Result<()> {
     Ok(())
 }
 
-/// Declares that a crate contains no tests or benches. Otherwise, after each save, editors would
-/// try to compile the remains of its tests, and fail.
+/// Declares that a crate contains no tests or benches. Otherwise, editors would try to compile what
+/// is left of its tests after each save and fail.
 fn leave_out_tests(manifest: &mut DocumentMut) {
     let programs = manifest.get_mut("bin");
     let programs = programs.and_then(Item::as_array_of_tables_mut);

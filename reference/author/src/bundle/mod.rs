@@ -80,8 +80,8 @@ impl Bundle {
         test_modules::remove(&mut bundle);
         if let Some(book) = book {
             folders::copy_tree(book, "handout/book", &mut bundle)?;
-            // Leaving out the pages wouldn't be enough, because the book's search index contains
-            // their words.
+            // Leaving out the pages wouldn't be enough, because the book's search index also
+            // contains their text.
             let pages = folders::staff_pages("handout/book", &bundle);
             if !pages.is_empty() {
                 bail!(
@@ -94,8 +94,8 @@ impl Bundle {
         for (path, text) in STUDENT_ONLY {
             bundle.insert(path, text);
         }
-        // These files are generated rather than read from `student`, where staff may have solved the
-        // assignment.
+        // Generate these files instead of reading them from `student`, where staff may have solved
+        // the assignment.
         let starter = starter::generated_files(root, handed_out)?;
         for file in starter.into_iter().chain(light.generate(root)?) {
             bundle.insert(file.path, file.contents);

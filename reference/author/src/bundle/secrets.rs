@@ -80,7 +80,7 @@ impl Secrets {
             .map(|file| file.trim_end_matches(".rs"));
         let variants = stems.map(|stem| format!("{solutions}/variants/{stem}"));
         for folder in variants.chain([format!("{solutions}/mutants")]) {
-            // An assignment need not have any other solutions.
+            // Not every assignment has mutants, and not every file has variants.
             if root.join(&folder).is_dir() {
                 secrets.read(root, &folder)?;
             }

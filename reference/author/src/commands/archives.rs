@@ -40,17 +40,17 @@ pub(super) fn bundle(root: &Path, authoring: &Authoring, args: &BundleArgs) -> C
     Ok(())
 }
 
-/// Says that students can read part two's solution, if they can.
+/// Points out that students can read part two's solution, if the bundle contains it.
 fn say_what_is_published(light: LightFiles) {
     if light == LightFiles::Solved {
         println!(
-            "this publishes the solution to part two, which draws the pictures: `--light stubs` \
-             leaves both parts for students to write"
+            "students can read the solution to part two, which draws the pictures: use `--light \
+             stubs` if they should write both parts"
         );
     }
 }
 
-/// Prints what a bundle contains. Fails if it contains a secret.
+/// Prints a summary of a bundle's contents. Fails if the bundle contains a secret.
 fn report_leaks(bundle: &Bundle, secrets: &Secrets) -> CommandResult {
     let leaks = secrets.search(bundle);
     let problems: Vec<String> = leaks.iter().map(ToString::to_string).collect();
@@ -61,7 +61,7 @@ fn report_leaks(bundle: &Bundle, secrets: &Secrets) -> CommandResult {
     report(&problems, &line)
 }
 
-/// Collects a platform's package, writes it and, if requested, runs it as the platform does. A
+/// Collects a platform's package, writes it and, if requested, runs it the way the platform does. A
 /// template repository is searched for secrets first.
 pub(super) fn package(
     root: &Path,

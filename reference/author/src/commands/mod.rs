@@ -1,5 +1,5 @@
 //! The subcommands of `cargo author`. Each generates, measures or checks something, prints the
-//! result and, if requested, writes it into the table of long runs.
+//! result and, if requested, adds it to the table of long runs.
 
 mod archives;
 mod book;
@@ -27,7 +27,7 @@ use crate::starter;
 
 /// The workspace's root. The paths of generated files are relative to it.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-/// The text in the table of long runs that replaces the seeds of a run without seeds.
+/// The text that the table of long runs shows instead of seeds for a run with the practice exam.
 const PRACTICE: &str = "practice";
 
 /// The result of a command. The caller prints the error.
@@ -110,7 +110,7 @@ fn report(problems: &[String], line: &str) -> CommandResult {
     }
 }
 
-/// Writes the result of a run into the table of long runs if `--record` was given.
+/// Adds the result of a run to the table of long runs if `--record` was given.
 fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> CommandResult {
     if wanted.record {
         long_runs::record(Path::new(ROOT), run, exams, line)?;

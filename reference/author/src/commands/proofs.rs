@@ -44,13 +44,14 @@ pub(super) fn mistakes(
     let thin = detections.problems();
     let caught = failed.fails.len() - thin.len();
     let line = format!(
-        "{caught} of {} mistakes clearly caught, with {} seeds each, and {} for the {THINNEST} with \
-         the thinnest margins",
+        "{caught} of {} mistakes clearly caught, with {} seeds each, or {} for the {THINNEST} that \
+         are caught least clearly",
         failed.fails.len(),
         seeds.all,
         seeds.thinnest
     );
-    // Record before writing the files, so that they don't make the commit look modified.
+    // Record the result before writing the files. Otherwise, the table would say that there were
+    // uncommitted changes.
     record_result(args.record, "mistakes", &written(&(0..seeds.all)), &line)?;
     let committed = FailedItems::load(root, handed_out)?;
     if mode == Mode::Check {
@@ -77,7 +78,7 @@ fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -
     generate(&[table], mode, "mistakes")
 }
 
-/// Makes mutants of the reference and grades them: all of them, a fixed sample, or only the mutants
+/// Generates mutants of the reference and grades all of them, a fixed sample, or only the mutants
 /// of some tasks.
 pub(super) fn mutants(
     authoring: &'static Authoring,
@@ -99,7 +100,8 @@ pub(super) fn mutants(
     report(&findings.problems(), &line)
 }
 
-/// Grades the variants on the exams for all seeds, but the mistakes on only the first few.
+/// Grades the variants with the exams for all seeds, and the mistakes with only the first few
+/// exams.
 pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandResult {
     let all = solutions(authoring)?;
     let selected = match &args.variant {

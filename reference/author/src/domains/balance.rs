@@ -1,4 +1,4 @@
-//! Draws calls so that all classes occur about equally often. Classes that are rarely drawn at
+//! Picks random calls so that all classes occur about equally often. Classes that rarely come up at
 //! random are favoured slightly.
 
 use std::collections::BTreeMap;
@@ -8,7 +8,7 @@ use crate::seed::Rng;
 
 /// The number of suitable calls to compare.
 const CANDIDATES: usize = 48;
-/// The maximum number of calls to draw while searching for [`CANDIDATES`] suitable calls.
+/// The maximum number of random calls to try while searching for [`CANDIDATES`] suitable ones.
 const ATTEMPTS: usize = 1000;
 
 /// Counts how often each class has been chosen.
@@ -34,13 +34,13 @@ impl<C> Balance<C> {
         }
     }
 
-    /// Starts a group for the next calls. Each class should also occur in every group.
+    /// Starts a group for the next calls. Every class should also occur within each group.
     pub fn begin(&mut self, group: usize) {
         self.group = group;
     }
 
-    /// Draws some calls and chooses the one whose classes have been chosen least often. Returns
-    /// `None` if `draw` never returns a call.
+    /// Generates some calls with `draw` and chooses the one whose classes have been chosen least
+    /// often. Returns `None` if `draw` never returns a call.
     pub fn choose(
         &mut self,
         rng: &mut Rng,
@@ -50,7 +50,8 @@ impl<C> Balance<C> {
         let mut of_group = group.or_insert_with(|| zeros(self.aspects)).clone();
         let drawn = (0..ATTEMPTS).filter_map(|_| draw(rng));
         let drawn: Vec<C> = drawn.take(CANDIDATES).collect();
-        // A rarely drawn class is chosen as soon as it comes up, since it may not be drawn again.
+        // A class that rarely comes up is chosen as soon as it does, since it may not come up
+        // again.
         let mut times = zeros(self.aspects);
         for (aspect, class) in drawn.iter().flat_map(|call| self.classes(call)) {
             times[aspect][class] += 1;

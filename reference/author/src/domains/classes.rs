@@ -163,7 +163,7 @@ pub struct Cell {
     pub column: String,
     /// The number of answers.
     pub count: usize,
-    /// The reason why an exam need not test the class in this column, if there is one.
+    /// The reason an exam need not test the class in this column, if any.
     pub reason: Option<&'static str>,
 }
 
@@ -181,7 +181,7 @@ pub struct Pair {
     pub classes: [(&'static str, &'static str); 2],
     /// The number of answers.
     pub count: usize,
-    /// The reason why an exam need not test the pair, if there is one.
+    /// The reason an exam need not test the pair, if any.
     pub reason: Option<&'static str>,
 }
 

@@ -1,4 +1,5 @@
-//! The domains of single fields: their special values, their magnitudes, and how both are drawn.
+//! The domains of single fields: their special values and magnitudes, and functions that pick
+//! random values.
 
 use std::collections::BTreeSet;
 
@@ -51,7 +52,7 @@ pub fn size_class(size: f64) -> usize {
     decade.clamp(0, SIZES.len() as i32 - 2) as usize
 }
 
-/// Draws a length in this class. It is often exactly or almost a power of ten.
+/// Picks a random length in this class. It is often exactly or almost a power of ten.
 pub fn size(rng: &mut Rng, class: usize) -> f64 {
     let (least, most) = match class {
         0 => (2e-7, 1e-4),
@@ -130,11 +131,12 @@ pub fn place_class(position: DVec3, size: f64) -> usize {
     }
 }
 
-/// The sizes of shapes in a corner of a scene that can be seen from the opposite corner. Smaller
-/// shapes are too far away for their size, and larger ones extend too far into the scene.
+/// The range of sizes for shapes that are in one corner of a scene and seen from the opposite
+/// corner. Smaller shapes are too far away for their size, and larger ones extend too far into the
+/// scene.
 const ACROSS: (f64, f64) = (106.0, 130.0);
 
-/// Draws a position for a shape of this size. No coordinate of the shape exceeds the largest
+/// Picks a random position for a shape of this size. No coordinate of the shape exceeds the largest
 /// coordinate of a scene, and no coordinate of the position exceeds 5,000 times the size. Some
 /// positions are on an axis or in a corner of the scene.
 pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
@@ -161,7 +163,7 @@ pub fn place(rng: &mut Rng, size: f64) -> DVec3 {
     position.clamp(DVec3::splat(-furthest), DVec3::splat(furthest))
 }
 
-/// Draws three signs.
+/// Picks three random signs.
 fn signs(rng: &mut Rng) -> DVec3 {
     DVec3::from_array([rng.sign(), rng.sign(), rng.sign()])
 }
@@ -221,8 +223,8 @@ pub fn direction_class(dir: Vec3) -> Option<usize> {
     }
 }
 
-/// Draws a direction: along or close to an axis, in or close to a coordinate plane, or any other
-/// direction. Zeros can have either sign.
+/// Picks a random direction: along or close to an axis, in or close to a coordinate plane, or any
+/// other direction. Zeros can have either sign.
 pub fn direction(rng: &mut Rng) -> DVec3 {
     let dir = rng.retry(|rng| {
         let dir = rng.direction();
@@ -266,7 +268,7 @@ pub fn diagonal_class(dir: Vec3) -> Option<usize> {
     }
 }
 
-/// Draws a direction along a diagonal of a cube or of one of its faces.
+/// Picks a random direction along a diagonal of a cube or of one of its faces.
 pub fn diagonal(rng: &mut Rng) -> DVec3 {
     let mut dir = DVec3::ONE;
     if rng.index(4) > 0 {
@@ -295,19 +297,20 @@ pub fn ray_toward(
     (start.abs().max_element() <= FURTHEST).then_some((start, dir))
 }
 
-/// Draws the start of a ray toward a target. The distance from the start to the target is at most
-/// 30 times `size`.
+/// Picks a random start for a ray toward a target. The start is far from the origin, but less than
+/// 29 times `size` away from the target.
 fn start_far_away(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
     let least = if rng.coin() { 0.5 } else { 0.98 };
     let start = rng.vector(least, 1.0) * FURTHEST * -target.signum();
     (start.distance(target) < 29.0 * size).then_some(start)
 }
 
-/// The largest angle between two directions that hardly differ, in radians, and the largest distance
-/// between two starts that hardly differ, as a multiple of the size of what the rays hit.
+/// The largest angle, in radians, between two directions that count as hardly different. Also the
+/// largest distance between two starts that count as hardly different, as a multiple of the size of
+/// the rays' target.
 pub const HARDLY: f64 = 4e-4;
 
-/// Returns the ray in a direction that differs by this angle, in radians.
+/// Returns the ray with its direction turned by this angle, in radians.
 pub fn turned(rng: &mut Rng, ray: &Ray, angle: f64) -> Ray {
     let dir = ray.dir.as_dvec3();
     let dir = (dir + angle * rng.perpendicular_to(dir)).normalize();
@@ -315,14 +318,14 @@ pub fn turned(rng: &mut Rng, ray: &Ray, angle: f64) -> Ray {
     Ray { dir, ..*ray }
 }
 
-/// Returns the ray with a start at this distance from the old one.
+/// Returns the ray with its start moved by this distance.
 pub fn moved(rng: &mut Rng, ray: &Ray, distance: f64) -> Ray {
     let origin = ray.origin + (distance * rng.direction()).as_vec3();
     Ray { origin, ..*ray }
 }
 
-/// Returns the ray with one or two components of its direction reversed. Returns `None` if the ray
-/// is the same or the opposite one.
+/// Returns the ray with one or two components of its direction negated. Returns `None` if that
+/// leaves the direction unchanged or reverses it completely.
 pub fn mirrored(rng: &mut Rng, ray: &Ray) -> Option<Ray> {
     let dir = with_signs_changed(rng, ray.dir);
     (dir != ray.dir && dir != -ray.dir).then_some(Ray { dir, ..*ray })
@@ -356,8 +359,8 @@ pub fn is_mirrored_start(a: &Ray, b: &Ray) -> bool {
     same_sizes && a.range == b.range && a.dir == b.dir && a.origin != b.origin
 }
 
-/// Draws the start of a ray toward a target. The start is on an axis or in a plane between two axes,
-/// but not at the origin, and at most 29 times `size` away from the target.
+/// Picks a random start for a ray toward a target. The start is on an axis or in a plane between
+/// two axes, but not at the origin, and at most 29 times `size` away from the target.
 fn start_on_an_axis(rng: &mut Rng, target: DVec3, size: f64) -> Option<DVec3> {
     let mut start = target + size * rng.uniform(1.0, 20.0) * rng.direction();
     let axis = rng.index(3);
@@ -430,7 +433,7 @@ pub fn range_class(range: Interval) -> Option<usize> {
     })
 }
 
-/// Draws a range whose ends are at distances up to `furthest`.
+/// Picks a random range whose ends are at distances up to `furthest`.
 pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
     let min = if rng.coin() {
         0.0
@@ -466,7 +469,7 @@ pub fn number_class(number: u32) -> usize {
     }
 }
 
-/// Draws a shape number.
+/// Picks a random shape number.
 pub fn number(rng: &mut Rng) -> u32 {
     match rng.index(NUMBERS.len()) {
         0 => 0,
@@ -477,7 +480,7 @@ pub fn number(rng: &mut Rng) -> u32 {
     }
 }
 
-/// Returns the weights of a point inside a triangle, all of them at least `least`.
+/// Returns random weights of a point inside a triangle. Each weight is at least `least`.
 pub fn weights_inside(rng: &mut Rng, least: f64) -> [f64; 3] {
     let mut cuts = [rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0)];
     cuts.sort_by(f64::total_cmp);
@@ -497,7 +500,7 @@ pub fn without_repetition<T: Ord>(values: impl IntoIterator<Item = T>) -> bool {
     values.into_iter().all(|value| known.insert(value))
 }
 
-/// Draws distinct shape numbers.
+/// Picks distinct random shape numbers.
 pub fn numbers(rng: &mut Rng, count: usize) -> Vec<u32> {
     let mut known = BTreeSet::new();
     let mut fresh = || {

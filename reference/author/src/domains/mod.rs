@@ -1,6 +1,6 @@
 //! Domains: the subjects and arguments that the contract allows for each function, divided into
-//! classes. Items draw everything that isn't part of the idea they test from a domain, and the
-//! coverage of the contract is counted per class.
+//! classes. Whatever isn't part of the idea that an item tests is picked at random from a domain.
+//! The coverage of the contract is counted per class.
 //!
 //! A correct method treats all classes alike. A wrong one often fails for a single class, such as
 //! small shapes, rays along an axis, or rays that start inside.
@@ -117,8 +117,8 @@ impl UntestedClasses {
     }
 }
 
-/// An aspect that applies only to the first call on a subject, and only if calls on another subject
-/// come before it.
+/// An aspect of the first call on a subject. It applies only if calls on another subject come
+/// before that call.
 const SUBJECT_BEFORE: (&str, &[&str]) = ("first call", &["after another subject"]);
 
 /// The domain of any function.

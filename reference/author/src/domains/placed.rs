@@ -1,4 +1,4 @@
-//! Aspects shared by all calls on something that has a size and a position.
+//! Aspects that all calls on something with a size and a position have in common.
 
 use super::Aspect;
 use super::fields::{OCTANTS, PLACES, ROUND, SIZES, octant, place_class, round_class, size_class};

@@ -1,4 +1,5 @@
-//! Draws the rows of a table: calls on one subject. Half of the calls are hits.
+//! Generates the rows of a table, which are random calls on one subject. Half of the calls are
+//! hits.
 
 use glam::DVec3;
 
@@ -8,7 +9,7 @@ use crate::seed::Rng;
 /// A subject, and the arguments of the calls on it.
 pub type SubjectCalls<C> = (<C as Call>::Subject, Vec<<C as Call>::Input>);
 
-/// Draws the arguments of a call. Returns `None` if the contract does not allow them.
+/// Picks random arguments for a call. Returns `None` if the contract does not allow them.
 type DrawInput<'a, C> = &'a dyn Fn(&mut Rng, &<C as Call>::Subject) -> Option<<C as Call>::Input>;
 
 /// Returns the same call on a subject that differs in a single property. The vector has random
@@ -23,9 +24,9 @@ pub type Follow<C> = fn(&mut Rng, &C) -> Option<Vec<C>>;
 pub struct Generator<'a, C: Call> {
     /// The domain of the function.
     pub domain: &'static FunctionDomain<C>,
-    /// Draws a subject of this size.
+    /// Picks a random subject of this size.
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
-    /// Draws the arguments of a call. Returns `None` if the contract does not allow them.
+    /// Picks random arguments for a call. Returns `None` if the contract does not allow them.
     pub input: DrawInput<'a, C>,
     /// The ways a subject can differ from the previous one, to detect state kept between calls.
     pub changes: &'a [Change<C>],
@@ -43,16 +44,16 @@ pub struct Generator<'a, C: Call> {
 /// The number of pairs in a table. Each pair consists of a hit and a miss.
 const PAIRS: usize = 10;
 
-/// For a subject that differs from the previous one, the maximum number of hits and the maximum
-/// number of misses.
+/// For a subject that differs from the previous one, the maximum number of hits, and also of
+/// misses.
 const AGAIN: usize = 5;
 
 impl<C: Call> Generator<'_, C> {
-    /// For each of these sizes, draws a subject and pairs of calls, so that each class of each
-    /// aspect occurs. Each pair consists of a hit and a miss, which in some pairs differ only in
-    /// their ranges. Some pairs are followed by calls that are almost the same as the call before
-    /// them. The last tables repeat earlier calls, each with a subject that differs from the
-    /// previous one in a single property.
+    /// For each of these sizes, picks a random subject and random pairs of calls, so that each
+    /// class of each aspect occurs. Each pair consists of a hit and a miss. In some pairs, the two
+    /// differ only in their ranges. Some pairs are followed by calls that are almost the same as
+    /// the call before them. The last tables repeat earlier calls. Each of them has a subject that
+    /// differs from the previous one in a single property.
     pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<SubjectCalls<C>> {
         let FunctionDomain {
             subject_aspects,
@@ -139,7 +140,7 @@ impl<C: Call> Generator<'_, C> {
         })
     }
 
-    /// Draws a subject and its calls. Returns `None` if too few suitable calls on the subject are
+    /// Picks a random subject and random calls on it. Returns `None` if too few suitable calls are
     /// found.
     fn table(
         &self,
@@ -147,10 +148,10 @@ impl<C: Call> Generator<'_, C> {
         size: usize,
         (of_subject, of_row): &mut (Balance<C>, Balance<C>),
     ) -> Option<SubjectCalls<C>> {
-        /// The maximum number of calls to draw when looking for a call that suits a subject.
+        /// The maximum number of random calls to try when looking for one that suits a subject.
         const ATTEMPTS: usize = 20;
-        // Subjects that turn out to be unsuitable are counted too, so that the next subject drawn
-        // is of a different kind.
+        // Subjects that turn out to be unsuitable are counted too, so that the next subject is of a
+        // different kind.
         let subject = of_subject.choose(rng, |rng| {
             let subject = (self.subject)(rng, size);
             rng.attempt(ATTEMPTS, |rng| self.call(rng, &subject))

@@ -100,7 +100,7 @@ fn unknown_command(
     Some(format!("`{text}`: {first}"))
 }
 
-/// Returns the problem with a flag, or `None` if some command accepts it.
+/// Returns a problem if no command accepts the flag.
 fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
     let flag = text.split([' ', '=']).next().unwrap_or(text);
     let name = flag.trim_start_matches('-');

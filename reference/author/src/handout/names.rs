@@ -27,7 +27,7 @@ const RUST_NAMES: [&str; 13] = [
     "sh",
     "split_at_mut",
 ];
-/// C++ identifiers, from the language or the slides, that the handout translates to Rust.
+/// C++ identifiers that the handout translates to Rust. They come from the language or the slides.
 const CPP_NAMES: [&str; 6] = ["float", "norm", "norm_squared", "hmin", "hmax", "push_back"];
 
 /// The sources, files and items that names can refer to.

@@ -1,4 +1,4 @@
-//! The parts of the handout that are generated: its lists of tasks, and each task's contract.
+//! The generated parts of the handout: its lists of tasks and the contract of each task.
 
 use std::path::Path;
 
@@ -31,8 +31,8 @@ const END_OF_CONTRACT: &str = "<!-- end of the contract -->";
 
 /// Generates the chapters and the pages that list an assignment's tasks, for the workspace at
 /// `root`. On each of these pages, only the list is replaced. In each chapter, two things are
-/// replaced: the contract, which is the documentation of the method to write, and the link to the
-/// next chapter.
+/// replaced: the contract (the documentation of the method to write) and the link to the next
+/// chapter.
 pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<GeneratedFile>> {
     let mut chapters: Vec<(&str, String)> = Vec::new();
     let (mut links, mut chapter_rows, mut task_rows) = (Vec::new(), Vec::new(), Vec::new());
@@ -112,8 +112,8 @@ fn contract_of(method: &str) -> String {
     format!("<!-- generated from the documentation of {method} -->")
 }
 
-/// Replaces a method's contract in a chapter with the method's documentation, in which links to
-/// other items become plain names.
+/// Replaces a method's contract in a chapter with the method's documentation. Links to other items
+/// become plain names.
 fn with_contract(text: &str, method: &str, documentation: &[&str]) -> Option<String> {
     let above = contract_of(method);
     let (before, after) = text.split_once(&above)?;

@@ -1,4 +1,4 @@
-//! Draws items again until every exam tests every class of each task's domain.
+//! Regenerates items until every exam tests every class of each task's domain.
 
 use std::mem;
 
@@ -10,11 +10,11 @@ use crate::domains::Domain;
 use crate::domains::classes::Classes;
 use crate::seed::Seed;
 
-/// The maximum number of times each item is drawn again.
+/// The maximum number of times each item is regenerated.
 const ATTEMPTS: usize = 96;
 
-/// Draws the items of a task. The questions of an item differ from those of the same item in the
-/// practice exam, if `practice` contains one.
+/// Generates the items of a task. If `practice` contains the same item, the item's questions differ
+/// from those in the practice exam.
 pub(super) fn draw_items(
     seed: Seed,
     task: &AuthoredTask,
@@ -30,8 +30,8 @@ pub(super) fn draw_items(
     })
 }
 
-/// Draws the items of a task. While any class of the task's domain is missing, items that could
-/// test it are drawn again. A new item is kept only if it reduces the number of missing classes.
+/// Generates the items of a task. While any class of the task's domain is missing, items that could
+/// test it are regenerated. A new item is kept only if it reduces the number of missing classes.
 fn draw_complete(
     seed: Seed,
     task: &AuthoredTask,

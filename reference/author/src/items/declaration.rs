@@ -15,7 +15,7 @@ pub struct AuthoredTask {
     pub items: &'static [Declaration],
     /// The points for items whose declarations don't state them.
     pub points: &'static [(&'static str, u32)],
-    /// Changes the items' questions after they have been drawn.
+    /// Changes the items' questions after they have been generated.
     pub finish: fn(Seed, &mut [DeclaredItem]),
     /// The sentences of the method's documentation that no item tests, each with the reason.
     pub untested: &'static [(&'static str, &'static str)],
@@ -34,7 +34,7 @@ impl AuthoredTask {
         domain: None,
     };
 
-    /// Draws the items. Their questions differ from those of the items in `practice`.
+    /// Generates the items. Their questions differ from those of the items in `practice`.
     pub fn draw(&self, seed: Seed, practice: &[Item]) -> Vec<DeclaredItem> {
         let declarations = self.items.iter().map(|item| {
             let mut points = self.points.iter();
@@ -46,7 +46,7 @@ impl AuthoredTask {
     }
 }
 
-/// An item whose numbers have not been drawn yet.
+/// An item whose questions haven't been generated yet.
 #[derive(Clone, Copy, Debug)]
 pub struct Declaration {
     /// The task's id, a dot, and a name, such as `sphere.near_side`.
@@ -65,7 +65,7 @@ pub struct Declaration {
     /// The sentences of the method's documentation that the item tests, each quoted in full or up
     /// to an ellipsis.
     pub tests: &'static [&'static str],
-    /// Draws the item's questions.
+    /// Generates the item's questions.
     pub questions: fn(&mut Rng) -> Vec<ExamQuestion>,
     /// The group that the item belongs to, if items in other tasks need that group.
     pub group: Option<Group>,
@@ -81,7 +81,7 @@ pub struct Declaration {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group(pub &'static str);
 
-/// An item whose dependencies are still groups rather than the ids of items.
+/// An item whose dependencies are still given as groups rather than as item ids.
 #[derive(Clone, Debug)]
 pub struct DeclaredItem {
     item: Item,
@@ -126,7 +126,7 @@ impl Declaration {
         }
     }
 
-    /// Draws the item's questions.
+    /// Generates the item's questions.
     pub(super) fn draw(&self, seed: Seed) -> DeclaredItem {
         let questions = (self.questions)(&mut seed.rng(self.id));
         let item = Item {

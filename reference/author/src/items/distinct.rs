@@ -1,5 +1,5 @@
 //! Final exams don't share any questions with the practice exam, whose answers are public. An item
-//! is drawn again as long as the practice exam's answers would earn points for it.
+//! is regenerated until the practice exam's answers no longer earn points for it.
 
 use judging::exam::{ExamQuestion, Item, Key};
 use judging::judge::{Credit, judge, one_row_answers_all};
@@ -8,7 +8,8 @@ use protocol::Answer;
 use crate::items::{Declaration, DeclaredItem};
 use crate::seed::Seed;
 
-/// Draws an item whose questions all differ from the same item's questions in the practice exam.
+/// Generates an item whose questions all differ from the same item's questions in the practice
+/// exam.
 pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> DeclaredItem {
     const MAX_ATTEMPTS: usize = 1000;
     let is_distinct = |drawn: &DeclaredItem| !shares_a_question(drawn.item(), practice);
@@ -19,8 +20,8 @@ pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> 
         .expect("some seed gives numbers that differ from those of the practice exam")
 }
 
-/// Returns whether the correct answer to a question of one item earns points for a question of the
-/// other item.
+/// Returns whether the correct answer to a question of one item would earn points for a question of
+/// the other item.
 ///
 /// Some questions are skipped. If all rows have the same answer, e.g. the length of a direction, or
 /// if no ray hits anything, only one answer is possible. A tree answers only questions about its
@@ -62,7 +63,7 @@ mod tests {
 
     #[test]
     fn an_item_that_shares_a_question_is_drawn_again() {
-        // A small film can only have a few sizes, so some seeds draw the same size as the practice
+        // A small film can only have a few sizes, so some seeds give the same size as the practice
         // exam.
         let sizes = |seed, practice: &[Item]| camera::TASK.draw(seed, practice).remove(0);
         let practice = sizes(Seed::PRACTICE, &[]);

@@ -12,7 +12,7 @@ pub(super) const TRIANGLE_SURFACE: Group = Group("triangle surface");
 pub(super) const SPHERE_HITS: Group = Group("sphere hits");
 /// The other quantities of a hit on a sphere.
 pub(super) const SPHERE_SURFACE: Group = Group("sphere surface");
-/// Boxes, which decide which nodes are entered and in which order.
+/// Boxes. They decide which nodes are entered, and in what order.
 pub(super) const BOXES: Group = Group("boxes");
 /// Building a tree that can be traversed, regardless of its cost.
 pub(super) const TREES: Group = Group("trees");

@@ -102,9 +102,9 @@ pub fn strand(rng: &mut Rng, center: DVec3, axis: usize, length: f64) -> Shape {
 }
 
 /// Returns long, thin triangles: along x in one region, along y in another, and along z in a third.
-/// Splitting along the strands' direction gains little. Within one region, however, that is the
-/// direction of a node's longest axis, so a builder that splits only along the longest axis builds
-/// a poor tree.
+/// Splitting along the strands' direction gains little. Within a region, however, the longest axis
+/// of a node is in that direction, so a builder that splits only along the longest axis builds a
+/// poor tree.
 pub fn strands(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let strands = (0..count).map(|i| {
         let axis = i % 3;
@@ -116,8 +116,8 @@ pub fn strands(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(strands)
 }
 
-/// Returns a stack of sheets that consist of long strips. The sheets are longer than the stack is
-/// high, but only partitions between sheets or between strips are good.
+/// Returns a stack of sheets made of long strips. The sheets are longer than the stack is high, but
+/// only partitions between sheets or between strips are good.
 pub fn sheets(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let sheets = (0..count).map(|i| {
         let level = (i % 12) as f64;
@@ -187,8 +187,9 @@ pub fn many_spheres(rng: &mut Rng, count: usize) -> Vec<Shape> {
     number_shapes(spheres)
 }
 
-/// Returns spheres in a cube that is as large as a scene may be, half of them in a few clusters.
-/// Their coordinates have few digits, so that even many spheres take up little space in an exam.
+/// Returns spheres in a cube as large as the largest scene. Half of the spheres are in a few
+/// clusters. Their coordinates have few digits, so that even many spheres take up little space in
+/// an exam.
 pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
     let spots: Vec<DVec3> = (0..7).map(|_| rng.point(900.0)).collect();
     let spheres = (0..count).map(|i| {

@@ -2,7 +2,7 @@
 //!
 //! An item's keys test only the quantities that its idea is about. Every item has questions with
 //! opposite answers (such as hits and misses), so that no constant answer passes it. All questions
-//! are drawn from the exam's seed, and final exams don't share any questions with the practice
+//! are generated from the exam's seed, and final exams don't share any questions with the practice
 //! exam.
 
 pub mod bbox;
@@ -40,8 +40,8 @@ pub static TASKS: &[&AuthoredTask] = &[
     &traverse::TASK,
 ];
 
-/// The items of `rays` that are worth more than one point, and how many points each of them is
-/// worth. The points for a task's items add up to the points for the task.
+/// The items of `rays` that are worth more than one point, each with its points. The points for a
+/// task's items add up to the points for the task.
 const POINTS: &[(&str, u32)] = &[
     ("camera.field_of_view", 2),
     ("camera.offset", 2),
@@ -59,8 +59,8 @@ const POINTS: &[(&str, u32)] = &[
     ("traverse.skips_missed", 2),
 ];
 
-/// Returns the items of an exam. Each item comes after the items that it needs. No question is the
-/// same as in the items of the practice exam.
+/// Returns the items of an exam. Each item comes after the items that it needs. None of the
+/// questions is also in the items of the practice exam.
 pub fn items(tasks: &[&AuthoredTask], seed: Seed, practice: &[Item]) -> Vec<Item> {
     let all = tasks.iter().flat_map(|task| task.draw(seed, practice));
     resolve(all.collect())

@@ -11,7 +11,7 @@ use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::{Tree, construction, decoy};
 
-/// The number of rays that hit a box, and the number of rays that miss it.
+/// The number of rays that hit a box. The same number of rays miss it.
 const BOX_RAYS_OF_EACH_KIND: usize = 3;
 
 /// Returns a point whose coordinates are whole numbers from −4 to 4.
@@ -140,8 +140,8 @@ pub(super) fn tree(rng: &mut Rng) -> (Tree, Vec<Ray>) {
     })
 }
 
-/// Draws a ray that starts outside the box. Returns `None` unless the ray clearly hits or misses
-/// the box, as required.
+/// Picks a random ray that starts outside the box. Returns `None` unless the ray clearly hits the
+/// box, or clearly misses it, as `is_hit` requires.
 fn box_ray(rng: &mut Rng, bounds: &Bounds, is_hit: bool) -> Option<Ray> {
     let [one, other, third] = axes(rng);
     let dir = one + 2.0 * other + 2.0 * third;
@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn distances_in_a_tree_are_whole_numbers_and_the_last_ray_misses() {
         let mut rng = rng();
-        // One in a hundred arrangements of triangles is drawn again.
+        // About one in a hundred arrangements of triangles is rejected, so test many.
         for _ in 0..500 {
             let (tree, rays) = tree(&mut rng);
             let hits = rays.iter().map(|ray| tree.expected_hit(&Ray64::from(ray)));

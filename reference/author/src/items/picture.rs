@@ -3,9 +3,9 @@
 //! At an edge, correct submissions whose rays differ only in the last bit see different surfaces.
 //! The key for a position is therefore a set of surfaces: those seen at the position itself, at
 //! four neighbours, and at positions in between. The neighbours are so close that any mistake would
-//! move an edge by more than the distance to them. The surfaces at positions in between are needed
-//! because the depth changes so steeply near a sphere's silhouette that a correct depth may lie
-//! between the depths at two neighbours.
+//! move an edge farther than that. The surfaces at positions in between are needed because the
+//! depth changes so steeply near a sphere's silhouette that a correct depth may lie between the
+//! depths at two neighbours.
 
 use glam::{DVec3, UVec2, Vec2, Vec3, vec2};
 use judging::exam::{ExamQuestion, Key, Surface};

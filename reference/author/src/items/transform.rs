@@ -1,5 +1,6 @@
-//! Moves a question elsewhere in space and changes its size. Code that depends on absolute sizes or
-//! on being near the origin is correct in one place and wrong in another.
+//! Moves a question elsewhere in space and changes its size. This catches code that depends on
+//! absolute sizes or on being near the origin, since such code is correct in some places and wrong
+//! in others.
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
@@ -9,8 +10,8 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// A scale and an offset. Questions are first drawn near the origin, with sizes of about one, and
-/// then transformed.
+/// A scale and an offset. Questions are first generated near the origin, with sizes of about one,
+/// and then transformed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transform {
     scale: f64,

@@ -1,5 +1,5 @@
-//! The cost of trees built with bucketed SAH, both by correct builders with several kinds of
-//! buckets and by builders with a known mistake.
+//! The cost of trees built with bucketed SAH, by correct builders with various kinds of buckets and
+//! by builders with a known mistake.
 
 use crate::oracle::bbox::Bounds;
 

@@ -1,5 +1,5 @@
-//! Intersects rays with spheres: the hits are half a chord before and after the point of closest
-//! approach to the centre.
+//! Intersects rays with spheres: the two hits are half a chord before and half a chord after the
+//! point where the ray's line is closest to the centre.
 
 use std::f64::consts::{PI, TAU};
 

@@ -69,10 +69,10 @@ pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
     below(boxes, &mut indices, max_leaf_size)
 }
 
-/// Returns the coordinates of the two centres between which the best partition splits this axis.
-/// Returns `None` if the best partition is along another axis, or if a different partition is
-/// nearly as good. If there are only a few primitives, the alternatives include partitions whose
-/// sides cannot be separated by a plane.
+/// Returns the coordinates of the two neighbouring centres that the best partition separates along
+/// this axis. Returns `None` if the best partition is along another axis, or if a different
+/// partition is nearly as good. If there are only a few primitives, the alternatives include
+/// partitions whose sides cannot be separated by a plane.
 pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
     let indices: Vec<usize> = (0..boxes.len()).collect();
     let mut all: Vec<Partition> = (0..3)
@@ -99,7 +99,7 @@ pub fn clear_gap(boxes: &[Bounds], axis: usize) -> Option<(f64, f64)> {
 /// The minimum cost of the second-best partition, relative to the best.
 const MIN_RATIO: f64 = 1.05;
 
-/// Returns whether all builders agree, despite rounding, on whether a plane perpendicular to this
+/// Returns true if rounding cannot make builders disagree on whether a plane perpendicular to this
 /// axis also separates these sides. They agree if the sides' centres are clearly separated, clearly
 /// mixed, or all equal.
 fn is_clear_along(boxes: &[Bounds], sides: (&[usize], &[usize]), axis: usize) -> bool {

@@ -11,7 +11,7 @@ use super::{Intersection, Ray64};
 pub struct PlaneIntersection {
     /// The distance along the ray. May be negative.
     pub distance: f64,
-    /// The barycentric weights of the corners. Inside the triangle, none is negative.
+    /// The barycentric weights of the corners. Inside the triangle, none of them are negative.
     pub weights: [f64; 3],
 }
 

@@ -32,7 +32,7 @@ pub enum Platform {
     Github,
 }
 
-/// The course's own files: its final exam and its policy, and what students get of part two.
+/// The course's own choices: its final exam, its policy, and whether students get part two solved.
 #[derive(Clone, Debug)]
 pub struct CourseFiles {
     /// The text of the final exam. `None` for a platform that cannot hide it from students.

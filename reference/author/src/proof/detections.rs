@@ -1,5 +1,5 @@
-//! Measures how clearly the exam catches each mistake, judging by the number and the share of an
-//! item's answers that are wrong. A mistake that only a single ray catches is caught by luck.
+//! Measures how clearly the exam catches each mistake, based on the number and the share of wrong
+//! answers to an item. A mistake that only a single ray reveals is caught by luck.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -118,9 +118,9 @@ impl fmt::Display for Detection {
 /// The clearest detection of each mistake, in the exam that catches it least clearly.
 #[derive(Clone, Debug, Default)]
 pub struct Detections {
-    /// For each mistake's id, the number of exams and the mistake's clearest detection in the exam
-    /// that catches it least clearly. The detection is `None` if an exam doesn't catch the mistake
-    /// at all.
+    /// For each mistake, by id: the number of exams, and its clearest detection in the exam that
+    /// catches it least clearly. The detection is `None` if an exam doesn't catch the mistake at
+    /// all.
     thinnest: BTreeMap<String, (u64, Option<Detection>)>,
 }
 

@@ -1,4 +1,4 @@
-//! Determines which items each mistake fails whatever the seed.
+//! Determines which items each mistake fails regardless of the seed.
 //!
 //! Some items catch a mistake only by luck: with other random numbers, no ray would reveal it. An
 //! item is therefore listed for a mistake only if the mistake has failed it with each of many
@@ -47,9 +47,9 @@ impl SeedCounts {
     }
 }
 
-/// Determines which items each mistake fails in the practice exam and in the exams for the seeds,
-/// and how clearly these exams catch it. The least clearly caught mistakes are graded with more
-/// seeds.
+/// Determines which items each mistake fails in the practice exam and in the exams for these seeds,
+/// and how clearly these exams catch the mistake. The least clearly caught mistakes are graded with
+/// more seeds.
 pub fn failed_items(
     solutions: &Solutions,
     practice: &Exam,
@@ -90,7 +90,7 @@ pub fn failed_items(
     Ok((failed, detections))
 }
 
-/// Returns the detections of each mistake in the exam for each seed.
+/// For each seed and each mistake, returns how the exam detects the mistake.
 fn caught_with_seeds(
     solutions: &Solutions,
     built: &[&(&Solution, BuiltSolution)],
@@ -99,7 +99,7 @@ fn caught_with_seeds(
     for_seeds(seeds, |seed| caught_in(built, &exam_of(solutions, seed)?))
 }
 
-/// Returns the detections of each mistake in one exam.
+/// For each mistake, returns how the exam detects it.
 fn caught_in(built: &[&(&Solution, BuiltSolution)], exam: &Exam) -> Result<Vec<Vec<Detection>>> {
     let caught = built
         .par_iter()
@@ -107,8 +107,7 @@ fn caught_in(built: &[&(&Solution, BuiltSolution)], exam: &Exam) -> Result<Vec<V
     caught.collect()
 }
 
-/// Returns a mistake's detections by the items of its tasks. No parts of the solution are
-/// substituted.
+/// Returns how the items of a mistake's tasks detect it. No parts of the solution are substituted.
 fn detections(mistake: &Solution, solution: &BuiltSolution, exam: &Exam) -> Result<Vec<Detection>> {
     let mut caught = Vec::new();
     for task in &mistake.expected.tasks {

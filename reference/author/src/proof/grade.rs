@@ -8,7 +8,7 @@ use judging::exam::{Exam, Item};
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{BuiltSolution, Workbench};
 
-/// Returns the items where a variant loses points although it must not.
+/// Returns the items in which a variant loses points that it must not lose.
 pub fn variant_losses(
     workbench: &Workbench,
     variant: &Solution,
@@ -62,8 +62,8 @@ impl<'a> GradedSolution<'a> {
         listed.filter(is_passed).cloned().collect()
     }
 
-    /// Returns the differences that are problems regardless of the seed: no loss in a mistake's own
-    /// task, or a loss in an undeclared task.
+    /// Returns the problems that don't depend on the seed: the mistake loses no points in its own
+    /// task, or it loses points in an undeclared task.
     pub fn task_problems(&self) -> Vec<String> {
         let Solution { id, expected, .. } = self.solution;
         let is_of = |item: &ItemScore, task: &Task| item.id.starts_with(&format!("{task}."));

@@ -14,8 +14,8 @@ use crate::solutions::Solutions;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{BuiltSolution, NotCompiledError, Workbench};
 
-/// Builds solutions, calls `ask` with each and returns the results. A solution that doesn't compile
-/// is an error. `unit` is shown with the progress.
+/// Builds solutions, calls `ask` with each and returns the results. Fails if a solution doesn't
+/// compile. `unit` is shown with the progress.
 pub(super) fn run<'a, R: Send>(
     workbench: &Workbench,
     solutions: impl IntoIterator<Item = &'a Solution>,

@@ -14,12 +14,12 @@ pub struct SeedResult {
     pub seed: u64,
     /// Whether the mistakes were also graded with this seed.
     pub with_mistakes: bool,
-    /// The variants that lost points although they are correct, each with the items that it failed.
+    /// The variants that lost points although they are correct, each with the items it failed.
     pub false_fails: BTreeMap<String, Vec<String>>,
     /// The mistakes that didn't lose the points they must lose, each with the problems found.
     pub uncaught: BTreeMap<String, Vec<String>>,
-    /// The mistakes that passed items that `fails.toml` lists for them, each with the items that it
-    /// passed. Other items still caught these mistakes.
+    /// The mistakes that passed some of the items that `fails.toml` lists for them, each with those
+    /// items. Other items still caught these mistakes.
     #[serde(default)]
     pub passed: BTreeMap<String, Vec<String>>,
 }
@@ -82,8 +82,7 @@ impl ProofSummary {
             let passed = result.passed.iter();
             passed.map(|(id, items)| {
                 format!(
-                    "note: with seed {}, {id} does not fail {}, although it does so with every seed \
-                        in {}",
+                    "note: with seed {}, {id} passes {}, which it fails with every seed in {}",
                     result.seed,
                     items.join(", "),
                     failed_items::FILE
@@ -124,8 +123,8 @@ mod tests {
         assert_eq!(
             summary.notes(),
             [
-                "note: with seed 5000, bbox.a does not fail bbox.flat, although it does so with every \
-                    seed in mistakes/fails.toml"
+                "note: with seed 5000, bbox.a passes bbox.flat, which it fails with every seed in \
+                 mistakes/fails.toml"
             ]
         );
     }

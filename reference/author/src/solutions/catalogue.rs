@@ -39,8 +39,7 @@ pub struct Mistake {
     /// The id of the variant that contains an independent mistake.
     #[serde(default)]
     pub variant: Option<String>,
-    /// The sources in which the mistake was seen, identified by their numbers in
-    /// `reference/mistakes/README.md`.
+    /// Where the mistake was seen, as numbers that `reference/mistakes/README.md` explains.
     #[serde(default)]
     pub seen: Vec<String>,
     /// A question for students that helps them find the mistake.
@@ -53,7 +52,7 @@ pub struct Mistake {
     /// apart. The texts must fit both.
     #[serde(default)]
     pub same_hint_as: Option<String>,
-    /// Other mistakes for which every sentence of the hint is also true.
+    /// Other mistakes that every sentence of the hint is also true of.
     #[serde(default)]
     pub also_true_of: Vec<String>,
     /// Pairs of other mistakes that together have the same effect. The hint is also true of code
@@ -64,8 +63,8 @@ pub struct Mistake {
     /// to.
     #[serde(default)]
     pub section: Option<Section>,
-    /// Additional tasks in which points may be lost. Only used if the entry combines two mistakes
-    /// that hide each other.
+    /// Additional tasks that may lose points. Only used if the entry combines two mistakes that
+    /// hide each other.
     #[serde(default)]
     pub other_tasks: Vec<Task>,
     /// Additional known mistakes whose hints are true of an independent or unknown mistake.
@@ -82,9 +81,9 @@ pub struct Mistake {
 pub struct Change {
     /// The task file to change. Defaults to the file of the mistake's task, or of the variant.
     pub file: Option<String>,
-    /// The text that is replaced.
+    /// The text to replace.
     pub was: String,
-    /// The text that replaces it.
+    /// The replacement.
     pub now: String,
 }
 
@@ -268,8 +267,9 @@ impl Mistake {
         });
         let Some((known, variant)) = found else {
             bail!(
-                "{id}: the catalogue of mistakes must contain all these ids, and variants.toml \
-                 must contain the variant, which must solve the mistake's task"
+                "{id}: the catalogue of mistakes must contain the mistake and its `true_hints`, \
+                 and variants.toml must contain a variant with this id that solves the mistake's \
+                 task"
             );
         };
         let mut expected = known.expected.clone();

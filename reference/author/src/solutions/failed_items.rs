@@ -1,6 +1,6 @@
-//! For each known mistake, the items that it fails whatever the seed: `fails.toml` in the folder of
-//! the mistakes. The file is generated because it isn't obvious which items a mistake fails only
-//! with some seeds.
+//! The items that each known mistake fails regardless of the seed, as listed in `fails.toml` in the
+//! folder of the mistakes. The file is generated because it isn't obvious which items a mistake
+//! fails only with some seeds.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,14 +15,14 @@ use crate::solutions::read_toml;
 /// The path of the file, relative to the folder of an assignment's solutions.
 pub const FILE: &str = "mistakes/fails.toml";
 
-/// For each known mistake, the items that it fails whatever the seed.
+/// The items that each known mistake fails regardless of the seed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FailedItems {
     /// The number of seeds that the lists were made with, starting at seed 0. The practice exam was
     /// used as well.
     pub seeds: u64,
-    /// For each mistake's id, the ids of the failed items in exam order.
+    /// The ids of the failed items in exam order, keyed by the mistake's id.
     pub fails: BTreeMap<String, Vec<String>>,
 }
 

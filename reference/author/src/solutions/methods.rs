@@ -15,8 +15,8 @@ use crate::solutions::solution::{Expected, Solution};
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
-    /// The variant whose items the methods replace. By default, the methods complete the given
-    /// code.
+    /// The variant whose items the methods replace. Without a variant, the methods complete the
+    /// reference's given code.
     #[serde(default)]
     variant: Option<String>,
     method: Vec<Method>,

@@ -67,7 +67,7 @@ impl Solutions {
         Ok(solutions)
     }
 
-    /// Updates the list of items that each mistake fails whatever the seed.
+    /// Updates the lists of items that the mistakes fail regardless of the seed.
     pub fn set_failed_items(&mut self, failed: &FailedItems) {
         for mistake in &mut self.mistakes {
             mistake.expected.fails = failed.of_mistake(&mistake.id).to_vec();

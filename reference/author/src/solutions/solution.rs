@@ -25,7 +25,7 @@ pub struct Expected {
     pub tasks: Vec<Task>,
     /// The only items where a correct solution may lose points.
     pub may_lose: Vec<String>,
-    /// The items that a wrong solution fails whatever the seed.
+    /// The items that a wrong solution fails regardless of the seed.
     pub fails: Vec<String>,
     /// The known mistakes whose hints are true for the solution.
     pub true_hints: Vec<String>,
@@ -38,7 +38,7 @@ impl Solution {
     ///
     /// # Panics
     ///
-    /// Panics if the solution isn't about any task, as is the case for the reference.
+    /// Panics if the solution isn't about any task. The reference, for example, isn't.
     pub fn task(&self) -> Task {
         self.expected.tasks[0]
     }

@@ -1,4 +1,4 @@
-//! The task files of a solution: the reference's files, some of them changed.
+//! The task files of a solution: the reference's files, possibly with changes.
 
 use std::path::Path;
 

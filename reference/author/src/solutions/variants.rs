@@ -18,7 +18,7 @@ use crate::solutions::sources::Sources;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// The stem of the replaced file (or of one of the replaced files), a dot and a name, such as
+    /// The stem of the replaced file (or of one of them), a dot and a name, such as
     /// `sphere.stable_quadratic`.
     pub id: String,
     /// A description of its method.
@@ -31,8 +31,8 @@ pub struct Variant {
     #[serde(default)]
     pub may_lose: Vec<String>,
     /// The paths of its parts, relative to the folder of variants and without `.rs`. Each path
-    /// begins with the stem of the file that the part replaces. Empty if the variant is a single
-    /// file, which is then named after the variant's id.
+    /// begins with the stem of the file that the part replaces. The list is empty if the variant is
+    /// a single file; that file is named after the variant's id.
     #[serde(default)]
     pub parts: Vec<String>,
     /// The crates that the variant uses although submissions may not use them.

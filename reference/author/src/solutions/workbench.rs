@@ -133,8 +133,8 @@ impl BuiltSolution {
     }
 
     /// Runs the solution. Returns its answers to each item. As in grading, one process answers all
-    /// items of a task, and a new process is started only after a fault, because mistakes that keep
-    /// state from one call to the next only show up in later items.
+    /// items of a task, and a new process is started only after a fault. Otherwise, mistakes that
+    /// keep state between calls wouldn't show up, since they only affect later items.
     pub fn answers_to_each(&self, items: &[&Item]) -> Result<Vec<Answers>> {
         let mut running = None;
         let mut all = Vec::new();

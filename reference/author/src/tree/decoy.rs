@@ -1,4 +1,4 @@
-//! Decoys: primitives outside their leaf's box, which a correct traversal never tests. A traversal
+//! Decoys: primitives outside their leaf's box that a correct traversal never tests. A traversal
 //! that tests a decoy returns a wrong hit.
 
 use protocol::{Ray, Shape, TreeNode};
@@ -8,7 +8,7 @@ use super::traversal::{MARGIN, Traversal, TraversalRule};
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 
-/// The reason why a correct traversal never enters a leaf.
+/// Why a correct traversal never enters a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SkipReason {
     /// The ray misses the leaf's own box.
@@ -24,9 +24,9 @@ pub enum SkipReason {
 /// Returns one of the two children of a node.
 pub type Child = fn(&TreeNode) -> u32;
 
-/// Returns whether the leaf is the given child of a node that every correct traversal enters, and
-/// whether the ray clearly misses the leaf's box. If both are true, only the boxes of the two
-/// children decide whether the leaf is entered.
+/// Returns true if the leaf is the given child of a node that every correct traversal enters and
+/// the ray clearly misses the leaf's box. In that case, only the boxes of the node's two children
+/// decide whether the leaf is entered.
 pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, child: Child) -> bool {
     let path = tree.path(leaf);
     let [.., parent, _] = path[..] else {
@@ -58,9 +58,8 @@ pub fn hits_below_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     primitives.any(|primitive| scan::intersect(ray64, &tree.shapes[primitive]).is_some())
 }
 
-/// Returns the reason why no correct traversal with this ray enters the leaf, or `None` if some
-/// correct traversal may enter the leaf. The reason must apply by a clear margin: [`MARGIN`] times
-/// the diagonal of a box.
+/// Returns why no correct traversal with this ray enters the leaf, or `None` if a correct traversal
+/// may enter it. The reason must hold by a clear margin: [`MARGIN`] times the diagonal of a box.
 pub fn skip_reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<SkipReason> {
     let bounds = tree.bounds(leaf);
     let grown = bounds.grown(MARGIN * bounds.diagonal());
@@ -133,9 +132,10 @@ fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
     Some(tree.bounds(index).span(&ray64.ahead())?.0)
 }
 
-/// Returns whether the ray misses the sibling of every node that is on the path from the fork down
-/// to the leaf and whose box begins beyond the closest hit. Such a node is the only child that the
-/// ray hits, so the slides' pseudo-code, taken literally, enters it without comparing distances.
+/// Checks the nodes below the fork's child, on the path down to the leaf, whose boxes begin beyond
+/// the closest hit. Returns whether the ray misses the sibling of every such node. The node is then
+/// the only child that the ray hits, so the slides' pseudo-code, taken literally, enters it without
+/// comparing distances.
 pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let Some(fork) = find_fork(tree, leaf, ray64) else {
         return false;
@@ -154,7 +154,7 @@ pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bo
 }
 
 /// Returns whether every correct traversal gives the correct answer for every ray: decoys are out
-/// of reach, traversals by all [`TraversalRule`]s are correct, and no answer depends on rounding.
+/// of reach, traversal is correct under every [`TraversalRule`], and no answer depends on rounding.
 pub fn is_fair(tree: &Tree, rays: &[Ray]) -> bool {
     rays.iter().all(|ray| {
         let ray64 = Ray64::from(ray);

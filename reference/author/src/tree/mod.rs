@@ -117,8 +117,8 @@ impl Tree {
         Some(if l == index { r } else { l })
     }
 
-    /// Returns, for each primitive, whether it is ordinary, i.e. in a reachable leaf and inside
-    /// that leaf's box. All other primitives are decoys or unreferenced.
+    /// For each primitive, returns whether it is ordinary, i.e. in a reachable leaf and inside that
+    /// leaf's box. All other primitives are decoys or unreferenced.
     pub fn ordinary_primitives(&self) -> Vec<bool> {
         let leaves = self.leaves();
         let shapes = 0..self.shapes.len();
@@ -200,8 +200,8 @@ impl Tree {
     }
 
     /// Returns the same tree with its root first, followed by a copy of the entire tree with its
-    /// root last. A traversal that starts at the first or the last node instead of `root` is still
-    /// correct on such a tree.
+    /// root last. On such a tree, even a traversal that starts at the first or the last node
+    /// instead of `root` is correct.
     ///
     /// The copy has its own nodes. If only the root were copied, its children would have two
     /// parents. That would confuse code that computes parents or depths in one pass over all nodes.

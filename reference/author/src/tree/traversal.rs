@@ -56,8 +56,8 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// Traverses the tree correctly: skips nodes that the ray misses or enters only beyond the
-    /// closest hit, and visits the nearer child first.
+    /// Traverses the tree correctly: visits the nearer child first, and skips nodes that the ray
+    /// misses or enters only beyond the closest hit.
     pub fn correct(tree: &'a Tree, ray64: &Ray64, rule: TraversalRule) -> Self {
         let mut traversal = Traversal::new(tree, ray64);
         if !tree.nodes.is_empty() {

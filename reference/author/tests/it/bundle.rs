@@ -1,7 +1,7 @@
 //! The students' bundle is complete, reproducible and free of secrets.
 //!
-//! `cargo author bundle --check`, which takes minutes, also checks that the bundle builds and
-//! grades with an empty home directory.
+//! `cargo author bundle --check` takes minutes. It also checks that the bundle builds and grades
+//! with an empty home directory.
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -23,7 +23,7 @@ fn secrets() -> Secrets {
     Secrets::gather(&root(), &authoring::RAYS, LightFiles::Solved, &BUNDLE).unwrap()
 }
 
-/// Returns the arguments of `cargo author bundle --out OUT`, followed by more arguments.
+/// Returns the arguments of `cargo author bundle --out OUT`, followed by the arguments `more`.
 fn bundle_to<'a>(out: &'a Path, more: &[&'a OsStr]) -> Vec<&'a OsStr> {
     let arguments = ["bundle", "--out"].map(OsStr::new);
     [&arguments[..], &[out.as_os_str()], more].concat()
@@ -100,7 +100,7 @@ fn a_bundle_has_part_two_solved_or_as_stubs_and_no_other_solution() {
             assert_eq!(!text.contains("#[cfg(test)]"), is_solved, "{name}: {file}");
         }
         assert!(bundle.files.contains_key("student/light/src/main.rs"));
-        // The solution is found if it is in the place of the stubs.
+        // If the solution takes the place of the stubs, the search finds it.
         bundle.insert(path, &*reference);
         let secrets = Secrets::gather(&root(), &authoring::RAYS, light, &bundle).unwrap();
         assert_eq!(secrets.search(&bundle).is_empty(), is_solved, "{name}");

@@ -9,8 +9,8 @@ use judging::exam::ExamQuestion;
 
 const SEEDS: [u64; 4] = [2025, 1, 2, 3];
 
-/// Returns the questions of `build.one_split` except the last, which is a control. In each question
-/// returned, one split is best.
+/// Returns the questions of `build.one_split` except the last, which is a control. Each of the
+/// returned questions has a single best split.
 fn one_split(seed: u64) -> Vec<ExamQuestion> {
     let items = resolve(build::TASK.draw(Seed(seed), &[]));
     let item = items.into_iter().find(|item| item.id == "build.one_split");

@@ -17,7 +17,7 @@ use judging::exam::Exam;
 /// would compile each of them twice. If they run one after the other, the second command reuses the
 /// first command's programs.
 static BUILDS: Mutex<()> = Mutex::new(());
-/// The commands that build solutions.
+/// The subcommands that build solutions.
 const BUILDING: [&str; 4] = ["calibrate", "mistakes", "mutants", "prove"];
 
 /// The students' bundle, collected once for all tests.
@@ -34,7 +34,7 @@ pub fn text(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
-/// Waits until nothing else is building solutions, and then makes others wait until the guard is
+/// Waits until nothing else is building solutions. Others then have to wait until the guard is
 /// dropped.
 pub fn lock_builds() -> impl Drop {
     BUILDS.lock().unwrap_or_else(PoisonError::into_inner)

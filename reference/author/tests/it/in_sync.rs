@@ -1,4 +1,4 @@
-//! The committed generated files are up to date, according to the `--check` of each command.
+//! The committed generated files are up to date, according to each command's `--check`.
 
 use std::fs;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use grader::task_session::{MAX_CRASHES, MAX_TIMEOUTS};
 
 use crate::harness::{author_succeeds, root, text};
 
-/// The folders with generated starters. The first two are copies of the same.
+/// The folders with generated starters. The first two are identical copies.
 const STARTERS: [&str; 3] = ["student/src", "grader/starter", "student/light/src"];
 
 /// Returns the starters' files in all folders.
@@ -46,7 +46,7 @@ fn the_handout_has_the_limits_of_the_grader() {
     let page: Vec<&str> = page.split_whitespace().collect();
     let page = page.join(" ");
     let limits = Budget::default().single_item();
-    // The second sentence contains these numbers as words.
+    // The second sentence below spells out these numbers.
     assert_eq!((MAX_TIMEOUTS, MAX_CRASHES), (1, 2));
     for sentence in [
         format!(
@@ -68,7 +68,7 @@ fn the_handout_has_the_limits_of_the_grader() {
 fn the_starter_has_every_file_in_each_folder_and_no_marks() {
     let files = starter_files();
     let with_main = RAYS.files.len() + RAYS.given.len() + 1;
-    // Part two also has its crate, its program, its world and its integrator.
+    // Part two also has the files of its crate, its program, its world and its integrator.
     let of_light = light::FILES.len() + 4;
     assert_eq!(files.len(), 2 * with_main + of_light, "{files:?}");
     for file in files {

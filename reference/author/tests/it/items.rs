@@ -153,8 +153,8 @@ fn rays_have_unit_length_and_exams_stay_within_the_budget() {
     }
 }
 
-/// Returns whether the keys of an item rule out a constant answer: they contain both hits and
-/// misses, directions that differ, or a tree.
+/// Returns whether an item's keys rule out a constant answer: they contain both hits and misses,
+/// directions that differ, or a tree.
 fn has_opposites(item: &Item) -> bool {
     let is_hit = |key: &Key| -> Vec<bool> {
         match key {

@@ -1,5 +1,5 @@
-//! Each module of a crate only uses modules that are further down in the table in the crate's
-//! `lib.rs`.
+//! Each module of a crate only uses modules that are further down in the table of layers in the
+//! crate's `lib.rs`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -77,7 +77,7 @@ fn a_gradescope_package_needs_a_final_exam() {
     assert!(refused.to_string().starts_with(message), "{refused}");
 }
 
-/// The version of Rust that packages install. Only enter a newer version here after CI has passed
+/// The version of Rust that packages install. Don't enter a newer version here until CI has passed
 /// with it.
 const RUST: &str = "1.95.0";
 

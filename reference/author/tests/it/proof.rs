@@ -27,7 +27,7 @@ use crate::harness::{author_succeeds, lock_builds, root, text};
 const CALIBRATION: &str = "reference/calibration.md";
 
 static SOLUTIONS: LazyLock<Solutions> = LazyLock::new(|| {
-    let workbench = Workbench::open(&RAYS).expect("there are a toolchain and a workspace");
+    let workbench = Workbench::open(&RAYS).expect("a toolchain and a workspace are available");
     Solutions::load(workbench).expect("every mistake applies to the reference")
 });
 
@@ -50,7 +50,8 @@ fn the_committed_table_covers_thirty_seeds() {
     assert!(table.contains("of 30 seeds (0 to 29)"), "{table}");
 }
 
-/// Grades a fixed sample of the mutants. Without `--fast`, the command grades all mutants.
+/// Grades a fixed sample of the mutants. Without `--fast`, `cargo author mutants` grades all of
+/// them.
 #[test]
 fn sampled_mutants_are_caught_or_equivalent() {
     let summary = author_succeeds(&["mutants", "--fast"]);
@@ -73,13 +74,12 @@ fn assert_recognised(recognition: &Recognition, count: usize, with_false_hint: u
 
 #[test]
 fn known_mistakes_are_recognised_and_unknown_ones_mostly_get_no_hint() {
-    // The mistakes that aren't recognised give no answers at all, which doesn't say much about the
-    // cause.
+    // The mistakes that aren't recognised give no answers at all, so there is little to recognise
+    // them by.
     let _lock = lock_builds();
     let recognition = recognise(&SOLUTIONS, &practice_exam()).unwrap();
-    // Three mistakes end in a stack overflow and get the hint for another mistake, which overflows
-    // the stack with the same lists. What this hint says about the answers is also true of these
-    // three mistakes.
+    // Three mistakes overflow the stack and get the hint for another mistake that overflows it with
+    // the same lists. That hint's description of the answers is also true of these three mistakes.
     assert_recognised(&recognition, 100, 3);
 }
 
@@ -92,7 +92,7 @@ fn mistakes_in_other_solutions_cost_points_and_most_are_recognised() {
 
 #[test]
 fn mistakes_of_no_known_kind_cost_points_and_get_no_false_hint() {
-    // Grading all of them takes as long as all other tests of this package together.
+    // Grading all of them would take as long as all the other tests of this package together.
     const STEP: usize = 4;
     let _lock = lock_builds();
     let recognition = recognise_unknown(&SOLUTIONS, &practice_exam(), STEP).unwrap();
@@ -143,8 +143,9 @@ fn reports_an_independent_mistake_that_does_not_apply() {
     ];
     for (id, variant) in names {
         let expected = format!(
-            "{id} in {variant}: the catalogue of mistakes must contain all these ids, and \
-             variants.toml must contain the variant, which must solve the mistake's task"
+            "{id} in {variant}: the catalogue of mistakes must contain the mistake and its \
+             `true_hints`, and variants.toml must contain a variant with this id that solves the \
+             mistake's task"
         );
         assert_eq!(message(mistake(id, variant)), expected);
     }

@@ -1,4 +1,4 @@
-//! A second assignment, the toy, works without any change to the code. The tests cover the toy's
+//! A second assignment, the toy, works without any changes to the code. The tests cover the toy's
 //! starter, its exam (with coverage, mistakes and proof), grading, a replay, a class, the bundle
 //! and a package.
 //!
@@ -42,7 +42,7 @@ fn text(path: &str) -> String {
     harness::text(&format!("reference/author/tests/toy/{path}"))
 }
 
-/// Writes a submission's two files, with these texts, to the folder `NAME/work`.
+/// Writes a submission's two files to the folder `NAME/work`.
 fn write_submission(class: &Path, name: &str, ball: &str, mirror: &str) {
     let work = class.join(name).join("work");
     fs::create_dir_all(&work).unwrap();
@@ -58,7 +58,7 @@ fn options() -> GradeOptions {
     }
 }
 
-/// Grades the submission with these texts.
+/// Grades a submission whose files have these texts.
 fn grade_texts(ball: &str, mirror: &str, dependents: Dependents) -> Score {
     let folder = TempDir::new().unwrap();
     write_submission(folder.path(), "any", ball, mirror);
@@ -100,7 +100,8 @@ fn the_toy_is_graded_like_any_assignment() {
     assert_eq!(points(&broken), [40, 0, 0]);
     assert_eq!(broken.build.not_compiled[0].file, "mirror.rs");
 
-    // With a wrong ball, only the first task loses points, thanks to the reference's ball.
+    // If the ball is wrong, only the first task loses points, because the other tasks are graded
+    // with the reference's ball.
     let far_side = solved_ball.replace("middle - half", "middle + half");
     let wrong_ball = grade_texts(&far_side, &solved_mirror, with_reference);
     assert_eq!(points(&wrong_ball), [0, 20, 40]);

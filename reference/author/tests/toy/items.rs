@@ -124,7 +124,7 @@ const OF_TWO: Declaration = Declaration {
         let balls = [random_ball(rng, center, 0), random_ball(rng, -center, 1)];
         let mut tree = construction::median_split(balls.into(), 2);
         let (rays, key) = rays_and_key(rng, &tree);
-        // In both orders, some rays hit the first ball and other rays hit the second.
+        // In both orders, some rays hit the first ball and others hit the second.
         let in_one_order = Question::hits(tree.geometry(), rays.clone());
         tree.shapes.reverse();
         let in_the_other = Question::hits(tree.geometry(), rays);

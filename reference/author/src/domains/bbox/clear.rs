@@ -32,7 +32,8 @@ impl BoxCall {
                 // Rays in the plane of a flat box aren't tested.
                 (origin - self.bounds.min)[axis].abs() < longer
             } else if is_flat.test(axis) {
-                // Where a slanting ray crosses the plane depends on the rounding of the time.
+                // The point where a slanted ray crosses the plane depends on how the time is
+                // rounded.
                 let late = 8.0 * EPSILON * coordinates.max_element() / speed;
                 let is_far = |other: usize| {
                     let away = late * f64::from(self.ray.dir[other].abs());

@@ -1,4 +1,4 @@
-//! Draws boxes, rays through and past them, and times.
+//! Generates random boxes, rays through and past them, and times.
 
 use glam::DVec3;
 use protocol::{Interval, Ray};
@@ -11,8 +11,8 @@ use crate::domains::{Call, Change, Generator};
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// Draws boxes of these sizes and, for each box, calls that fit an item's idea. Half of the calls
-/// are hits.
+/// Generates random boxes of these sizes and, for each box, random calls that fit the idea an item
+/// tests. Half of the calls are hits.
 pub fn tables(
     rng: &mut Rng,
     sizes: &[usize],
@@ -71,7 +71,7 @@ const CHANGES: &[Change<BoxCall>] = &[
     },
 ];
 
-/// Draws a box of this size. Up to two sides may be thin, and one may be flat.
+/// Picks a random box of this size. Up to two sides may be thin, and one may be flat.
 fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     let size = fields::size(rng, size);
     let is_cube = rng.index(6) == 0;
@@ -117,7 +117,7 @@ fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {
     bounds
 }
 
-/// Draws the length of a short side, as a fraction of the box's size.
+/// Picks a random length for a short side, as a fraction of the box's size.
 fn thin(rng: &mut Rng) -> f64 {
     match rng.index(3) {
         0 => rng.uniform(0.005, THIN),
@@ -137,8 +137,8 @@ fn exact(size: f64, [center, half]: [DVec3; 2]) -> [DVec3; 2] {
     ]
 }
 
-/// Draws times, and a ray that passes through or beside a box. Returns `None` if the ray would
-/// start too far away.
+/// Picks random times, and a random ray that passes through or beside a box. Returns `None` if the
+/// ray would start too far away.
 fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
     let sides = bounds.max - bounds.min;
@@ -165,8 +165,8 @@ fn query(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some((ray, short.flatten().unwrap_or(times)))
 }
 
-/// Draws times that end just after the ray enters the box, or begin just before it leaves. Returns
-/// `None` if the box isn't far ahead.
+/// Picks random times that end just after the ray enters the box, or begin just before it leaves.
+/// Returns `None` if the box isn't far ahead.
 fn short_times(rng: &mut Rng, call: &BoxCall) -> Option<Interval> {
     let (enter, leave) = call.crossing()?;
     let inside = call.size() * rng.uniform(0.04, 0.07);
@@ -184,8 +184,8 @@ fn short_times(rng: &mut Rng, call: &BoxCall) -> Option<Interval> {
     })
 }
 
-/// Draws a ray, usually in this direction. Sometimes the ray starts far away or at the origin
-/// instead, and then its direction is different.
+/// Picks a random ray, usually in this direction. Some rays start far away or at the origin
+/// instead, so their direction is different.
 fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Interval)> {
     let size = bounds.half_side();
     let target = target(rng, bounds);
@@ -200,7 +200,7 @@ fn query_along(rng: &mut Rng, bounds: &Bounds, dir: DVec3) -> Option<(Ray, Inter
     Some(with_times(rng, origin, dir, ahead.max(0.0) + 2.0 * size))
 }
 
-/// Draws a point in the box, close to one of its faces, or in the space around the box.
+/// Picks a random point in the box, close to one of its faces, or in the space around the box.
 fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -229,8 +229,8 @@ fn target(rng: &mut Rng, bounds: &Bounds) -> DVec3 {
     }
 }
 
-/// Draws a ray that is almost parallel to a slab, since one component of its direction is almost 0.
-/// The box is so far away that the ray may enter or leave the slab before it gets there.
+/// Picks a random ray that is almost parallel to a slab, since one component of its direction is
+/// almost 0. The box is so far away that the ray may enter or leave the slab before it gets there.
 fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -246,7 +246,7 @@ fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Draws a ray that crosses a box as thin as foil or passes beside it. One component of its
+/// Picks a random ray that crosses a box as thin as foil or passes beside it. One component of its
 /// direction is below 3e-6.
 fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
@@ -269,7 +269,7 @@ fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(R
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Draws a ray that starts exactly on a face of the box, on an edge, or in a corner.
+/// Picks a random ray that starts exactly on a face of the box, on an edge, or in a corner.
 fn from_faces(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let mut origin = bounds.center() + 0.4 * rng.point(1.0) * sides;
@@ -285,8 +285,8 @@ fn from_faces(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some(with_times(rng, origin, dir, sides.max_element()))
 }
 
-/// Draws a ray that starts exactly at the centre of the box. Returns `None` if the centre isn't
-/// exact in single precision.
+/// Picks a random ray that starts exactly at the centre of the box. Returns `None` if the centre
+/// isn't exact in single precision.
 fn from_center(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let center = bounds.center();
     let is_exact = center.as_vec3().as_dvec3() == center;
@@ -294,7 +294,7 @@ fn from_center(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_exact.then(|| with_times(rng, center, dir, bounds.half_side()))
 }
 
-/// Draws a ray that starts exactly at the origin of the world.
+/// Picks a random ray that starts exactly at the origin of the world.
 fn from_the_origin(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let target = target(rng, bounds);
     let dir = target.try_normalize()?;
@@ -303,7 +303,7 @@ fn from_the_origin(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some(with_times(rng, DVec3::ZERO, dir, furthest))
 }
 
-/// Draws a ray whose start has one or two coordinates that are 0.
+/// Picks a random ray whose origin has one or two zero coordinates.
 fn from_a_plane_of_axes(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let (dir, size) = (fields::direction(rng), bounds.half_side());
     let target = target(rng, bounds);
@@ -318,7 +318,7 @@ fn from_a_plane_of_axes(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval
     is_inside.then(|| with_times(rng, origin, dir, furthest))
 }
 
-/// Draws a ray that clips a corner or an edge of the box.
+/// Picks a random ray that clips a corner or an edge of the box.
 fn past_a_corner(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -387,7 +387,7 @@ fn with_almost_the_same_rays(
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
     fits: impl Fn(&BoxCall) -> bool,
 ) -> (Bounds, Vec<(Ray, Interval)>) {
-    /// The maximum number of rays to draw.
+    /// The maximum number of random rays to try.
     const ATTEMPTS: usize = 3000;
     let sides = bounds.max - bounds.min;
     let size = bounds.half_side();
@@ -462,15 +462,15 @@ pub fn lines_and_a_point(rng: &mut Rng) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     (0..4).map(table).collect()
 }
 
-/// Returns the calls in a table, with up to three new calls added. Two of the new rays are parallel
-/// to the previous ray, and the third starts at the same point as the previous ray. Each new ray
-/// hits if the previous ray misses, and vice versa.
+/// Returns the calls in a table, with up to three calls added. Two of the new rays are parallel to
+/// the previous ray, and the third starts at the same point as the previous ray. Each new ray hits
+/// if the previous ray misses, and vice versa.
 fn with_related_rays(
     rng: &mut Rng,
     (bounds, mut queries): (Bounds, Vec<(Ray, Interval)>),
     fits: impl Fn(&BoxCall) -> bool,
 ) -> (Bounds, Vec<(Ray, Interval)>) {
-    /// The maximum number of rays drawn for each new call.
+    /// The maximum number of random rays to try for each new call.
     const ATTEMPTS: usize = 400;
     let is_hit = |query: &(Ray, Interval)| BoxCall::new(bounds, *query).is_hit();
     // The first new ray is parallel to the ray in the last row. If necessary, a different row is

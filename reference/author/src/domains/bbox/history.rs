@@ -1,4 +1,4 @@
-//! Calls that are almost the same as the previous call on the same box.
+//! Calls that are almost identical to the previous call on the same box.
 
 use protocol::{Interval, Ray};
 
@@ -83,7 +83,8 @@ fn are_almost_the_same(one: &Interval, other: &Interval) -> bool {
     one != other && are_near(one.min, other.min) && are_near(one.max, other.max)
 }
 
-/// Returns the class if the previous call had the same times and a ray that is closely related.
+/// Returns the class of a previous call with the same times and a closely related ray, or `None` if
+/// the previous call wasn't of this kind.
 fn same_times_class(call: &BoxCall, before: &Ray, times: &Interval) -> Option<usize> {
     let ray = &call.ray;
     if *times != call.times {

@@ -177,8 +177,7 @@ const FORM: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// Boxes whose sides have exactly the same length along two axes but a different length along the
-/// third.
+/// Boxes that have exactly the same length along two axes but a different length along the third.
 const SQUARE: Aspect<BoxCall> = Aspect {
     name: "square",
     classes: &["across x", "across y", "across z"],
@@ -214,7 +213,7 @@ const PAPER: f64 = 0.0009;
 /// A box is as thin as foil if its shortest side is below this fraction of its longest side.
 const FOIL: f64 = 1.8e-4;
 
-/// The number of axes along which a face of the box is at the coordinate 0.
+/// The number of axes along which a face of the box is at coordinate 0.
 const ZERO_SIDES: Aspect<BoxCall> = Aspect {
     name: "sides at 0",
     classes: &["along one axis", "along all axes"],
@@ -286,7 +285,7 @@ const START_AT_THE_ORIGIN: Aspect<BoxCall> = Aspect {
     },
 };
 
-/// The number of coordinates of the start that are 0.
+/// How many of the start's coordinates are 0.
 const ZEROS_OF_START: Aspect<BoxCall> = Aspect {
     name: "zeros in the start",
     classes: &["one", "two"],
@@ -364,7 +363,8 @@ const WAY: Aspect<BoxCall> = Aspect {
 /// half the diagonal.
 const CORNER: f64 = 0.953;
 
-/// The part of the path through a distant box that is within the times, if this part is small.
+/// The part of the ray's path through a distant box that is within the times, if that part is
+/// short.
 const SHORT_TIMES: Aspect<BoxCall> = Aspect {
     name: "part of the way through",
     classes: &[

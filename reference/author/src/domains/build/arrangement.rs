@@ -35,7 +35,7 @@ pub const ARRANGEMENT: Aspect<BuildCall> = Aspect {
     class: arrangement,
 };
 
-/// The same arrangement, ignoring its axis. Each property of a tree is tested with each
+/// The arrangement, regardless of its axis. Each property of a tree is tested with each
 /// arrangement.
 pub const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
     name: "arrangement along any axis",

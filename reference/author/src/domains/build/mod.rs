@@ -195,7 +195,8 @@ const EVERY_PROPERTY: &[&str] = &[
 /// All judged properties of a tree except its cost.
 const ALL_BUT_COST: &[&str] = EVERY_PROPERTY.split_last().unwrap().1;
 
-/// The aspects that are balanced when calls are drawn: those that can be computed without a tree.
+/// The aspects that are balanced when calls are picked at random: those that can be computed
+/// without a tree.
 pub const DRAWN: &[Aspect<BuildCall>] = &[
     COUNT,
     LEAF_SIZE,

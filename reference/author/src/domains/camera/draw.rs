@@ -1,4 +1,4 @@
-//! Draws cameras and samples.
+//! Generates random cameras and samples.
 
 use glam::{UVec2, Vec2, uvec2};
 use protocol::{PinholeCamera, Sample};
@@ -6,7 +6,7 @@ use protocol::{PinholeCamera, Sample};
 use super::{ALMOST, ANGLES, COMMON_FILMS, OLD, ROUND_ANGLES, SENSORS, SIDES, USUAL_RATIOS};
 use crate::seed::Rng;
 
-/// Draws a number from an interval of a domain.
+/// Picks a random number from a range of a domain.
 pub fn drawn((from, to): (f64, f64), rng: &mut Rng) -> f64 {
     if from < to {
         rng.log_uniform(from, to)
@@ -15,7 +15,7 @@ pub fn drawn((from, to): (f64, f64), rng: &mut Rng) -> f64 {
     }
 }
 
-/// Draws an offset along one axis, often close to an edge of the pixel.
+/// Picks a random offset along one axis, often close to an edge of the pixel.
 pub fn offset(rng: &mut Rng) -> f32 {
     let offset = match rng.index(7) {
         0 => 0.0,
@@ -27,7 +27,7 @@ pub fn offset(rng: &mut Rng) -> f32 {
     offset as f32
 }
 
-/// Draws a film's width or height in this class.
+/// Picks a random width or height of a film in this class.
 pub fn side(rng: &mut Rng, class: usize) -> u32 {
     match class % SIDES.len() {
         0 => 1,
@@ -40,9 +40,9 @@ pub fn side(rng: &mut Rng, class: usize) -> u32 {
     }
 }
 
-/// Draws cameras with all classes of angles of view, sensors and films. Most differ from the
-/// previous camera in a single field and get the same samples, so that a method that keeps state
-/// between calls fails.
+/// Generates random cameras with all classes of angles of view, sensors and films. Most differ from
+/// the previous camera in a single field and get the same samples, so that a method that keeps
+/// state between calls fails.
 pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let (classes, forms) = (
         rng.shuffled((0..SIDES.len()).collect()),
@@ -86,8 +86,8 @@ pub fn cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     cameras
 }
 
-/// Draws cameras that each differ from the previous one in a single field, most by less than 1%.
-/// All of them get the same samples.
+/// Generates random cameras that each differ from the previous one in a single field, most by less
+/// than 1%. All of them get the same samples.
 pub fn almost_equal_cameras(
     rng: &mut Rng,
     first: PinholeCamera,
@@ -134,8 +134,8 @@ pub fn almost_equal_cameras(
     all
 }
 
-/// Draws cameras with films of common sizes, whose sensors have another aspect ratio: that of the
-/// film with its sides exchanged, or any other.
+/// Generates random cameras with films of common sizes. The sensor's aspect ratio differs from the
+/// film's: it is that of the film with its sides swapped, or a random one.
 pub fn common_films(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let films = rng.shuffled(COMMON_FILMS.to_vec());
     let views = films.into_iter().enumerate().map(|(index, film)| {
@@ -164,8 +164,8 @@ pub fn common_films(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     views.collect()
 }
 
-/// Draws cameras whose field of view is close to a round number of degrees and whose aspect ratio
-/// is close to a common aspect ratio. Some films are strips.
+/// Generates random cameras whose field of view is close to a round number of degrees and whose
+/// aspect ratio is close to a common one. Some films are strips.
 pub fn almost_usual_cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let almost = |rng: &mut Rng, number: f64, difference: f64| {
         (number + rng.sign() * rng.uniform(0.75, 0.98) * difference) as f32
@@ -185,8 +185,8 @@ pub fn almost_usual_cameras(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> 
     all
 }
 
-/// Draws samples at the edges of narrow views on wide sensors, in the middle of a large film with
-/// an ordinary view, and in a single pixel with a wide view.
+/// Generates random samples at the edges of narrow views on wide sensors, in the middle of a large
+/// film with an ordinary view, and in a single pixel with a wide view.
 pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let mut all = Vec::new();
     for (from, to, ratio) in [(3.5, 4.95, 7.0), (7.5, 9.9, 9.0), (10.0, 15.0, 7.0)] {
@@ -234,8 +234,8 @@ pub fn extreme_views(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     all
 }
 
-/// Draws ordinary views on films of a few pixels. Each sample has something in common with the
-/// previous one: the column, the row, the pixel or the offset.
+/// Generates random ordinary views on films of a few pixels. Each sample has something in common
+/// with the previous one: the column, the row, the pixel or the offset.
 pub fn films_of_few_pixels(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     let films = [(2, 1), (1, 2), (2, 2), (3, 1), (1, 3), (3, 2), (2, 3)];
     let films = rng.shuffled(films.to_vec());
@@ -268,8 +268,8 @@ pub fn films_of_few_pixels(rng: &mut Rng) -> Vec<(PinholeCamera, Vec<Sample>)> {
     films.into_iter().enumerate().map(view).collect()
 }
 
-/// Draws samples on a film. The first and last few samples also exist on the rotated film. One
-/// sample repeats the previous one with x and y swapped.
+/// Generates random samples on a film. The first and last few samples also exist on the rotated
+/// film. One sample repeats the previous one with x and y swapped.
 fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
     let square = UVec2::splat(film.min_element());
     let films = [square, square, film, film, film, film, square, square];
@@ -283,7 +283,7 @@ fn samples_of_both(rng: &mut Rng, film: UVec2) -> Vec<Sample> {
     samples
 }
 
-/// Draws a pixel of a film, often at an edge, and a position in this pixel.
+/// Picks a random pixel of a film, often at an edge, and a random position in this pixel.
 pub fn sample(rng: &mut Rng, film: UVec2) -> Sample {
     let mut position = |count: u32| match rng.index(5) {
         0 => 0,

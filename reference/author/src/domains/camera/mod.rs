@@ -78,7 +78,7 @@ pub struct CameraCall {
     before: Option<Sample>,
 }
 
-/// The vertical fields of view that the contract allows, as intervals in degrees.
+/// The vertical fields of view that the contract allows, as ranges in degrees.
 pub const FIELDS_OF_VIEW: [(f64, f64); 8] = [
     (1.0, 1.0),
     (1.0, 10.0),
@@ -98,7 +98,7 @@ const FIELD_OF_VIEW: Aspect<CameraCall> = Aspect {
     class: |call| part(&FIELDS_OF_VIEW, call.camera.vertical_fov.into()),
 };
 
-/// The aspect ratios that the contract allows, as intervals.
+/// The aspect ratios that the contract allows, as ranges.
 pub const ASPECT_RATIOS: [(f64, f64); 7] = [
     (0.1, 0.1),
     (0.1, 0.3),
@@ -215,14 +215,14 @@ const ANGLE: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// Intervals of the vertical fields of view for each class of [`ANGLE`].
+/// The ranges of vertical fields of view for each class of [`ANGLE`], in degrees.
 const ANGLES: [[(f64, f64); 3]; 3] = [
     [(1.0, 1.0), (1.0, 5.0), (5.0, 15.0)],
     [(16.0, 30.0), (30.0, 60.0), (60.0, 120.0)],
     [(175.0, 175.0), (165.0, 175.0), (121.0, 150.0)],
 ];
 
-/// Intervals of the aspect ratios for each class of [`SENSOR`].
+/// The ranges of aspect ratios for each class of [`SENSOR`].
 const SENSORS: [&[(f64, f64)]; 3] = [
     &[(0.1, 0.1), (0.1, 0.3), (0.3, 0.89)],
     &[(0.9, 1.1)],
@@ -242,7 +242,7 @@ const SENSOR: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// Fields of view with a known tangent, in degrees.
+/// Fields of view whose tangents are well known, in degrees.
 pub const ROUND_ANGLES: [f64; 5] = [30.0, 45.0, 60.0, 90.0, 120.0];
 
 const ROUND_ANGLE: Aspect<CameraCall> = Aspect {
@@ -353,7 +353,7 @@ const FEW_PIXELS: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// Sizes that many films have.
+/// Common film sizes, in pixels.
 const COMMON_FILMS: [(u32, u32); 8] = [
     (1280, 720),
     (1920, 1080),
@@ -365,7 +365,7 @@ const COMMON_FILMS: [(u32, u32); 8] = [
     (64, 64),
 ];
 
-/// Films of a common size, whose sensors don't have the film's aspect ratio.
+/// Films of a common size, if the sensor's aspect ratio differs from the film's.
 const COMMON_FILM: Aspect<CameraCall> = Aspect {
     name: "film of a common size",
     classes: &[
@@ -386,9 +386,9 @@ const COMMON_FILM: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// The previous sample on the same camera. Where it is said to be in the same column, its offset's
-/// x is the same too, and where it is said to be in the same row, its offset's y is. All classes but
-/// the first two contain only calls with clearly different answers.
+/// The previous sample on the same camera. A sample "in the same column" also has the same offset
+/// in x, and one "in the same row" has the same offset in y. All classes but the first two contain
+/// only calls with clearly different answers.
 const HISTORY: Aspect<CameraCall> = Aspect {
     name: "sample before",
     classes: &[
@@ -401,7 +401,7 @@ const HISTORY: Aspect<CameraCall> = Aspect {
         "less than 4e-4 pixels away",
     ],
     class: |call| {
-        /// The distance of two samples that hardly differ, in pixels.
+        /// The distance between two samples that hardly differ, in pixels.
         const HARDLY: f32 = 4e-4;
         /// The smallest angle between their directions, in radians.
         const LEAST: f64 = 2e-3;
@@ -461,7 +461,7 @@ const VIEW: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// Returns the index of the first interval that contains a number, up to rounding.
+/// Returns the index of the first range that contains a number, up to rounding.
 fn part(parts: &[(f64, f64)], number: f64) -> Option<usize> {
     let fits = |(from, to): (f64, f64)| {
         let rounding = 1e-6 * number;

@@ -18,8 +18,8 @@ impl ShapeCall {
         self.scaled(1.0 + (0.005 + 0.004 * random.x) as f32)
     }
 
-    /// Returns the call with everything half as large, as seen from the world's origin. The range of
-    /// the ray stays the same.
+    /// Returns the call with everything scaled by one half around the world's origin, except for
+    /// the ray's range.
     pub fn in_a_smaller_world(&self, _: DVec3) -> Self {
         const HALF: f32 = 0.5;
         let shape = match moved(&self.shape, |point| HALF * point) {
@@ -70,13 +70,12 @@ impl ShapeCall {
         let (Shape::Sphere { shape, .. }
         | Shape::Triangle { shape, .. }
         | Shape::FlatTriangle { shape, .. }) = &mut call.shape;
-        // Any bit of the number can change.
+        // Any bit of the number can be flipped.
         *shape ^= 1 << ((0.5 + 0.499 * random.x) * 32.0) as u32;
         call
     }
 
-    /// Returns a vector along an axis. Compared to the shape's size, the vector is either short or
-    /// long.
+    /// Returns a vector along an axis that is either short or long compared to the shape's size.
     pub fn offset_along(&self, axis: usize, random: DVec3) -> Vec3 {
         let part = if random[(axis + 1) % 3] > 0.0 {
             0.5

@@ -1,4 +1,4 @@
-//! Calls that are almost the same as the previous call on the same shape.
+//! Calls that are almost identical to the previous call on the same shape.
 
 use glam::Vec3Swizzles;
 use protocol::Ray;
@@ -12,7 +12,7 @@ use crate::domains::tables::Follow;
 use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 
-/// The largest angle between two directions that count as almost the same, in radians.
+/// The largest angle, in radians, between two directions that count as almost the same.
 const ANGLE: f64 = 2e-3;
 
 /// The largest distance between the origins of two rays that count as almost the same, as a

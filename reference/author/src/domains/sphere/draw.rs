@@ -1,4 +1,4 @@
-//! Draws spheres, and rays that start in, around and beside them.
+//! Generates random spheres, and rays that start in, around and beside them.
 
 use std::f64::consts::TAU;
 
@@ -13,9 +13,9 @@ use crate::domains::{Call, Change, Generator};
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws spheres of these sizes and, for each sphere, rays for which `belongs` returns true. Half
-/// of the rays hit their sphere. Every correct formula computes the judged quantities within their
-/// tolerances.
+/// Generates random spheres of these sizes and, for each sphere, random rays for which `belongs`
+/// returns true. Half of the rays hit their sphere. Every correct formula computes the judged
+/// quantities within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
@@ -37,7 +37,7 @@ pub fn tables(
     generator.tables(rng, sizes)
 }
 
-/// Draws a sphere with a radius in this class.
+/// Picks a random sphere with a radius in this class.
 fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     // Some radii are common numbers, such as 0.5, 1.5 or 12.
     let common = match size {
@@ -65,8 +65,8 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     }
 }
 
-/// Draws a ray that starts in, around or beside a sphere. Returns `None` if it would start too far
-/// away.
+/// Picks a random ray that starts in, around or beside a sphere. Returns `None` if it would start
+/// too far away.
 fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     let bounds = scan::bounds(shape);
     let (center, radius) = (bounds.center(), 0.5 * (bounds.max - bounds.min).x);
@@ -113,7 +113,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     Some(ray.within(range.min, range.max))
 }
 
-/// Draws a range that begins or ends just before or just after a root.
+/// Picks a random range that begins or ends just before or just after a root.
 fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
     let beside = line.sphere.radius * rng.log_uniform(0.0101, 0.02);
     let end = (line.roots[rng.index(2)] + rng.sign() * beside) as f32;

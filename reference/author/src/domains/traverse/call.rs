@@ -68,8 +68,7 @@ pub(super) enum SecondLeaf {
 }
 
 impl TraverseCall {
-    /// Returns the leaf of a second hit close behind the closest hit, if there is such a second
-    /// hit.
+    /// Returns the leaf of a second hit close behind the closest hit, if there is one.
     pub(super) fn layer(&self) -> Option<SecondLeaf> {
         /// The maximum relative difference between the distances, and also the maximum distance
         /// from the start, as a fraction of the tree's diagonal.
@@ -107,7 +106,8 @@ impl TraverseCall {
     }
 
     /// Returns how many nodes are still to be visited when a traversal reaches the leaf with the
-    /// hit. These are the siblings of this leaf, or of a node above it, that the ray enters later.
+    /// hit. These nodes are siblings of this leaf, or of a node above it, that the ray enters
+    /// later.
     pub fn nodes_waiting(&self) -> Option<usize> {
         let (tree, ray64) = (&self.subject.tree, Ray64::from(&self.ray));
         let leaf = self.leaf_of_hit()?;
@@ -151,8 +151,8 @@ impl TraverseCall {
         self.has_another_answer() && self.previous.is_some_and(is_almost_the_same)
     }
 
-    /// Returns whether the ray has the opposite or a mirrored direction compared with the previous
-    /// one, and hits at a clearly different distance.
+    /// Returns whether the ray's direction is opposite to, or a mirror image of, the previous ray's
+    /// direction, and the ray hits at a clearly different distance.
     pub(super) fn is_after_a_mirrored_ray(&self) -> bool {
         let is_mirrored = |previous| fields::is_mirrored(&previous, &self.ray);
         self.has_another_answer() && self.previous.is_some_and(is_mirrored)
@@ -172,7 +172,7 @@ impl TraverseCall {
     }
 
     /// Returns whether an unreferenced primitive in front of the answer is about as large as the
-    /// tree, or `None` if no unreferenced primitive is in front of the answer.
+    /// tree, or `None` if there is no such primitive.
     pub(super) fn unreferenced_in_front(&self) -> Option<bool> {
         /// A primitive counts as about as large as the tree if, along two axes, its extent is at
         /// least this fraction of the tree's.

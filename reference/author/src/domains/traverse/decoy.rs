@@ -26,8 +26,8 @@ pub(super) struct Decoy {
     pub(super) is_beside_a_large_leaf: bool,
     /// Whether the ray starts in the box of the leaf's sibling and hits something there.
     pub(super) is_from_siblings_box: bool,
-    /// Whether a leaf that the ray enters before the leaf with the hit has a hit beyond the entry
-    /// into the decoy's leaf.
+    /// Whether the ray enters another leaf before the leaf with the hit, and its closest hit in
+    /// that other leaf is beyond the entry into the decoy's leaf.
     pub(super) is_after_a_farther_hit: bool,
     pub(super) history: usize,
 }
@@ -77,8 +77,8 @@ impl Decoy {
     }
 }
 
-/// Classifies the reason why a leaf isn't entered. Returns `None` if a node above the leaf is the
-/// reason.
+/// Classifies the reason a leaf isn't entered. Returns `None` if the reason is a node above the
+/// leaf.
 fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
     let reason = decoy::skip_reason(tree, leaf, ray64)?;
     let sibling = tree.sibling(leaf)?;
@@ -116,7 +116,7 @@ fn is_beside_a_large_leaf(tree: &Tree, leaf: usize) -> bool {
     are_leaves && l.len() >= LARGE && r.len() >= LARGE && l.end == r.start
 }
 
-/// Returns whether the ray starts in the box of a leaf's sibling, and hits something there.
+/// Returns whether the ray starts in the box of a leaf's sibling and hits something there.
 fn is_from_siblings_box(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let start = Bounds::around([ray64.origin]);
     let holds_start = |sibling: &usize| tree.bounds(*sibling).contains(&start);
@@ -124,9 +124,9 @@ fn is_from_siblings_box(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     sibling.is_some() && tree.leaf_of_hit(ray64) == sibling
 }
 
-/// Returns whether a leaf that the ray enters before the leaf with the hit has a hit beyond the entry
-/// into the decoy's leaf. Returns `None` if the ray hits nothing or misses the box of the decoy's
-/// leaf.
+/// Returns whether the ray enters another leaf before the leaf with the hit, and its closest hit in
+/// that other leaf is beyond the entry into the decoy's leaf. Returns `None` if the ray hits
+/// nothing or misses the box of the decoy's leaf.
 fn is_after_a_farther_hit(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<bool> {
     let hit_leaf = tree.leaf_of_hit(ray64)?;
     let (enters, enters_hit) = (entry(tree, leaf, ray64)?, entry(tree, hit_leaf, ray64)?);
@@ -149,7 +149,7 @@ fn history(tree: &Tree, leaf: usize, ray64: &Ray64, previous: Option<&Ray>) -> u
     if tree.leaf_of_hit(&previous) == Some(leaf) {
         return 1;
     }
-    // The distance by which the ray enters the leaf earlier than its sibling.
+    // How much earlier the ray enters the leaf than its sibling, as a distance.
     let earlier = |ray64: &Ray64| {
         let sibling = tree.sibling(leaf)?;
         Some(entry(tree, sibling, ray64)? - entry(tree, leaf, ray64)?)

@@ -5,7 +5,7 @@ use super::decoy::Decoy;
 use crate::domains::Aspect;
 use crate::domains::fields::class_up_to;
 
-/// The reason why the decoy must not be tested.
+/// Why the decoy must not be tested.
 pub(super) const REASON: Aspect<TraverseCall> = Aspect {
     name: "decoy",
     classes: &[

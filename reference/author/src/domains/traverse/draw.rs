@@ -1,4 +1,4 @@
-//! Draws rays toward trees and from inside them.
+//! Generates random rays toward trees and from inside them.
 
 use glam::DVec3;
 use protocol::{Ray, Shape};
@@ -8,8 +8,8 @@ use crate::oracle::{Ray64, scan};
 use crate::seed::Rng;
 use crate::tree::Tree;
 
-/// Draws a ray toward a point in a tree. The ray starts near the tree, far away from it or inside
-/// it, but its distance from each shape is at most 30 times the shape's size.
+/// Picks a random ray toward a point in a tree. The ray starts near the tree, far away from it or
+/// inside it, but its distance from each shape is at most 30 times the shape's size.
 pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
     /// The maximum distance from a faraway start to any shape, as a multiple of the smallest
     /// shape's size.
@@ -31,8 +31,8 @@ pub fn ray(rng: &mut Rng, tree: &Tree) -> Ray {
     Ray::new(start.as_vec3(), dir.as_vec3())
 }
 
-/// Draws a ray that starts where another ray hits a surface. The new ray's range begins a short
-/// distance from its start. Returns `None` if the other ray hits nothing.
+/// Picks a random ray that starts where another ray hits a surface. The new ray's range begins a
+/// short distance from its start. Returns `None` if the other ray hits nothing.
 pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let hit = tree.expected_hit(&Ray64::from(&ray(rng, tree)))?;
     let later = 0.02 * tree.bounds(tree.root).diagonal();
@@ -40,8 +40,8 @@ pub fn ray_from_a_surface(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     Some(ray.within(later as f32, f32::INFINITY))
 }
 
-/// Draws a ray that starts on a sphere and passes through it. The range begins a little after the
-/// ray's start. Returns `None` if the ray doesn't hit that sphere.
+/// Picks a random ray that starts on a sphere and passes through it. The range begins a little
+/// after the ray's start. Returns `None` if the ray doesn't hit that sphere.
 pub fn ray_through_the_sphere_that_it_starts_on(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let shape = &tree.shapes[rng.index(tree.shapes.len())];
     let Shape::Sphere { center, radius, .. } = *shape else {
@@ -54,8 +54,8 @@ pub fn ray_through_the_sphere_that_it_starts_on(rng: &mut Rng, tree: &Tree) -> O
     (dir.dot(normal) < -0.3 && hit.shape == shape.number()).then_some(ray)
 }
 
-/// Draws a ray that starts in a box, more than half a side away from the middle, and hits something
-/// in a corner of the same box. Returns `None` if there is nothing to hit.
+/// Picks a random ray that starts in a box, more than half a side away from the middle, and hits
+/// something in a corner of that box. Returns `None` if there is nothing to hit.
 pub fn ray_in_a_corner(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let leaves = tree.leaves();
     let leaf = leaves[rng.index(leaves.len())];

@@ -1,4 +1,4 @@
-//! Draws triangles, and rays through and past them.
+//! Generates random triangles, and rays through and past them.
 
 use std::mem;
 
@@ -17,8 +17,9 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 use crate::seed::Rng;
 
-/// Draws triangles of these sizes and, for each triangle, rays that fit an item's idea. Half of the
-/// rays are hits. Every correct formula computes the judged quantities within their tolerances.
+/// Generates random triangles of these sizes and, for each triangle, random rays that fit the idea
+/// an item tests. Half of the rays are hits. Every correct formula computes the judged quantities
+/// within their tolerances.
 pub fn tables(
     rng: &mut Rng,
     judged: &[&str],
@@ -40,8 +41,8 @@ pub fn tables(
     generator.tables(rng, sizes)
 }
 
-/// Draws a triangle of this size. It faces exactly or almost along an axis, along a diagonal, or in
-/// any other direction, and may be narrow at a corner.
+/// Picks a random triangle of this size. It faces exactly or almost along an axis, along a
+/// diagonal, or in any other direction. It may be narrow at a corner.
 fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     let size = fields::size(rng, size);
     let corners = corners(rng);
@@ -65,7 +66,7 @@ fn drawn_shape(rng: &mut Rng, size: usize) -> Shape {
     }
 }
 
-/// Draws the corners of a triangle whose sides are about one unit long.
+/// Picks random corners of a triangle whose sides are about one unit long.
 fn corners(rng: &mut Rng) -> [DVec3; 3] {
     let (axis, kind) = (rng.index(3), rng.index(4));
     let tilt = match kind {
@@ -125,7 +126,7 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
     corners
 }
 
-/// Draws the corners of a triangle with a right angle between two sides along axes.
+/// Picks random corners of a triangle with a right angle between two sides along axes.
 fn with_legs_along_axes(rng: &mut Rng, axis: usize, other: usize) -> [DVec3; 3] {
     let corner = rng.index(3);
     let mut corners = [rng.point(1.0); 3];
@@ -169,7 +170,7 @@ fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3
     (altitude > 0.3 * longest && is_inside).then_some(moved)
 }
 
-/// Draws texture coordinates, and normals that all point roughly to one side.
+/// Picks random texture coordinates, and random normals that all point roughly to one side.
 fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3] {
     let common = (side + 0.7 * rng.direction()).normalize();
     let spread = match rng.index(6) {
@@ -220,7 +221,8 @@ fn with_attributes(rng: &mut Rng, corners: [Vec3; 3], side: DVec3) -> [Vertex; 3
     vertices
 }
 
-/// Draws a ray through the plane of a triangle. Returns `None` if it would start too far away.
+/// Picks a random ray through the plane of a triangle. Returns `None` if it would start too far
+/// away.
 fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     let [p0, p1, p2] = scan::corners(shape)?;
     let [w0, w1, w2] = weights(rng);
@@ -258,7 +260,7 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
     Some(ray.within(range.min, range.max))
 }
 
-/// Draws a range that begins or ends just in front of or just behind the plane of the triangle.
+/// Picks a random range that begins or ends just in front of or just behind the triangle's plane.
 fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
     let plane = Plane::of(call)?;
     let beside = plane.size * rng.log_uniform(0.0102, END);
@@ -271,7 +273,7 @@ fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
     (end >= 0.0).then_some(range)
 }
 
-/// Draws the weights of a point that is inside, near a corner, near an edge, or outside.
+/// Picks random weights of a point that is inside, near a corner, near an edge, or outside.
 fn weights(rng: &mut Rng) -> [f64; 3] {
     let least = match rng.index(8) {
         0 | 1 => return fields::weights_inside(rng, EDGE),
@@ -291,7 +293,7 @@ fn weights(rng: &mut Rng) -> [f64; 3] {
     weights
 }
 
-/// Draws the weights of a point that is close to a corner but not to an edge.
+/// Picks random weights of a point that is close to a corner but not to an edge.
 fn close_to_a_corner(rng: &mut Rng) -> [f64; 3] {
     let [one, other] = [(); 2].map(|()| rng.uniform(1.05 * EDGE, 2.5 * EDGE));
     let mut weights = [one; 3];
@@ -301,7 +303,7 @@ fn close_to_a_corner(rng: &mut Rng) -> [f64; 3] {
     weights
 }
 
-/// Draws the weights of a point outside two edges.
+/// Picks random weights of a point outside two edges.
 fn beyond_a_corner(rng: &mut Rng) -> [f64; 3] {
     let mut weights = [(); 3].map(|()| -rng.log_uniform(1e-3, 1.0));
     let corner = rng.index(3);
@@ -346,7 +348,7 @@ const CHANGES: &[Change<ShapeCall>] = &[
     },
 ];
 
-/// Returns the call with something exchanged between two corners of the triangle.
+/// Returns the call with something swapped between two corners of the triangle.
 fn with_exchanged(
     call: &ShapeCall,
     random: DVec3,

@@ -229,7 +229,7 @@ const PLANE: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The direction in which the triangle faces.
+/// The direction that the triangle faces.
 const FACING: Aspect<ShapeCall> = Aspect {
     name: "facing",
     classes: &[
@@ -255,7 +255,7 @@ const FACING: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The diagonal direction in which the triangle faces.
+/// The diagonal along which the triangle faces.
 const FACING_DIAGONAL: Aspect<ShapeCall> = Aspect {
     name: "facing along a diagonal",
     classes: DIAGONALS,
@@ -316,7 +316,7 @@ const FLAT: Aspect<ShapeCall> = Aspect {
 /// The largest angle that counts as narrow, in radians.
 const NARROW: f64 = 0.045;
 
-/// The angles of the triangle. Almost all are ordinary.
+/// The corner whose angle is a right angle or close to one. Most triangles have none.
 const ANGLES: Aspect<ShapeCall> = Aspect {
     name: "angles",
     classes: &[
@@ -331,7 +331,7 @@ const ANGLES: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// Returns the corner whose angle is exactly or almost a right angle.
+/// Returns the corner whose angle is a right angle or close to one.
 fn almost_right_corner(corners: [DVec3; 3]) -> Option<usize> {
     let cosine = |corner: usize| {
         let side = |other: usize| (corners[(corner + other) % 3] - corners[corner]).normalize();
@@ -340,9 +340,8 @@ fn almost_right_corner(corners: [DVec3; 3]) -> Option<usize> {
     (0..3).find(|&corner| cosine(corner).abs() < ALMOST_RIGHT)
 }
 
-/// Triangles that have almost, but not exactly, a right angle at one corner, and whose texture
-/// coordinates differ so much between this corner and the others that the deviation from a right
-/// angle matters.
+/// Triangles with one angle that is close to 90°, but not equal to it. The texture coordinates at
+/// this corner differ so much from those at the other corners that the deviation from 90° matters.
 const RIGHT_AND_FAR: Aspect<ShapeCall> = Aspect {
     name: "almost right and far",
     classes: &["at p0", "at p1", "at p2"],
@@ -455,7 +454,7 @@ fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
     }
 }
 
-/// The names of the classes, each of which specifies the two corners that have the same value.
+/// The names of the classes. Each names the two corners that have the same value.
 const EQUAL: &[&str] = &["at p0 and p1", "at p1 and p2", "at p2 and p0"];
 
 /// The two corners with the same texture coordinates.
@@ -477,7 +476,7 @@ const EQUAL_NORMALS: Aspect<ShapeCall> = Aspect {
     class: |call| equal_two(corner_normals(&call.shape)?),
 };
 
-/// The side of the triangle to which the corners' normals point.
+/// The side of the triangle that the corners' normals point to.
 const NORMALS: Aspect<ShapeCall> = Aspect {
     name: "normals of the corners",
     classes: &["to the front", "to the back"],
@@ -509,8 +508,8 @@ const SPREAD: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The start of the ray relative to the triangle. A triangle's size is half of its box's longest
-/// side.
+/// The start of the ray relative to the triangle. A triangle's size is half of the longest side of
+/// its box.
 const START: Aspect<ShapeCall> = Aspect {
     name: "start",
     classes: &[
@@ -674,8 +673,8 @@ const ENDS: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The distance from the plane within which an end of the range counts as near it, as a multiple of
-/// the triangle's size.
+/// The maximum distance from the plane at which an end of the range counts as near it, as a
+/// multiple of the triangle's size.
 const END: f64 = 0.02;
 
 /// The minimum distance at which a plane counts as distant, as a multiple of the triangle's size.

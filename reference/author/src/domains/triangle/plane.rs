@@ -82,7 +82,8 @@ impl Plane {
         self.ray64.min == 0.0 && self.ray64.max == f64::INFINITY
     }
 
-    /// Returns whether the ray crosses the plane inside the triangle, whatever the ray's range is.
+    /// Returns whether the ray crosses the plane inside the triangle, regardless of the ray's
+    /// range.
     pub fn is_inside(&self) -> bool {
         self.least_weight() >= 0.0
     }

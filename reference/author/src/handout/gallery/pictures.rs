@@ -26,11 +26,11 @@ const COLUMNS: u32 = 3;
 const GAP: u32 = 6;
 /// The colour of the gaps between pictures, which suits both light and dark pages.
 const BACKGROUND: image::Rgb<u8> = image::Rgb([128, 128, 128]);
-/// The maximum mean difference per byte at which two sheets are considered the same. It isn't 0
+/// The maximum mean difference per byte between two sheets that are considered the same. It isn't 0
 /// because different machines round differently.
 const TOLERANCE: f64 = 0.5;
 
-/// Draws the sheet of each chapter, and writes it or compares it with the one in the handout.
+/// Draws the sheet of each chapter. Writes it, or compares it with the one in the handout.
 pub fn write_or_check(root: &Path, authoring: &'static Authoring, mode: Mode) -> Result<()> {
     let workspace = Workspace::create(root, authoring)?;
     let mut outdated = Vec::new();
@@ -65,7 +65,7 @@ fn is_same(path: &Path, picture: &RgbImage) -> bool {
     found.dimensions() == picture.dimensions() && mean <= TOLERANCE
 }
 
-/// A workspace like a student's, in which pictures are drawn with the code of solutions.
+/// A workspace like a student's, for rendering pictures with the code of solutions.
 struct Workspace {
     folder: PathBuf,
     reference: Sources,

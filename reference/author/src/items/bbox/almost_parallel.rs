@@ -10,7 +10,7 @@ use super::bbox_question;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
 
-/// The number of rays that hit, and the number of rays that miss.
+/// The number of rays that hit. The same number of rays miss.
 const QUERIES_OF_EACH_KIND: usize = 12;
 
 /// Creates a question with rays that hit a box, followed by the same number of rays that miss it.

@@ -23,8 +23,8 @@ pub(super) const THROUGH: Declaration = Declaration {
     id: "bbox.through",
     title: "for a ray through the box, the times of entry and exit are returned",
     look: "Work out by hand when the ray shown is between the two planes of each axis. The answer \
-        is the interval that these three intervals and the argument times have in common, or None \
-        if there is no such interval.",
+        is the interval that these three intervals and the argument `times` have in common, or \
+        None if there is no such interval.",
     section: "boxes.md#from-the-last-entry-to-the-first-exit",
     tests: &["Returns the part…"],
     questions: |rng| {
@@ -38,7 +38,7 @@ pub(super) const THROUGH: Declaration = Declaration {
 pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
     id: "bbox.slab_after_slab",
     title: "a ray hits the box if it is in all three slabs at the same time",
-    look: "Compare the axes with each other, and with times: the ray misses if and only if the \
+    look: "Compare the axes with each other, and with `times`: the ray misses if and only if the \
         latest entry comes after the earliest exit, no matter how small these times are.",
     look_fits: &[Symptom::of(PRESENCE)],
     section: "boxes.md#the-slab-intervals-must-overlap",
@@ -55,8 +55,8 @@ pub(super) const OCTANTS: Declaration = Declaration {
     id: "bbox.octants",
     title: "rays in all directions enter and leave at the right times",
     look: "On each axis, the smaller of the two times is the entry, even if the direction is \
-           negative. Work out all six times for the ray shown, and clip the last entry and the \
-           first exit to the argument times.",
+        negative. Work out all six times for the ray shown, and clip the last entry and the first \
+        exit to the argument `times`.",
     section: "boxes.md#from-the-last-entry-to-the-first-exit",
     tests: &["Returns the part…"],
     questions: |rng| questions(rng, USUAL, is_ordinary),
@@ -66,9 +66,9 @@ pub(super) const OCTANTS: Declaration = Declaration {
 pub(super) const AXIS_PARALLEL: Declaration = Declaration {
     id: "bbox.axis_parallel",
     title: "directions with components that are 0, −0 or almost 0 work as well",
-    look: "A ray that does not move along an axis is either always between the planes of that axis \
-        or never. Dividing by zero gives infinities, which express this if your comparisons handle \
-        them. A component that is almost 0 still moves the ray.",
+    look: "A ray that does not move along an axis is either always or never between the planes of \
+        that axis. Dividing by zero gives infinities, which express this if your comparisons \
+        handle them. A component that is almost 0 still moves the ray.",
     section: "boxes.md#zero-and-minus-zero",
     tests: &["A component of `ray.dir`…", "Then the ray is parallel…"],
     questions: |rng| {

@@ -68,7 +68,7 @@ fn questions(
         .collect()
 }
 
-/// Returns whether the box isn't flat, the ray isn't parallel to any of its faces, and it doesn't
+/// Returns true if the box isn't flat, the ray isn't parallel to any of its faces, and it doesn't
 /// matter whether the ray is almost parallel to one of them. Separate items test the other cases.
 fn is_ordinary(call: &BoxCall) -> bool {
     !call.is_flat() && !call.is_parallel() && !call.is_decided_by_slant()

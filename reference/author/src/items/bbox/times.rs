@@ -1,4 +1,4 @@
-//! Items about the interval of times in which a box can be hit.
+//! Items about the interval of times during which a box can be hit.
 
 use judging::symptom::Symptom;
 
@@ -10,8 +10,8 @@ use crate::oracle::Ray64;
 pub(super) const BEHIND: Declaration = Declaration {
     id: "bbox.behind",
     title: "a box ahead of the ray is hit, and one behind it is missed",
-    look: "If a box is behind the origin, its times are negative, so no part of the ray's path through it \
-        is within times. An interval that would end before it begins is a miss, too.",
+    look: "If a box is behind the origin, its times are negative, so no part of the ray's path \
+        through it is within `times`. An interval that would end before it begins is a miss, too.",
     look_fits: &[Symptom::HIT],
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
     tests: &["Returns the part…"],
@@ -27,7 +27,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
     id: "bbox.from_inside",
     title: "from inside, the interval starts at times.min, not behind the ray",
     look: "A ray that starts in the box has entered it at a negative time: clip the interval to \
-           times.",
+        `times`.",
     look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
     section: "boxes.md#clip-the-result-to-times",
     tests: &["The result is clipped…"],
@@ -42,7 +42,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
 
 pub(super) const CLIPPED: Declaration = Declaration {
     id: "bbox.clipped",
-    title: "the answer is only the part of times during which the ray is in the box",
+    title: "the answer is only the part of `times` during which the ray is inside the box",
     look: "Clip the interval at both ends. If the ray's line passes through the box, it is a miss \
            only if the box is entered after times.max or left before times.min.",
     section: "boxes.md#clip-the-result-to-times",
@@ -57,9 +57,9 @@ pub(super) const CLIPPED: Declaration = Declaration {
 
 pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
     id: "bbox.wholly_inside",
-    title: "if the ray is in the box throughout times, all of times is returned",
-    look: "If the ray is in the box throughout times, it doesn't cross any of the box's planes in \
-        that time, but it is still a hit, from times.min to times.max.",
+    title: "if the ray is inside the box throughout `times`, all of `times` is returned",
+    look: "If the ray is inside the box throughout `times`, it doesn't cross any of the box's \
+        planes in that time, but it is still a hit, from times.min to times.max.",
     look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
     section: "boxes.md#a-range-wholly-inside-the-box-is-a-hit",
     tests: &["The result is clipped…"],
@@ -76,7 +76,7 @@ pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
 
 pub(super) const TIMES_NOT_RANGE: Declaration = Declaration {
     id: "bbox.times_not_range",
-    title: "the times argument counts, not the ray's own range",
+    title: "the argument `times` is used, not the ray's own range",
     look: "BBox::hit uses only the times that it is given; ray.range is up to the caller.",
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
     tests: &["Use `times` and ignore…"],

@@ -29,8 +29,9 @@ const MAX_CORRECT_COST: f64 = 1.06;
 const MIN_ADJACENT_COST: f64 = 1.2;
 
 /// For each pair of a primitive count and a maximum leaf size, creates a question about a random
-/// mesh. The meshes' sizes and positions are drawn from the domain. On these meshes, correct
-/// builders come close to the exact sweep, but builders that compare only adjacent buckets don't.
+/// mesh. The meshes' sizes and positions are picked at random from the domain. On these meshes,
+/// correct builders come close to the exact sweep, but builders that compare only adjacent buckets
+/// don't.
 fn cost_questions(
     rng: &mut Rng,
     mesh: fn(&mut Rng, usize) -> Vec<Shape>,
@@ -71,7 +72,7 @@ fn huge_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
 }
 
 /// Creates questions about a few clumps of spheres. Some clumps have many times as many spheres as
-/// others, which makes splitting by count expensive, even if a builder splits this way only above
+/// others. This makes splitting by count expensive, even if a builder splits this way only above
 /// the last levels or only below the root.
 fn clumps_questions(rng: &mut Rng, sizes: &[(usize, u32)]) -> Vec<ExamQuestion> {
     /// The minimum cost of a tree that is partly split by count, relative to the exact sweep's
@@ -146,8 +147,8 @@ fn highest_correct_cost(question: &ExamQuestion) -> f64 {
     costs.fold(0.0, f64::max)
 }
 
-/// Returns the lowest relative cost among builders that take the two buckets next to a plane to be
-/// the plane's two sides. For some meshes, such builders find good planes by luck.
+/// Returns the lowest relative cost among builders that compare only the two buckets next to a
+/// plane. For some meshes, such builders find good planes by luck.
 fn lowest_adjacent_cost(question: &ExamQuestion) -> f64 {
     let (extent, sides) = (BucketExtent::Centers, SideRule::AdjacentBuckets);
     let costs = [8, 12, 16, 24, 32].map(|count| {

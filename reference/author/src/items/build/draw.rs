@@ -1,4 +1,4 @@
-//! Draws calls to `Bvh::build` from their domain.
+//! Generates random calls to `Bvh::build` from its domain.
 
 use glam::DVec3;
 use judging::exam::{ExamQuestion, TreeCheck};
@@ -11,7 +11,7 @@ use crate::items::meshes;
 use crate::items::transform::Transform;
 use crate::seed::Rng;
 
-/// The arrangement of some of the primitives. All others are scattered.
+/// The arrangement of some of the primitives. The others are scattered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Arrangement {
     /// Scattered in a cube.
@@ -38,9 +38,9 @@ pub(super) enum Arrangement {
     Line,
 }
 
-/// Draws questions about `count` trees. Each tree has at most `most` primitives, which are in one
-/// of these arrangements. Each class of each aspect occurs, unless `belongs` rejects the calls in
-/// that class.
+/// Generates random questions about `count` trees. Each tree has at most `most` primitives, which
+/// are in one of these arrangements. Each class of each aspect occurs, unless `belongs` rejects the
+/// calls in that class.
 pub(super) fn questions(
     rng: &mut Rng,
     checks: &[TreeCheck],
@@ -66,7 +66,7 @@ pub(super) fn questions(
     calls.collect()
 }
 
-/// Draws a call. The axis of a plane or a row depends on `index`.
+/// Picks a random call. The axis of a plane or a row depends on `index`.
 fn call(rng: &mut Rng, arrangement: Arrangement, index: usize, most: usize) -> BuildCall {
     let count = count(rng, most);
     let kind = rng.index(4);
@@ -82,7 +82,7 @@ fn call(rng: &mut Rng, arrangement: Arrangement, index: usize, most: usize) -> B
     }
 }
 
-/// Draws a primitive count: from 0 to 10, or close to a power of two.
+/// Picks a random primitive count: from 0 to 10, or close to a power of two.
 pub(super) fn count(rng: &mut Rng, most: usize) -> usize {
     rng.retry(|rng| {
         let count = match rng.index(16) {
@@ -93,7 +93,7 @@ pub(super) fn count(rng: &mut Rng, most: usize) -> usize {
     })
 }
 
-/// Draws a random leaf size, i.e. the maximum number of primitives in a leaf: either any number, or
+/// Picks a random leaf size, i.e. the maximum number of primitives in a leaf: either any number, or
 /// one close to the primitive count.
 pub(super) fn leaf_size(rng: &mut Rng, count: usize) -> u32 {
     let count = count as u32;
@@ -113,7 +113,7 @@ pub(super) fn leaf_size(rng: &mut Rng, count: usize) -> u32 {
     size.clamp(1, 1000)
 }
 
-/// Draws a transform that gives the shapes, taken together, a size in this class.
+/// Picks a random transform that gives the shapes, taken together, a size in this class.
 pub(super) fn transform_of_size(rng: &mut Rng, shapes: &[Shape], size: usize) -> Transform {
     rng.retry(|rng| {
         let size = fields::size(rng, size);
@@ -159,7 +159,7 @@ fn arranged(
                     primitive(rng, kind, far, size)
                 }
                 Arrangement::DifferentSizes => {
-                    // The centres of small primitives are near each other.
+                    // Keep the centres of small primitives near each other.
                     let size = match index {
                         0 => 1.0,
                         1 => 5e-3,

@@ -35,8 +35,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
         cost::COST_STRANDS,
         cost::COST_SHEETS,
         cost::COST_TOWN,
-        // These items come last, because builders that recurse infinitely on their questions are
-        // often correct otherwise, and a task is stopped after two crashes.
+        // These items come last, because a task is stopped after two crashes. Builders that recurse
+        // infinitely on these items' questions are often correct otherwise.
         unusual_inputs::COINCIDENT,
         unusual_inputs::CONCENTRIC,
     ],
@@ -48,7 +48,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
     finish: |seed, items| {
         let control = control(seed);
         for item in items {
-            // Large questions come last, so that the first wrong answer is about a tree that is
+            // Put large questions last, so that the first wrong answer is about a tree that is
             // small enough for people to follow.
             item.questions().sort_by_key(is_large);
             item.questions().push(control.clone());
@@ -70,7 +70,7 @@ fn control(seed: Seed) -> ExamQuestion {
     build_question(&[Partition, Split], soup, 4)
 }
 
-/// Creates a question about a tree over these shapes, which are renumbered.
+/// Creates a question about a tree over these shapes, after renumbering them.
 fn build_question(
     checks: &[TreeCheck],
     shapes: impl IntoIterator<Item = Shape>,

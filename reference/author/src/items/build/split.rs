@@ -37,7 +37,7 @@ enum Alignment {
     Row,
     /// In a plane and roughly in a row.
     Plane,
-    /// In a plane that also contains the primitives, which are triangles.
+    /// In a plane that also contains the primitives themselves, which are triangles.
     Flat,
 }
 
@@ -73,8 +73,8 @@ const GAP: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// Three clumps. The first is the largest, but a builder that takes its counts and its boxes from
-/// different buckets overlooks this clump and splits at the other gap.
+/// Three clumps. The first is the largest, but a builder that takes counts and boxes from different
+/// buckets overlooks this clump and splits at the other gap.
 const HEAVY_END: Layout<'static> = Layout {
     clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
     first_size: SMALL,
@@ -144,7 +144,7 @@ impl UnplacedQuestion {
     }
 }
 
-/// Draws primitives for which one split is by far the best.
+/// Generates random primitives for which one split is by far the best.
 type Draw = Box<dyn Fn(&mut Rng) -> UnplacedQuestion>;
 
 fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
@@ -167,7 +167,7 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
         .collect()
 }
 
-/// Returns functions that draw each layout of clumps along each axis.
+/// Returns functions that generate each layout of clumps along each axis.
 fn in_clumps() -> Vec<Draw> {
     /// The factors by which the layouts' primitive counts are multiplied. One layout with a gap
     /// then has over 1,024 primitives.
@@ -197,7 +197,7 @@ fn in_clumps() -> Vec<Draw> {
     along_axes.enumerate().map(draw).collect()
 }
 
-/// Returns functions that draw a few primitives: one more than fit in a leaf.
+/// Returns functions that generate a few primitives: one more than fits in a leaf.
 fn of_a_few() -> Vec<Draw> {
     let clusters = [3, 4, 5, 6, 8].into_iter().enumerate();
     let clusters = clusters.map(|(index, count)| -> Draw {
@@ -220,7 +220,7 @@ fn of_a_few() -> Vec<Draw> {
     clusters.chain(spheres).collect()
 }
 
-/// Returns functions that draw two clusters of many primitives.
+/// Returns functions that generate two clusters of many primitives.
 fn of_many() -> Vec<Draw> {
     let counts = [16_usize, 64, 129, 256, 513, 1100].into_iter();
     let draw = |count: usize| -> Draw {
@@ -234,14 +234,14 @@ fn of_many() -> Vec<Draw> {
     counts.map(draw).collect()
 }
 
-/// Returns functions that draw a cluster and, far from it, a few outliers. The cluster has more
-/// than sixteen times as many primitives.
+/// Returns functions that generate a cluster and, far from it, a few outliers. The cluster has more
+/// than sixteen times as many primitives as there are outliers.
 fn of_outliers() -> Vec<Draw> {
     let counts = [(18, 60), (100, 180), (250, 400)].into_iter();
     let draw = |(least, most): (u32, u32)| -> Draw {
         Box::new(move |rng| {
             let (count, chunk) = in_whole_chunks(rng.integer(least, most) as usize);
-            // Among very many, there is only one chunk of them.
+            // If there are very many primitives, the outliers are a single chunk.
             let far = chunk * (1 + rng.index((count.min(200) / (20 * chunk)).max(1)));
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
             let layout = Layout {
@@ -257,7 +257,7 @@ fn of_outliers() -> Vec<Draw> {
     counts.map(draw).collect()
 }
 
-/// Returns functions that draw a dense cluster at one end. The gap beside the cluster ends just
+/// Returns functions that generate a dense cluster at one end. The gap beside the cluster ends just
 /// short of one seventh of the way along the row, so that no builder with fewer than 8 buckets has
 /// a plane there.
 fn of_dense_ends() -> Vec<Draw> {
@@ -293,7 +293,7 @@ fn chunk_size(count: usize) -> usize {
     count.div_ceil(64)
 }
 
-/// Returns functions that draw strips in layers.
+/// Returns functions that generate strips in layers.
 fn of_strips() -> Vec<Draw> {
     let stacks = STACKS.iter().enumerate();
     let stacks = stacks.map(|(index, &(count, least))| -> Draw {
@@ -322,7 +322,7 @@ fn few(
     row(rng, &layout, axis, is_mirrored)
 }
 
-/// Returns two clusters. The smaller cluster is denser. The first cluster along the axis consists
+/// Returns two clusters, the smaller of which is denser. The first cluster along the axis consists
 /// of whole chunks.
 fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     let chunk = chunk_size(count);
@@ -407,8 +407,8 @@ fn with_box_around(rng: &mut Rng, kind: usize, center: DVec3, size: f64) -> Shap
     }
 }
 
-/// Returns spheres roughly in a row. If a builder has no more buckets than there are spheres, none
-/// of its planes falls in the best gap.
+/// Returns spheres roughly in a row. If a builder has at most as many buckets as there are spheres,
+/// none of its planes falls in the best gap.
 fn uneven(rng: &mut Rng, count: usize, axis: usize) -> Vec<Shape> {
     rng.retry(|rng| {
         let start = rng.point(3.0);

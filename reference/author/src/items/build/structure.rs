@@ -30,8 +30,8 @@ const ARRANGEMENTS: &[Arrangement] = &[
     Outlier,
 ];
 
-/// Returns `questions`, followed by questions about `count` trees that are drawn from the domain.
-/// The primitives of these trees are in the given arrangements.
+/// Returns `questions`, followed by questions about `count` random trees from the domain. The
+/// primitives of these trees are in the given arrangements.
 fn with_domain(
     mut questions: Vec<ExamQuestion>,
     rng: &mut Rng,
@@ -55,7 +55,7 @@ fn is_in_small_leaves(call: &BuildCall) -> bool {
 }
 
 /// For each pair of a triangle count and a maximum leaf size, creates a question about small random
-/// triangles. Up to seven more triangles are added to each question. Every second question is far
+/// triangles. Up to seven more triangles are added to each question. Every other question is far
 /// from the origin.
 fn soup_questions(
     rng: &mut Rng,
@@ -86,10 +86,10 @@ fn soup_questions_of_size(
     sizes.iter().enumerate().map(question).collect()
 }
 
-/// Creates questions with the same number of spheres, the same common box and the same maximum leaf
-/// size. In the second question, a sphere from the middle of the list is elsewhere inside this box.
-/// In the third, the spheres in the middle of the list have different radii. In the last, two of
-/// these spheres have swapped numbers.
+/// Creates questions with the same number of spheres, the same box around all of them, and the same
+/// maximum leaf size. In the second question, a sphere from the middle of the list is elsewhere
+/// inside this box. In the third, the spheres in the middle of the list have different radii. In
+/// the last, two of these spheres have swapped numbers.
 fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> Vec<ExamQuestion> {
     let count = rng.integer(8, 40) as usize;
     let corners = [-3.0, 3.0].map(|at| meshes::sphere(DVec3::splat(at), 0.3));

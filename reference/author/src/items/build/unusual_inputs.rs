@@ -15,7 +15,7 @@ use crate::seed::Rng;
 /// All properties of a tree except its cost.
 const ALL: &[TreeCheck] = &[Partition, Contains, Tight, LeafSize, Stops];
 
-/// Returns the given questions, followed by questions drawn from the domain, about primitives in
+/// Returns the given questions, followed by random questions from the domain about primitives in
 /// the given arrangements. The additional questions check how the primitives are split, using
 /// [`Split`] if a different item tests the exact size of leaves.
 fn with_domain(

@@ -1,4 +1,4 @@
-//! Items about which of the two roots is the hit, if either is.
+//! Items about which of the two roots is the hit, if either of them is.
 
 use judging::symptom::Symptom;
 
@@ -7,7 +7,7 @@ use crate::domains::fields::{EVERY_SIZE, TINY, USUAL};
 use crate::domains::sphere::Line;
 use crate::items::{Declaration, groups, paper};
 
-/// Returns whether the ray is unlimited and its line either misses the sphere or enters it ahead of
+/// Returns true if the ray is unlimited and its line either misses the sphere or enters it ahead of
 /// the ray's start.
 fn is_ahead(line: &Line) -> bool {
     line.is_unlimited() && (line.misses() || line.roots[0] > 0.0)

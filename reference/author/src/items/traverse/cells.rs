@@ -1,5 +1,6 @@
 //! Trees of cells. Each cell is a small tree with one decoy. The decoys' properties are distributed
-//! so that each reason not to test a decoy occurs with each kind of leaf, index, level and range.
+//! so that each reason not to test a decoy occurs with each kind of leaf, each index, each level
+//! and each range.
 //!
 //! ```text
 //!   missed            missed with sibling       beyond               both beyond
@@ -27,7 +28,7 @@ use crate::seed::Rng;
 use crate::tree::traversal::{Traversal, TraversalRule};
 use crate::tree::{Tree, decoy};
 
-/// The reason why a cell's decoy must not be tested.
+/// Why a cell's decoy must not be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CellSkipReason {
     /// The ray misses the box of the decoy's leaf.
@@ -51,7 +52,7 @@ pub(super) enum CellSkipReason {
     FartherOfTwoBeyond,
 }
 
-/// The decoys in a question, with the two or three different reasons why they must not be tested.
+/// The decoys in a question, with two or three different reasons not to test them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Decoys<'a> {
     pub(super) reasons: &'a [CellSkipReason],
@@ -60,7 +61,7 @@ pub(super) struct Decoys<'a> {
     pub(super) is_left: bool,
     /// The answer that the slides' pseudo-code, taken literally, gives for all rays with a decoy.
     pub(super) slides: SlidesAnswer,
-    /// The number of primitives in each of the leaves beside the chain that are not part of a cell.
+    /// The number of primitives in each leaf that is next to the chain and not part of a cell.
     pub(super) fill: usize,
 }
 
@@ -140,8 +141,8 @@ pub(super) fn question(rng: &mut Rng, decoys: Decoys) -> ExamQuestion {
     })
 }
 
-/// Returns whether no correct traversal tests a sphere. The spheres are decoys, so these questions
-/// are about triangles and boxes only.
+/// Returns true if no correct traversal tests a sphere. The spheres are decoys, so these questions
+/// depend only on triangles and boxes.
 fn tests_no_sphere(tree: &Tree, ray: &Ray) -> bool {
     TraversalRule::all().into_iter().all(|rule| {
         let traversal = Traversal::correct(tree, &Ray64::from(ray), rule);
@@ -231,7 +232,7 @@ struct Plan {
 
 impl Plan {
     /// Returns one of `DECOYS` plans. Together, these plans cover every class of every property.
-    /// Even the first four cover most classes, including a ray that hits nothing.
+    /// The first four alone cover most classes, including rays that hit nothing.
     fn new(reason: CellSkipReason, is_left: bool, index: usize, start: usize) -> Self {
         let (group, in_group) = (index / 4, index % 4);
         let size = (in_group + start) % 4;
@@ -252,7 +253,7 @@ impl Plan {
         let is_after_parallel = reason == CellSkipReason::BeyondAfterParallel;
         let is_after_a_hit_in_its_leaf =
             !is_after_parallel && leaf_size > 2 && !is_line && group < 2;
-        // A decoy that is tested for the previous ray isn't a sphere, so that only triangles and
+        // If the previous ray tests the decoy, the decoy isn't a sphere, so that only triangles and
         // boxes matter.
         let is_tested_before = is_after_parallel || is_after_a_hit_in_its_leaf;
         Plan {
@@ -281,11 +282,11 @@ struct Frame {
 }
 
 impl Frame {
-    /// Draws the orientation of the cell at this place in the grid of cells.
+    /// Picks a random orientation for the cell at this position in the grid of cells.
     fn new(rng: &mut Rng, axes: [DVec3; 3], place: usize) -> Self {
         let corner = dvec3(0.0, 10.0 * (place % 6) as f64, 3.0 * (place / 6) as f64);
         let signs = [rng.sign(), rng.sign(), rng.sign()];
-        // A cell that is rotated stays within the same limits.
+        // A rotated cell stays within the same limits.
         let turned = [10.0, 4.0, 0.0];
         let mut frame = Frame {
             axes,
@@ -327,7 +328,7 @@ impl Frame {
         self.flat_triangle([min, second, third], number)
     }
 
-    /// Draws a small primitive inside a box, which may be flat.
+    /// Picks a random small primitive inside a box, which may be flat.
     fn small(&self, rng: &mut Rng, min: DVec3, max: DVec3, number: u32) -> Shape {
         const SIZE: f64 = 0.35;
         let flat = (0..3).find(|&axis| min[axis] == max[axis]);
@@ -359,7 +360,7 @@ struct Cell {
 }
 
 impl Cell {
-    /// Draws a cell. Returns `None` if it isn't fair.
+    /// Generates a random cell. Returns `None` if it isn't fair.
     fn draw(rng: &mut Rng, plan: &Plan, frame: &Frame, link: usize) -> Option<Cell> {
         let mut draft = Draft {
             tree: Tree::default(),
@@ -388,7 +389,7 @@ impl Cell {
     }
 }
 
-/// Draws a ray that hits another primitive in the leaf of the decoy.
+/// Picks a random ray that hits another primitive in the decoy's leaf.
 fn ray_to_the_leaf_of_the_decoy(rng: &mut Rng, tree: &Tree) -> Option<Ray> {
     let is_decoy = |index: usize| tree.shapes[index].number() >= FIRST_DECOY;
     let mut leaves = tree.leaves().into_iter();
@@ -412,7 +413,7 @@ struct LeafOfDecoy {
     ahead: f64,
 }
 
-/// A cell that is being drawn.
+/// A cell under construction.
 struct Draft {
     tree: Tree,
     plan: Plan,
@@ -598,8 +599,8 @@ impl Draft {
         (ray, Some(self.frame.ray(before, dir)))
     }
 
-    /// Returns the ray with the planned range, which begins before the decoy and ends beyond all
-    /// boxes.
+    /// Returns the ray with the planned range. The range begins before the decoy and ends beyond
+    /// all boxes.
     fn with_range(&self, rng: &mut Rng, ray: Ray) -> Ray {
         let later = rng.uniform(0.05, 0.3) as f32;
         let end = rng.uniform(14.0, 25.0) as f32;

@@ -92,9 +92,9 @@ fn built_tree_question(
     ExamQuestion::new(Question::hits(built, rays), key)
 }
 
-/// Creates a question about a row of triangles, with as many triangles as a typical mesh. The rays
-/// enter every node, since they pass through a corner of every box, but they hit only the larger
-/// triangle at the end.
+/// Creates a question about a row of as many triangles as in a typical mesh. The rays enter every
+/// node, since they pass through a corner of every box, but they hit only the larger triangle at
+/// the end.
 fn long_row(rng: &mut Rng) -> ExamQuestion {
     const COUNT: usize = 5000;
     const STEP: f64 = 0.02;
@@ -167,7 +167,7 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
     vec![ExamQuestion::new(question, key), linear_scan_control(rng)]
 }
 
-/// The item that compares a picture in clay with the picture that the reference renders.
+/// The item that compares a picture rendered in clay with the reference's picture.
 pub(super) const RADIANCE: Declaration = Declaration {
     id: "traverse.radiance",
     title: "all tasks together render the Cornell box in clay",
@@ -194,8 +194,8 @@ fn clay_picture(rng: &Rng) -> ExamQuestion {
         env!("CARGO_MANIFEST_DIR"),
         "/../../scenes/cornell-box.json"
     ));
-    /// How many of the 1024 pixels may differ. In measurements, other correct formulas changed no
-    /// pixels, and cracks of 1e-4 between triangles changed 13.
+    /// The number of the 1024 pixels that may differ. In measurements, other correct formulas
+    /// changed no pixels, and cracks of 1e-4 between triangles changed 13.
     const MAX_WRONG_PIXELS: u32 = 7;
     let question = Question::Radiance {
         scene: SCENE.to_owned(),

@@ -15,14 +15,14 @@ use crate::tree::{Tree, decoy};
 const PAIRS: usize = 18;
 /// The size of the triangles.
 const SIZE: f64 = 0.2;
-/// The extent of the pairs' positions. It is so large that, for a ray that starts near a pair, the
-/// distances to both triangles are tiny even compared to the coordinates of the start.
+/// The extent of the pairs' positions. It is so large that, if a ray starts near a pair, the
+/// distances to both triangles are tiny even compared to the start's coordinates.
 const SPREAD: f64 = 52.0;
 /// The distance between the two triangles of a pair.
 const SPACE: f64 = 0.0175;
 
-/// Creates a question about pairs of triangles. The triangles are so small that `Mover` leaves the
-/// question where it is. A third of the rays start so close to a pair that the distances to both
+/// Creates a question about pairs of triangles. The triangles are so small that `Mover` doesn't
+/// move the question. A third of the rays start so close to a pair that the distances to both
 /// triangles are tiny compared to the size of the tree. The other rays start so far away that both
 /// triangles, which are in the same leaf or in different leaves, are at almost the same distance.
 pub(super) fn question(rng: &mut Rng) -> ExamQuestion {

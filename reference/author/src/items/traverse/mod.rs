@@ -155,7 +155,7 @@ fn wall(rng: &mut Rng, tree: &Tree, number: u32) -> Shape {
 /// Returns the rays, followed by up to six groups of additional rays. In each group, consecutive
 /// rays are closely related, but their answers clearly differ.
 fn with_related_rays(rng: &mut Rng, tree: &Tree, mut rays: Vec<Ray>) -> Vec<Ray> {
-    /// The maximum number of attempts to draw the two rays of a group.
+    /// The maximum number of attempts to find the two rays of a group.
     const ATTEMPTS: usize = 2000;
     /// The minimum difference between the distances of the two hits, relative to the larger
     /// distance.

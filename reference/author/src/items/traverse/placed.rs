@@ -1,5 +1,5 @@
-//! Questions about trees are drawn with sizes of about one, near the origin. This module gives them
-//! sizes and positions from the domain.
+//! Questions about trees are generated with sizes of about one, near the origin. This module gives
+//! them sizes and positions from the domain.
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
@@ -19,7 +19,7 @@ use crate::tree::{Tree, construction, decoy};
 /// Moves the questions, item by item, so that all sizes and octants occur equally often.
 pub(super) struct Mover {
     rng: Rng,
-    /// The number of transforms that have been drawn.
+    /// The number of transforms generated so far.
     count: usize,
 }
 
@@ -52,8 +52,8 @@ impl Mover {
             let size = self.count % sizes;
             let octant = (self.count / sizes + self.count) % fields::OCTANTS.len();
             self.count += 1;
-            // If a ray starts so far away that this size doesn't fit anywhere, a smaller size is
-            // used. A question that wouldn't be fair anywhere else isn't moved.
+            // If a ray starts so far away that the question doesn't fit anywhere at this size, a
+            // smaller size is used. A question that wouldn't be fair anywhere else isn't moved.
             let placed = (0..=size).rev().find_map(|size| {
                 self.rng.attempt(ATTEMPTS, |rng| {
                     let transform = transform(rng, group, size, octant)?;
@@ -68,8 +68,9 @@ impl Mover {
     }
 }
 
-/// Returns the question with its scene shrunk to the size of dust. The new question is just as
-/// fair, since correct code computes the same digits when all lengths are scaled by a power of two.
+/// Returns the question with its scene shrunk to the size of a speck of dust. The new question is
+/// just as fair, since correct code computes the same digits when all lengths are scaled by a power
+/// of two.
 pub(super) fn as_dust(asked: &ExamQuestion) -> ExamQuestion {
     let dust = Transform::new(1.0 / f64::from(1 << 22), DVec3::ZERO);
     moved(dust, asked).expect("the question has a list of rows")
@@ -110,7 +111,8 @@ pub(super) fn across_the_scene(asked: &ExamQuestion) -> Option<ExamQuestion> {
     transformed(Transform::new(scale, -scale * all.center()), asked)
 }
 
-/// Draws a transform that moves a question to an octant without making any coordinate too large.
+/// Picks a random transform that moves a question to an octant without making any coordinate too
+/// large.
 fn transform(
     rng: &mut Rng,
     group: &[ExamQuestion],

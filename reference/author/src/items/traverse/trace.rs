@@ -76,8 +76,8 @@ pub(super) fn shapes(rng: &mut Rng, kind: usize, count: usize) -> Vec<Shape> {
     meshes::with_numbers(shapes, numbers)
 }
 
-/// Draws a ray whose range may end before ∞ and start after 0. All correct formulas agree on its
-/// hit.
+/// Picks a random ray whose range may end before ∞ and start after 0. All correct formulas agree on
+/// its hit.
 pub(super) fn ray_with_range(rng: &mut Rng, tree: &Tree) -> Ray {
     rng.retry(|rng| {
         let ray = ray_from_around(rng, tree);

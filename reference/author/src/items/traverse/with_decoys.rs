@@ -31,7 +31,7 @@ type LeafFilter<'a> = &'a dyn Fn(&Tree, usize, &Ray64) -> bool;
 /// The number of rays in a question that may get a decoy. They come before all other rays.
 const RAYS_WITH_DECOYS: usize = 10;
 const OTHER_RAYS: [usize; 2] = [4, 4];
-/// The minimum number of decoys in a question. A question with fewer decoys is drawn again.
+/// The minimum number of decoys in a question. A question with fewer decoys is rejected.
 const MIN_DECOYS: usize = 4;
 
 /// Creates a question in which at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
@@ -119,8 +119,8 @@ fn missed_alone(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     }
 }
 
-/// Returns a filter for the leaves that are the given child of their parent, if the ray misses the
-/// boxes of both the leaf and its sibling.
+/// Returns a filter for the leaves that are the given child of their parent, where the ray misses
+/// both the leaf's box and its sibling's.
 fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
     move |tree, leaf, ray64| {
         decoy::is_missed_child(tree, leaf, ray64, child) && decoy::misses_sibling(tree, leaf, ray64)

@@ -57,8 +57,8 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
 };
 
 /// Creates questions about three trees with the same rays. The last ray in each question is also
-/// the first ray in the next, but it has a different answer there. The trees have the same boxes
-/// down to the third level, and the last two have the same nodes.
+/// the first ray in the next question, but its answer is different there. The trees have the same
+/// boxes down to the third level, and the last two have the same nodes.
 fn same_rays_in_three_trees(rng: &mut Rng) -> [ExamQuestion; 3] {
     let first = soup_tree(rng, 48, 1.2, 1);
     let second = with_other_contents(rng, &first);
@@ -229,8 +229,8 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     ..TRAVERSAL
 };
 
-/// Returns a function that draws rays. If possible, every third ray hits something in a corner of
-/// the boxes around it.
+/// Returns a function that generates random rays. If possible, every third ray hits something in a
+/// corner of the boxes around it.
 fn ray_from_around_or_in_a_corner() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {
@@ -324,7 +324,7 @@ fn leaf_of_several(rng: &mut Rng) -> Vec<ExamQuestion> {
     trees.map(question).to_vec()
 }
 
-/// Returns a tree of two leaves, one with as many primitives as a leaf may contain.
+/// Returns a tree of two leaves. One of them has as many primitives as a leaf may contain.
 fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     let mut shapes = meshes::soup(rng, 1000 + 20, 2.0, 0.3);
     let few = shapes.split_off(1000);
@@ -335,8 +335,9 @@ fn tree_with_a_large_leaf(rng: &mut Rng) -> Tree {
     tree
 }
 
-/// Returns a function that draws rays. The closest of several hits in a leaf is on the leaf's first
-/// primitive, its last primitive or any of its primitives, in turn. Some rays hit nothing.
+/// Returns a function that generates random rays. The closest of several hits in a leaf is on the
+/// leaf's first primitive, its last primitive or any of its primitives, in turn. Some rays hit
+/// nothing.
 fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
     let mut count = 0;
     move |rng: &mut Rng, tree: &Tree| {
@@ -416,9 +417,9 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
     questions.into_iter().chain([along]).collect()
 }
 
-/// Creates a question about a chain whose first leaves are the farthest from where the rays start.
-/// Most rays enter almost all boxes, so that almost all leaves have to wait until the end of the
-/// chain has been traversed.
+/// Creates a question about a chain whose first leaves are farthest from the start of the rays.
+/// Most rays enter almost all boxes, so almost all leaves have to wait until the end of the chain
+/// has been traversed.
 fn along_the_chain(rng: &mut Rng) -> ExamQuestion {
     const LEVELS: usize = 60;
     /// The minimum number of boxes that a ray enters.

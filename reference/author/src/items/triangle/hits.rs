@@ -228,8 +228,8 @@ fn degenerate(rng: &mut Rng) -> Vec<ExamQuestion> {
         question(point, vec![down(1.0, 1.0), down(0.0, 0.0)]),
         question(coinciding_corners, vec![down(2.0, 2.0), down(1.0, 2.0)]),
         question(half_square, vec![along(1.0, 0.0), along(-1.0, 0.0)]),
-        // These rays are on both sides of the plane, because t = z / 0 is +∞ on one side and −∞ on
-        // the other.
+        // Use rays on both sides of the plane, because t = z / 0 is +∞ on one side and −∞ on the
+        // other.
         question(half_square, parallel),
     ];
     [degenerate, control].concat()

@@ -144,7 +144,7 @@ impl Machine {
             .args(["sh", "-c", ENTER_SCRIPT, "sh"])
             .args([&self.root, &self.toolchain])
             .args([user, folder, "LANG=C.UTF-8"])
-            // This is an argument because `env -i` would remove the variable.
+            // `PATH` is passed as an argument, because `env -i` clears the environment.
             .arg(format!(
                 "PATH={}/bin:{SYSTEM_PATH}",
                 self.toolchain.display()
@@ -188,11 +188,11 @@ impl ResourceUsage {
     }
 }
 
-/// Reports that the trial, or a part of it, is skipped for this reason. Returns an error instead if
+/// Reports that all or part of the trial is skipped for this reason. Returns an error instead if
 /// `CI` is set.
 fn skip_or_fail(reason: &str) -> Result<()> {
     match env::var_os("CI") {
-        Some(_) => bail!("{reason}; trials are not skipped while CI is set"),
+        Some(_) => bail!("{reason}; a trial must not be skipped when CI is set"),
         None => {
             eprintln!("SKIPPED: {reason}");
             Ok(())

@@ -30,7 +30,7 @@ const GRADE_WITHOUT_ISOLATION: &str = "cd /opt/pathtracing && source ./environme
 const SCORE_FILE: &str = "/opt/pathtracing/target/graded/score.json";
 
 /// Runs the trial of the package at `path` and returns the problems found. If this system cannot
-/// simulate a platform's machine, only checks that the package is complete.
+/// simulate a platform's machine, this only checks that the package is complete.
 pub fn check(
     authoring: &Authoring,
     workspace: &Path,
@@ -116,8 +116,8 @@ fn problem(
     Some(format!("{} has read a file:\n{stolen}", submission.name))
 }
 
-/// Returns a problem if the last submission, an attack, cannot read anything even without
-/// isolation. Its failure with isolation would then prove nothing.
+/// Regrades the last submission, an attack, without isolation. Returns a problem if the attack
+/// cannot read anything even then, since its failure with isolation would prove nothing.
 fn harmless_attack(machine: &Machine, setup: &Setup) -> Result<Option<String>> {
     let command = ["bash", "-c", GRADE_WITHOUT_ISOLATION].map(str::to_owned);
     let job = setup.run(machine, false, &command)?;

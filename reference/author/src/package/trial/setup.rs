@@ -47,7 +47,7 @@ const COMMIT_AND_RUN: &str = "git init --quiet && git add . && \
     git -c user.name=alice -c user.email=alice@example.org \
     commit --quiet --allow-empty --message submission && exec \"$@\"";
 
-/// How a platform runs a package. All paths are paths on its machine.
+/// How a platform runs a package. All paths are on the platform's machine.
 #[derive(Debug)]
 pub struct PlatformRun {
     user: &'static str,
@@ -134,7 +134,7 @@ impl Setup {
         }
     }
 
-    /// Unpacks a zip as Gradescope does after an upload, and runs its script `setup.sh`.
+    /// Unpacks a zip the way Gradescope does after an upload and runs its script `setup.sh`.
     fn gradescope(machine: &Machine, zip: &Path) -> Result<Self> {
         let source = machine.host_path("/autograder/source");
         files::create_dir_all(&source)?;

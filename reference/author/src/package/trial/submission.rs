@@ -11,7 +11,8 @@ use crate::package::Platform;
 
 /// The folder with the corpus of hostile submissions.
 const CORPUS: &str = "grader/tests/hostile/entries";
-/// The placeholders in the corpus, and the files they stand for, which the attacks look for.
+/// The placeholders in the corpus, and the files that they stand for. The attacks look for these
+/// files.
 const TARGETS: [(&str, &str); 2] = [
     ("@KEY@", "/opt/pathtracing/exam.json"),
     ("@OUT@", "/opt/pathtracing/target/graded"),
@@ -87,7 +88,7 @@ fn with_attacks(
             attack = attack.replace(placeholder, path);
         }
         for (_, text) in files.iter_mut().filter(|(name, _)| name == attacked) {
-            ensure!(text.contains(head), "{attacked} has no `{head}`");
+            ensure!(text.contains(head), "{attacked} does not contain `{head}`");
             *text = text.replacen(head, &format!("{head}\n        attack();"), 1) + &attack;
         }
     }

@@ -58,7 +58,7 @@ impl Margin {
     }
 }
 
-/// The purpose for which a sample is kept. For each purpose, only the nearest sample is kept.
+/// The purpose a sample is kept for. For each purpose, only the nearest sample is kept.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum SamplePurpose {
     /// The largest deviation of a correct solution.
@@ -99,9 +99,10 @@ impl Margins {
         self.keep_nearest(purpose, sample);
     }
 
-    /// Adds a mistake's deciding deviations in one exam, for the items that it must fail. Items
-    /// that barely catch the mistake are only considered if no other item catches it clearly,
-    /// because the lists of items are generated and also contain items that test something else.
+    /// Adds a mistake's deciding deviations in one exam, one for each item that it must fail. Items
+    /// that barely catch the mistake are only considered if no other item catches it clearly. This
+    /// is because the lists of items are generated, so they also contain items that test something
+    /// else.
     pub fn add_mistake_of_exam(&mut self, samples: Vec<DeviationSample>) {
         let is_clear = |sample: &DeviationSample| sample.deviation.value >= MIN_MARGIN;
         let is_caught = samples.iter().any(is_clear);

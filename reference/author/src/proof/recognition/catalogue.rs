@@ -1,5 +1,5 @@
-//! Mistakes that the exam doesn't know in this form: known mistakes in variants, and unknown
-//! mistakes.
+//! Mistakes that the exam doesn't know in this form: known mistakes in the code of variants, and
+//! unknown mistakes.
 
 use std::collections::BTreeSet;
 
@@ -18,7 +18,7 @@ use crate::solutions::methods::wrong_methods;
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::Answers;
 
-/// The report's statements about a mistake.
+/// The claims that the report makes about a mistake, and whether they are true.
 struct ReportedMistake {
     /// The mistake's id, followed by the variant's id if the mistake is in a variant.
     id: String,
@@ -26,7 +26,7 @@ struct ReportedMistake {
     true_hints: BTreeSet<String>,
     /// The hints in the report that are false.
     false_hints: BTreeSet<String>,
-    /// If the report says that state is kept between calls, whether that is true.
+    /// Whether the code really keeps state between calls, if the report says that it does.
     names_state: Option<bool>,
     /// If the mistake gets no true hint, the items where its answers differ from those of the same
     /// mistake in the reference.
@@ -126,7 +126,7 @@ pub fn recognise_unknown(solutions: &Solutions, exam: &Exam, step: usize) -> Res
         recognised: hinted.count(),
         with_false_hint: lines.len(),
         summary_line: format!(
-            "mistakes of no known kind: {}, {} get a false hint",
+            "unknown mistakes: {}, of which {} get a false hint",
             rows.len(),
             lines.len()
         ),

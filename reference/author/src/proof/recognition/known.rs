@@ -1,5 +1,6 @@
-//! Determines the hints for known mistakes in the reference: for one mistake at a time, both with
-//! the full exam and with the mistake removed from the exam, and for two mistakes at once.
+//! Determines the hints for known mistakes in the reference. A single mistake is graded both with
+//! the full exam and with an exam that lacks the mistake's own hint. Pairs of mistakes are graded
+//! too.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -22,7 +23,7 @@ struct KnownHints {
     id: String,
     /// The hints with the full exam.
     hints: BTreeSet<String>,
-    /// The false hints that the mistake gets if its own hint is removed from the exam.
+    /// The false hints that the mistake gets when its own hint is removed from the exam.
     if_unknown: BTreeSet<String>,
     /// Whether the exam contains the mistake's signature. It doesn't if only pictures reveal the
     /// mistake, if the mistake produces no answers, or if too many other mistakes produce the same
@@ -108,7 +109,7 @@ fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
     let with_false_hint = with_false_hint.map(|row| {
         let hints = list(&row.if_unknown);
         format!(
-            "{} gets the false hint {hints} if its own hint is left out",
+            "{} gets the false hint {hints} when its own hint is removed",
             row.id
         )
     });
@@ -122,7 +123,8 @@ fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
         lines: others.chain(with_false_hint).chain(unmarked).collect(),
         summary_line: format!(
             "hints: {} of {count} mistakes recognised ({:.0} %), {} more without a signature; \
-             without their own hints, {false_hint_count} of {} get a false hint",
+             when its own hint is removed, a mistake gets a false hint in {false_hint_count} of {} \
+             cases",
             recognised.len(),
             100.0 * recognised.len() as f64 / count.max(1) as f64,
             without_signature.len(),

@@ -25,7 +25,8 @@ pub struct Recognition {
     pub count: usize,
     /// The number of solutions that get a true hint and no false hint.
     pub recognised: usize,
-    /// The number of solutions that get a false hint. A known mistake's own hint is removed first.
+    /// The number of solutions that get a false hint. For a known mistake, its own hint is removed
+    /// first.
     pub with_false_hint: usize,
     /// The solutions that lose no points in their task or lose points in another task, one line
     /// each.
@@ -56,8 +57,8 @@ fn answers<'e>(
     items.map(|item| Ok((item, built.answers(item)?))).collect()
 }
 
-/// Returns the ids of the mistakes whose hints these answers produce for any item. `exam` is the
-/// exam that contains the items, possibly without some hints.
+/// Returns the ids of the mistakes whose hints these answers trigger in at least one item. `exam`
+/// is the exam that contains the items; some of its hints may have been removed.
 fn hints(answers: &[(&Item, Answers)], exam: &Exam) -> BTreeSet<String> {
     let mut observations = Observations::default();
     for (item, answers) in answers {

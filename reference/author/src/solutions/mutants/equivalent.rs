@@ -1,4 +1,5 @@
-//! The mutants that are equivalent to the reference, and the reasons. The list is written by hand.
+//! The mutants that are equivalent to the reference, each with the reason. The list is written by
+//! hand.
 
 use std::path::Path;
 
@@ -17,7 +18,7 @@ pub const FILE: &str = "mutants/equivalent.toml";
 pub struct EquivalentMutant {
     /// The mutant's name in the list of all mutants.
     pub name: String,
-    /// The reason why no answer differs, or why the contract allows the answers that do.
+    /// Why no answer differs from the reference's, or why the contract allows those that do.
     pub why: String,
 }
 

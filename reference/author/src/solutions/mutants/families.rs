@@ -45,7 +45,8 @@ pub(super) fn changes(file: &str) -> syn::Result<Vec<Change>> {
         let key = |change: &Change| (change.bytes.start, change.bytes.end);
         (key(a), &a.what, &a.now).cmp(&(key(b), &b.what, &b.now))
     });
-    // A name that stands for both a field and its value is visited twice.
+    // In a field initialised by shorthand, the name is visited twice: as the field and as its
+    // value.
     found.dedup();
     Ok(found)
 }
@@ -123,7 +124,7 @@ impl<'a> Visitor<'a> {
             ReturnType::Default => "()".to_owned(),
             ReturnType::Type(_, returned) => self.text(returned).split_whitespace().collect(),
         };
-        // Constructors keep their bodies, because no default value would be simpler.
+        // Keep the bodies of constructors, because a default value wouldn't be any simpler.
         if signature.ident != "new" {
             for now in default_values(&returns) {
                 self.add_anywhere(format!("body: {now}"), body.clone(), now);
@@ -153,7 +154,7 @@ impl<'a> Visitor<'a> {
         }
     }
 
-    /// Swaps two operands.
+    /// Adds a change that swaps two operands.
     pub(super) fn swap(&mut self, left: &Expr, right: &Expr) {
         let (first, second) = (bytes(left), bytes(right));
         let between = &self.file[first.end..second.start];
@@ -163,7 +164,7 @@ impl<'a> Visitor<'a> {
         self.add(what, first.start..second.end, &now);
     }
 
-    /// Replaces a number with others.
+    /// Adds changes that replace a number.
     pub(super) fn change_number(&mut self, node: &impl Spanned) {
         let text = self.text(node);
         let others = match text.parse::<u32>() {
@@ -182,7 +183,7 @@ impl<'a> Visitor<'a> {
         }
     }
 
-    /// Ends a loop after its first iteration.
+    /// Adds a change that ends a loop after its first iteration.
     pub(super) fn end_loop(&mut self, body: &Block) {
         let at = body.brace_token.span.close().byte_range().start;
         let what = "condition: a loop ends after its first iteration";

@@ -49,8 +49,8 @@ pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
     Ok(found)
 }
 
-/// Returns the task in which students write this function. If there is no such task, returns all
-/// tasks in the file.
+/// Returns the task that students write this function in, or all tasks in the file if there is no
+/// such task.
 fn tasks_of(assignment: &Assignment, file: &str, function: &str) -> Vec<Task> {
     let in_file = || assignment.tasks.iter().filter(|task| task.file == file);
     let own = in_file().find(|task| task.method == function);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use syn::spanned::Spanned;
 use syn::{FnArg, Signature};
 
-/// Types whose values can be kept as copies, whether they are passed by reference or by value.
+/// Types whose values can be copied and kept, whether they are passed by reference or by value.
 const COPIED: [&str; 6] = ["Ray", "Interval", "UVec2", "Vec2", "usize", "f32"];
 
 /// A description, the bytes to replace and the replacement.

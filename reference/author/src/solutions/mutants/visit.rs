@@ -207,7 +207,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
         visit::visit_expr_while(self, round);
     }
 
-    /// Leaves out each statement that isn't a declaration, including early returns.
+    /// Adds changes that leave out single statements, including early returns but not declarations.
     fn visit_stmt(&mut self, statement: &'ast Stmt) {
         if matches!(statement, Stmt::Expr(_, Some(_)) | Stmt::Macro(_)) {
             let what = format!("dropped: {}", self.text(statement));

@@ -242,7 +242,7 @@ impl EntryResult {
             .map_or(&[], |score| &score.build.ignored_copies)
     }
 
-    /// Returns the names of the files that a graded submission lacks and that the exam is about.
+    /// Returns the names of the files that the exam tests but that a graded submission lacks.
     pub fn missing_files(&self) -> impl Iterator<Item = &str> {
         self.score().into_iter().flat_map(|score| {
             let files = score.build.not_compiled.iter();

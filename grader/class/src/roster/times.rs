@@ -18,7 +18,7 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
             has_time && people.any(|person| row.matches(person))
         });
         let mut theirs: Vec<&Member> = theirs.collect();
-        // The roster corrects the list in the download.
+        // The roster takes precedence over the list in the download.
         if theirs.iter().any(|row| row.list == ListKind::Roster) {
             theirs.retain(|row| row.list != ListKind::Downloaded);
         }

@@ -32,8 +32,8 @@ pub struct EntryInfo {
     pub people: Vec<Person>,
     /// Whether the platform's export marks the submission as late.
     pub late: bool,
-    /// Whether the platform's export marks every late submission, in which case a submission
-    /// without a mark is on time.
+    /// Whether the platform's export flags every late submission. If so, a submission without a
+    /// flag is on time.
     pub marks_late: bool,
     /// Whether corrected files, which were handed in later, have replaced the original ones.
     pub is_corrected: bool,

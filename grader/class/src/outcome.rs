@@ -142,7 +142,7 @@ pub struct ItemScore {
     pub max_points: u32,
     /// The verdict, as in `score.json`.
     pub verdict: String,
-    /// The id of the item that kept this one from being graded, if the verdict says so.
+    /// The id of the item that blocks this one, if any.
     #[serde(default, rename = "by")]
     pub blocked_by: Option<String>,
     /// The explanation of the verdict, in a sentence.

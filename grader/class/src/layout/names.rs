@@ -45,7 +45,7 @@ pub(super) struct Names<'a> {
     pub notes: Vec<String>,
 }
 
-/// Returns whether a name in the class's folder follows one of the platform's templates.
+/// Returns whether a name in the class's folder matches one of the platform's templates.
 pub(super) fn is_name(platform: &'static Platform, name: &str) -> bool {
     let outermost = platform.outer_folders.first();
     let templates = [outermost.unwrap_or(&platform.files), &platform.texts];
@@ -175,7 +175,7 @@ impl Reader<'_> {
         });
     }
 
-    /// Returns the path of a file or folder whose name doesn't follow any template.
+    /// Returns the path of a file or folder whose name doesn't match any template.
     pub fn unmatched(&self, path: String) -> UnmatchedPath {
         UnmatchedPath::new(path, &self.platform.unmatched)
     }
@@ -320,7 +320,7 @@ fn choose_title(found: &mut Vec<SubmissionNode>, choice: &LayoutChoice) -> Resul
     }
 }
 
-/// Returns the possible readings of a name according to the first template that it follows.
+/// Returns the possible readings of a name according to the first template that it matches.
 pub(super) fn first_readings<'a>(templates: &'static [String], name: &'a str) -> Vec<Parts<'a>> {
     let mut ways = templates.iter().map(|template| readings(template, name));
     ways.find(|ways| !ways.is_empty()).unwrap_or_default()
@@ -328,7 +328,7 @@ pub(super) fn first_readings<'a>(templates: &'static [String], name: &'a str) ->
 
 /// Returns the common prefix of all names, cut off after its last separator, since the account
 /// names may happen to begin with the same letters. For a single name, the prefix is empty, since
-/// nothing shows where the account name begins.
+/// it is unclear where the account name begins.
 pub(super) fn common_prefix<'a>(names: &[&'a str], separator: char) -> &'a str {
     let [first, others @ ..] = names else {
         return "";

@@ -49,7 +49,7 @@ pub struct Platform {
     /// The reason for not grading texts in addition to files, or `None` if every submission has a
     /// text.
     pub text_beside_files: Option<String>,
-    /// The reason for listing a name as unmatched if it doesn't follow any template.
+    /// The reason for listing a name as unmatched if it doesn't match any template.
     pub unmatched: String,
     /// Files that the platform writes in addition to the submissions.
     pub own_files: Vec<String>,

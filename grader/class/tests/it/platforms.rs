@@ -401,7 +401,7 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
     );
 }
 
-/// If there is only one attempt and no receipt, nothing shows where the account name begins in the
+/// If there is only one attempt and no receipt, it is unclear where the account name begins in the
 /// file name.
 #[test]
 fn a_chosen_layout_enters_a_folder_that_is_no_submission() {

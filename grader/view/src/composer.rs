@@ -27,7 +27,7 @@ const INTERVALS: [(Duration, Duration); 3] = [
 const PANIC_COLOUR: [u8; 3] = [255, 0, 255];
 /// The number of tests at the upper end of the colour scale.
 const MOST_TESTS: f32 = 1000.0;
-/// Pixels with at least this many marks get the brightest colour.
+/// The minimum number of rule violations for the brightest colour.
 const MOST_MARKS: f32 = 16.0;
 /// The colour of each rule, in the order of [`Rule`](view_probe::rules::Rule). The colours can be
 /// told apart by people with any type of colour vision. The page's legend uses the same colours.

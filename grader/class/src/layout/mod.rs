@@ -210,8 +210,8 @@ fn reject_links(entries: &mut [Entry]) {
     }
 }
 
-/// Returns whether more than half of the names are in the platform's format, ignoring those of files
-/// that the platform writes in addition to the submissions.
+/// Returns whether more than half of the names are in the platform's format, ignoring files that
+/// the platform writes in addition to the submissions.
 fn is_majority(names: &[&str], platform: &'static Platform) -> bool {
     let is_own = |name: &&&str| platform.own_files.iter().any(|own| own == **name);
     let names = names.iter().filter(|name| !is_own(name));

@@ -132,7 +132,7 @@ impl ExamRun {
             (Err(fault), Some((question, element))) => {
                 let number = item.number(question, element);
                 return format!(
-                    "correct, but the whole item has no answers because of {}#{number}: {fault}",
+                    "correct, but the item could not be answered because of {}#{number}: {fault}",
                     item.id
                 );
             }

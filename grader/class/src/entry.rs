@@ -32,8 +32,8 @@ pub struct EntryInfo {
     pub people: Vec<Person>,
     /// Whether the platform's export marks the submission as late.
     pub late: bool,
-    /// Whether the platform's export marks every late submission, in which case a submission
-    /// without a mark is on time.
+    /// Whether the platform's export flags every late submission. If so, a submission without a
+    /// flag is on time.
     pub marks_late: bool,
     /// Whether corrected files, which were handed in later, have replaced the original ones.
     pub is_corrected: bool,
@@ -113,7 +113,7 @@ pub struct Person {
     /// preferred.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
-    /// Whether the person is only known to belong to the submission because of the roster's groups.
+    /// Whether the person was added to the submission only because of the roster's groups.
     #[serde(skip_serializing_if = "Not::not")]
     pub is_from_group: bool,
     /// Whether the person is on a list, in which case `number` isn't a group's number.
@@ -153,7 +153,7 @@ impl Entry {
 pub enum Source {
     /// A folder or an archive.
     Path(PathBuf),
-    /// Individual files: for each file, the name under which it was handed in, and its path.
+    /// Individual files: for each file, the name it was handed in under, and its path.
     Files(Vec<(String, PathBuf)>),
     /// Nothing can be graded, for this reason.
     Missing(String),
@@ -184,7 +184,7 @@ impl Person {
         [&self.email, &self.sid, &self.login]
     }
 
-    /// Returns whether all identifiers that would be unique to the person are unknown.
+    /// Returns whether none of the person's unique identifiers is known.
     pub fn is_bare(&self) -> bool {
         self.own_identifiers() == [""; 3]
     }

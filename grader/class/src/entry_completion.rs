@@ -32,8 +32,8 @@ pub struct ListFindings {
     people: Vec<Person>,
     /// The number of entries.
     entries: usize,
-    /// The names of the entries in which nobody is on a list, except those whose people are
-    /// unclear. Empty if there are no lists.
+    /// The names of the entries whose people aren't on any list. Entries whose people are unclear
+    /// are left out. Empty if there are no lists.
     unlisted: Vec<String>,
 }
 

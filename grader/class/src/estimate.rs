@@ -9,7 +9,7 @@ const MACHINES: [usize; 6] = [1, 2, 4, 8, 16, 64];
 /// The estimate shows the cost for this many submissions, in addition to the cost for the class.
 const MANY: f64 = 1e6;
 
-/// The measured times of some submissions, from which the time for all others is estimated.
+/// The measured times of some submissions, used to estimate the time for the rest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Estimate {
     /// The time for which each submission in the sample occupied a core.

@@ -142,9 +142,10 @@ impl FinalGrades {
         grades.filter(move |grade| grade.submission == submission)
     }
 
-    /// Returns a sentence about the difference between a grade in `after` and this run's grade for
-    /// the same person: the one for the same submission or else the one that `after` lacks. A new
-    /// submission in addition to others doesn't count as a change.
+    /// Returns a sentence about how a grade changed. `now` is a grade in `after`. It is compared
+    /// with this run's grade for the same person and submission or, if there is none, with the
+    /// person's grade for a submission that no longer has one in `after`. If a person hands in an
+    /// additional submission, that doesn't count as a change.
     fn change_to(&self, now: &FinalGrade, after: &Self, causes: &[&str]) -> Option<String> {
         let is_gone = |was: &&FinalGrade| after.find(was).is_none();
         let other = || self.counting(&now.person).filter(is_gone);

@@ -1,7 +1,7 @@
 //! One archive with the pages to hand back. Its files have the names that Canvas and Moodle expect
 //! for an upload. For other platforms, they are named after the people.
 //!
-//! Canvas reads the first two numbers between underscores as the numbers of the user and the
+//! Canvas reads the first two numbers between underscores as the IDs of the user and the
 //! attachment, and shows the page under the attachment's name. The page for a submitted zip is
 //! therefore put into a zip as well. Moodle splits a name at its underscores into full name,
 //! participant, plug-in type, plug-in and file name, so the full name must not contain any.

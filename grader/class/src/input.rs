@@ -88,8 +88,8 @@ impl Input {
         let of_several = if class.entries.is_empty() {
             layout::side_by_side(&root, handed_out)
         } else {
-            // If less than half of the entries are mixtures, students may have made mistakes, and the other
-            // entries can be graded.
+            // If fewer than half of the entries seem to belong to several people, students may have
+            // made mistakes, and the other entries can be graded.
             let is_many = 2 * class.mixtures.len() >= class.entries.len();
             class.mixtures.first().filter(|_| is_many).cloned()
         };

@@ -142,7 +142,7 @@ pub struct ItemScore {
     pub max_points: u32,
     /// The verdict, as in `score.json`.
     pub verdict: String,
-    /// The id of the item that kept this one from being graded, if the verdict says so.
+    /// The id of the item that blocks this one, if any.
     #[serde(default, rename = "by")]
     pub blocked_by: Option<String>,
     /// The explanation of the verdict, in a sentence.
@@ -242,7 +242,7 @@ impl EntryResult {
             .map_or(&[], |score| &score.build.ignored_copies)
     }
 
-    /// Returns the names of the files that a graded submission lacks and that the exam is about.
+    /// Returns the names of the files that the exam tests but that a graded submission lacks.
     pub fn missing_files(&self) -> impl Iterator<Item = &str> {
         self.score().into_iter().flat_map(|score| {
             let files = score.build.not_compiled.iter();

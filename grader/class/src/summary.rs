@@ -117,7 +117,7 @@ pub struct Outlier {
     pub reasons: Vec<Reason>,
 }
 
-/// A reason why submissions need attention, with advice.
+/// A reason that submissions need attention, with advice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reason {
     /// The cause, which several submissions can share.
@@ -298,8 +298,8 @@ fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
     // Only the most likely hint is counted.
     let hint = |item: &ItemScore| Some((item.hints.first()?.hint.clone(), Some(item.id.clone())));
     let known: Vec<_> = failed.clone().filter_map(hint).collect();
-    // A known mistake also causes failures in items, such as pictures, that cannot tell it from
-    // other mistakes.
+    // A known mistake also causes failures in items, such as pictures, that cannot distinguish it
+    // from other mistakes.
     if !known.is_empty() {
         return known;
     }

@@ -109,8 +109,8 @@ fn unpack_files(
 }
 
 /// The archive members to read (and how many bytes of each), and the members to create as empty
-/// files. If the contents of an empty file are needed, its string is the reason for not reading
-/// them.
+/// files. The string is present if the file's contents would be needed, and says why it is created
+/// empty.
 type Selection<'a> = (Vec<(&'a Member, u64)>, Vec<(&'a Member, Option<String>)>);
 
 /// Selects the members whose contents are needed. The smallest come first, so that only the largest

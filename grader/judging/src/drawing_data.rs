@@ -81,7 +81,7 @@ impl DrawingData {
         }
     }
 
-    /// Returns the reason why the data doesn't fit `question`, or `None` if it does.
+    /// Returns the reason the data doesn't fit `question`, or `None` if it fits.
     pub fn problem(&self, question: &Question) -> Option<String> {
         let count = question.count();
         match (self, question) {

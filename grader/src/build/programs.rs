@@ -52,7 +52,7 @@ pub struct Build {
 pub enum SubstitutedProgram<'a> {
     /// The path of the program.
     Program(&'a Path),
-    /// The submission's file doesn't compile with these parts.
+    /// The submission's file doesn't compile when it is combined with these parts.
     NotCompiled,
     /// There is no reference, there are no parts for this file, or the submission's file is missing
     /// or doesn't compile.

@@ -219,7 +219,7 @@ fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     assert_ne!(culprit, first, "{text}");
     let text = replay(&submission, first);
     let lost =
-        format!("verdict  correct, but the whole item has no answers because of {culprit}: ");
+        format!("verdict  correct, but the item could not be answered because of {culprit}: ");
     assert!(text.contains(&lost), "{text}");
     assert!(!text.contains("keeps something"), "{text}");
 }

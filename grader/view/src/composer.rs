@@ -27,7 +27,7 @@ const INTERVALS: [(Duration, Duration); 3] = [
 const PANIC_COLOUR: [u8; 3] = [255, 0, 255];
 /// The number of tests at the upper end of the colour scale.
 const MOST_TESTS: f32 = 1000.0;
-/// Pixels with at least this many marks get the brightest colour.
+/// The minimum number of rule violations for the brightest colour.
 const MOST_MARKS: f32 = 16.0;
 /// The colour of each rule, in the order of [`Rule`](view_probe::rules::Rule). The colours can be
 /// told apart by people with any type of colour vision. The page's legend uses the same colours.
@@ -142,16 +142,16 @@ fn paint<T: Copy + Default>(
 }
 
 /// Returns a test count's position on the scale from 1 to [`MOST_TESTS`]. The scale is fixed, so
-/// that pictures can be compared, and logarithmic, so that it covers a list of primitives as well
-/// as a good tree.
+/// that pictures can be compared, and logarithmic, so that it covers both a good tree and a plain
+/// list of primitives.
 fn share_of_scale(tests: MarkedTests) -> f32 {
     let total = tests.counts.total().max(1) as f32;
     (total.log2() / MOST_TESTS.log2()).min(1.0)
 }
 
-/// Returns the colour for a ray's mistakes: the colour of the rule that the ray breaks most often,
-/// which is brighter the more often that rule is broken. A ray without mistakes is grey, and is
-/// lighter the more tests it needs.
+/// Returns the colour for a ray's mistakes. It is the colour of the rule that the ray breaks most
+/// often: the more often it breaks this rule, the brighter the colour. A ray without mistakes is
+/// grey: the more tests it needs, the lighter the grey.
 fn mistakes(tests: MarkedTests) -> Vec3 {
     let marks = tests.marks.iter().zip(RULE_COLOURS);
     match marks.rev().max_by_key(|(count, _)| **count) {

@@ -14,12 +14,12 @@ pub enum ViewError {
 }
 
 impl ViewError {
-    /// Converts an error that the user can fix.
+    /// Wraps an error that the user can fix.
     pub fn usage(error: impl Display) -> Self {
         ViewError::Usage(error.to_string())
     }
 
-    /// Converts an error caused by the viewer or the machine.
+    /// Wraps an error caused by the viewer or the machine.
     pub fn machine(error: impl Display) -> Self {
         ViewError::Machine(error.to_string())
     }

@@ -60,8 +60,9 @@ impl Probe {
         })
     }
 
-    /// Sends a request and waits for the response, until the program has used `limit` of CPU time
-    /// or `is_abandoned` returns true. After an error, the program must not be used again.
+    /// Sends a request and waits for the response. Gives up when the program has used `limit` of
+    /// CPU time or when `is_abandoned` returns true. After an error, the program must not be used
+    /// again.
     pub fn ask(
         &mut self,
         request: &Request,

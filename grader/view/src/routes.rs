@@ -19,8 +19,8 @@ use crate::session::Command;
 use crate::shared_session::SharedSession;
 use crate::subject::{SceneList, Subject};
 
-/// The time after which a request for news is answered even if nothing has changed. Tunnels close
-/// connections that are silent for more than a minute.
+/// The time after which a request for updates is answered even if nothing has changed. Tunnels
+/// close connections that are silent for more than a minute.
 const POLL_TIMEOUT: Duration = Duration::from_secs(25);
 /// The maximum number of boxes to draw over the picture. 400 boxes have 4,800 edges.
 const MAX_BOXES: usize = 400;

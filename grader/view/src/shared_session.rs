@@ -7,7 +7,7 @@ use std::{io, thread};
 
 use crate::session::{Key, Session};
 
-/// The number of pages that may wait for news at the same time. A browser opens at most six
+/// The number of pages that may wait for updates at the same time. A browser opens at most six
 /// connections to one server, and it needs the remaining connections for pictures.
 const MAX_WAITING: usize = 4;
 /// How long a page waits if more than [`MAX_WAITING`] pages are waiting.
@@ -55,7 +55,7 @@ impl SharedSession {
         Ok(())
     }
 
-    /// Runs `change` on the session and wakes the threads that wait for work or news.
+    /// Runs `change` on the session and wakes the threads that wait for work or updates.
     pub fn update<T>(&self, change: impl FnOnce(&mut Session, Instant) -> T) -> T {
         let value = change(&mut self.lock().session, Instant::now());
         self.changed.notify_all();

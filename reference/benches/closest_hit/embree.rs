@@ -1,8 +1,8 @@
 //! Embree 4, loaded at run time from the library named by the variable `EMBREE`. The library isn't
 //! part of this project. The Python package `embreex` contains a copy.
 //!
-//! This is the only `unsafe` code outside the sandbox. Functions of a C library cannot be called in
-//! any other way. The declarations follow Embree 4's `rtcore.h`.
+//! This is the only `unsafe` code outside the sandbox. There is no other way to call functions in a
+//! C library. The declarations follow Embree 4's `rtcore.h`.
 #![allow(
     unsafe_code,
     reason = "a C library that is loaded at run time, for comparison only"

@@ -1,13 +1,13 @@
-//! Part two, step 3: direct light, which reaches a surface without being scattered before.
+//! Part two, step 3: direct light, which reaches a surface without being scattered on the way.
 //!
 //! ```text
-//!             light                  Two directions are sampled: one toward a light, and one as the
-//!           ─────────                material scatters. Where a light is small or far away, the
+//!             light                  Two directions are sampled: one toward a light, and one that
+//!           ─────────                the material samples. If a light is small or far away, the
 //!             ╱                      first rarely misses it and the second rarely hits it. Close to
 //!            ╱ 1       . 2           a large light, the second is better.
 //!           ╱       .
 //!          ╱     .
-//!         ╱   .                      Each is divided by the sum of both densities:
+//!         ╱   .                      Each sample is divided by the sum of both densities:
 //!        ╱ .                         the balance heuristic.
 //!   ────o────────────────
 //! ```
@@ -22,17 +22,18 @@ use crate::world::{Material, Surface, World};
 /// toward a light and one that the material samples. See Veach and Guibas, "Optimally Combining
 /// Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995, section 3.2.
 ///
-/// - The result is the sum over both directions of evaluate × radiance / (light pdf + scattering
-///   pdf). Both densities are those of this direction, whichever of the two it is.
-/// - The first direction is the one that [`World::sample_light`] returns, and counts as zero if
-///   there is none. [`World::light_pdf`] is its density.
+/// - The result is the sum, over both directions, of evaluate × radiance / (light pdf + scattering
+///   pdf). Each term uses both densities of its own direction, no matter which way that direction
+///   was sampled.
+/// - The first direction is the one that [`World::sample_light`] returns. If it returns `None`, the
+///   first term is zero. [`World::light_pdf`] returns the light pdf.
 /// - The second is the one that `Lambertian::scatter` returns for the random numbers
 ///   `numbers.direct`.
-/// - The radiance is the light that arrives from this direction straight from a light or the
-///   environment, if nothing is in the way: see [`World::emitted`].
-/// - A direction with a density of zero, or with `evaluate` zero, adds nothing.
+/// - The radiance is the light that arrives from this direction, straight from a light or the
+///   environment. It is zero if something is in the way: see [`World::emitted`].
+/// - A direction adds nothing if the sum of its densities is zero, or if `evaluate` is zero.
 /// - Only matte surfaces look for direct light. The result is zero for all others, because a
-///   direction toward a light is never exactly the one they reflect to.
+///   direction toward a light is never exactly one that they reflect or refract to.
 pub fn direct(world: &World, surface: &Surface, numbers: &RandomNumbers) -> Vec3 {
     // solution
     // starter: let _ = (world, numbers);
@@ -78,7 +79,7 @@ pub(crate) mod tests {
     use crate::lights::{AreaLight, Light};
     use crate::world::LightSources;
 
-    /// An endless floor at y = 0, which only rays from above hit.
+    /// An infinite floor at y = 0. Only rays from above hit it.
     pub(crate) struct Floor(pub(crate) scene::Material);
 
     impl Intersect for Floor {

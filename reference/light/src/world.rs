@@ -79,11 +79,11 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Returns the radiance that arrives at a surface from a direction straight from a light or the
-    /// environment, without being scattered.
+    /// Returns the radiance that arrives at a surface from this direction without being scattered
+    /// on the way, i.e. straight from a light or the environment.
     ///
-    /// A ray is only traced as far as the nearest light in this direction, since nothing behind that
-    /// light can be seen, and only if there is something to be seen.
+    /// A ray is traced only if there is something to see, and only as far as the nearest light in
+    /// this direction, since nothing behind that light is visible.
     pub fn emitted(&self, at: &Surface, direction: Vec3) -> Vec3 {
         let nearest = self.sources.lights.nearest(at.position, direction);
         let radiance = match nearest {
@@ -120,8 +120,8 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Returns the probability density, per solid angle, of this direction if
-    /// [`World::sample_light`] chooses it. The direction must be a unit vector.
+    /// Returns the probability density, per solid angle, with which [`World::sample_light`] chooses
+    /// this direction. The direction must be a unit vector.
     pub fn light_pdf(&self, from: Vec3, direction: Vec3) -> f32 {
         let LightSources { lights, sky } = self.sources;
         match sky {
@@ -158,8 +158,8 @@ impl LightSources {
     }
 }
 
-/// Returns the light that a shape of the scene is. A triangle emits on the side that its corners'
-/// normals point to.
+/// Converts a light-emitting shape of the scene to a [`Light`]. A triangle emits on the side that
+/// its corners' normals point to.
 fn light(shape: &Shape, radiance: Vec3) -> Light {
     match *shape {
         Shape::Sphere { center, radius, .. } => Light::Sphere(SphereLight {

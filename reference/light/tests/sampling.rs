@@ -1,5 +1,5 @@
-//! Estimates with many samples match closed forms: the samples of lights and environment maps have
-//! the densities that they say.
+//! Estimates with many samples match closed forms. This shows that the samples of lights and
+//! environment maps really have the densities that are reported for them.
 
 use std::f32::consts::{PI, TAU};
 

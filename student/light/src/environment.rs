@@ -3,7 +3,7 @@
 //! ```text
 //!    φ = 0          columns         φ = 2π    θ is the angle from +y, and φ the angle around the
 //!      ┌────────────────────────────┐ θ = 0   y-axis. The pixels of a row all cover the same solid
-//!      │                            │         angle, but those near the poles cover less:
+//!      │                            │         angle, but those near the poles cover less.
 //!      │        ▓ the sun           │ rows
 //!      │                            │         direction = (sin θ · cos φ, cos θ, sin θ · sin φ)
 //!      └────────────────────────────┘ θ = π
@@ -18,11 +18,11 @@ use framework::render::film::luminance;
 use framework::scene::EnvironmentMap;
 use glam::{Vec2, Vec3, vec2};
 
-/// Returns a direction that is evenly distributed over all directions, for two random numbers in
-/// `[0, 1)`. See PBR, section A.5.1.
+/// Samples a direction uniformly from all directions, with two random numbers in `[0, 1)`. See PBR,
+/// section A.5.1.
 ///
 /// - The direction has length one.
-/// - Any formula will do that spreads evenly spread numbers evenly over the sphere.
+/// - Any formula will do, as long as evenly distributed numbers give evenly distributed directions.
 pub fn uniform_sphere(random: Vec2) -> Vec3 {
     todo!("part two, environment: which direction belongs to {random:?}?")
 }
@@ -37,13 +37,14 @@ impl Environment {
     /// Prepares a map for sampling. See PBR, section 12.5.2.
     ///
     /// - A pixel's weight is its luminance, times the sine of θ in the middle of its row.
-    /// - All pixels of a map can be black. Then [`Environment::sample`] is never called.
+    /// - A map can be entirely black. In that case, [`Environment::sample`] is never called.
     pub fn new(map: EnvironmentMap) -> Self {
         let size = map.size();
         todo!("part two, environment: how much does each of {size} pixels weigh?")
     }
 
-    /// Returns the radiance from a direction, which must be a unit vector: that of the pixel.
+    /// Returns the radiance from a direction, which must be a unit vector. This is the radiance of
+    /// the pixel that shows the direction.
     pub fn radiance(&self, direction: Vec3) -> Vec3 {
         self.map.pixels()[self.index(direction)]
     }
@@ -54,7 +55,7 @@ impl Environment {
         let theta = acos(direction.y.clamp(-1.0, 1.0));
         let size = self.map.size();
         let position = vec2(phi / TAU, theta / PI) * size.as_vec2();
-        // Rounding can make the position that of the end.
+        // Because of rounding, the position can be on the map's far edge, past the last pixel.
         let pixel = position.as_uvec2().min(size - 1);
         (pixel.y * size.x + pixel.x) as usize
     }
@@ -64,14 +65,15 @@ impl Environment {
     /// - `choice` picks the pixel: a pixel's share of `[0, 1)` is its share of the weights, row by
     ///   row from the top. Numbers at the border between two pixels are not tested.
     /// - `random` is the position in the pixel, from its upper left corner: `random.x` across and
-    ///   `random.y` down. The result is the direction at this position, of length one.
+    ///   `random.y` down. The result is the direction at this position, as a unit vector.
     pub fn sample(&self, choice: f32, random: Vec2) -> Vec3 {
         todo!("part two, environment: which direction is {random:?} in pixel {choice}?")
     }
 
-    /// Returns the probability density, per solid angle, of a direction if [`Environment::sample`]
-    /// chooses it: share · width · height / (2π² · sin θ), where `share` is the pixel's share of the
-    /// weights, and θ that of the direction itself. The direction must be a unit vector.
+    /// Returns the probability density, per solid angle, with which [`Environment::sample`] chooses
+    /// a direction: share · width · height / (2π² · sin θ). Here, `share` is the pixel's share of
+    /// the weights, and θ is the angle of the direction itself, not that of the pixel's middle. The
+    /// direction must be a unit vector.
     ///
     /// - The given [`Environment::index`] finds the pixel.
     /// - The result is zero for a black pixel, and everywhere if all pixels are black.
@@ -87,8 +89,8 @@ mod tests {
 
     use super::*;
 
-    /// A map of 8 × 4 pixels. All are black except one in the second row, which is three times as
-    /// bright as one in the third row. Both cover the same solid angle.
+    /// A map of 8 × 4 pixels. All are black except two that cover the same solid angle: the one in
+    /// the second row is three times as bright as the one in the third row.
     fn two_pixels() -> Environment {
         let mut pixels = vec![Vec3::ZERO; 32];
         pixels[8 + 1] = Vec3::splat(3.0);

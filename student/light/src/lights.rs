@@ -32,8 +32,8 @@ pub struct AreaLight {
     pub radiance: Vec3,
     /// Whether this is the half of the parallelogram next to the corner.
     pub is_triangle: bool,
-    /// For each edge, the vector whose dot product with it is 1, and with the other edge and the
-    /// normal 0.
+    /// For each edge, the vector whose dot product with that edge is 1, and whose dot products with
+    /// the other edge and the normal are 0.
     inverse: [Vec3; 2],
 }
 
@@ -55,8 +55,8 @@ pub struct Lights {
 }
 
 impl AreaLight {
-    /// Creates a light in the shape of a parallelogram. It emits on the side where the first edge
-    /// is seen to turn counterclockwise to the second.
+    /// Creates a light in the shape of a parallelogram. It emits on the side from which the turn
+    /// from the first edge to the second looks counterclockwise.
     pub fn parallelogram(corner: Vec3, edges: [Vec3; 2], radiance: Vec3) -> Self {
         let [e0, e1] = edges;
         let cross = e0.cross(e1);
@@ -73,8 +73,8 @@ impl AreaLight {
         }
     }
 
-    /// Creates a light in the shape of a triangle. It emits on the side where its corners are seen
-    /// in counterclockwise order.
+    /// Creates a light in the shape of a triangle. It emits on the side from which its corners
+    /// appear in counterclockwise order.
     pub fn triangle([p0, p1, p2]: [Vec3; 3], radiance: Vec3) -> Self {
         let whole = AreaLight::parallelogram(p0, [p1 - p0, p2 - p0], radiance);
         AreaLight {
@@ -84,8 +84,8 @@ impl AreaLight {
         }
     }
 
-    /// Returns the point of the light for two random numbers in `[0, 1)`. The points are evenly
-    /// spread.
+    /// Returns the point on the light for two random numbers in `[0, 1)`. The points are evenly
+    /// distributed.
     pub fn point(&self, random: Vec2) -> Vec3 {
         let (a, b) = if self.is_triangle {
             // See Turk, "Generating Random Points in Triangles", Graphics Gems, 1990.
@@ -98,7 +98,8 @@ impl AreaLight {
     }
 
     /// Returns the distance from a point to the light in a direction, which must be a unit vector,
-    /// or `None` if the light isn't there. Both sides of the light are there.
+    /// or `None` if the light isn't in this direction. The light can be intersected from both
+    /// sides.
     pub fn intersect(&self, from: Vec3, direction: Vec3) -> Option<f32> {
         let distance = (self.corner - from).dot(self.normal) / direction.dot(self.normal);
         let from_corner = from + distance * direction - self.corner;
@@ -117,15 +118,16 @@ impl AreaLight {
         (is_ahead && is_above && is_below).then_some(distance)
     }
 
-    /// Returns the probability density, per solid angle, of a direction from a point to the light if
-    /// the light's points are sampled evenly: distance² / (cos θ · area), where θ is the angle
-    /// between the light's normal and the direction back to the point. See Shirley, Wang and
+    /// Returns the probability density, per solid angle, of a direction from a point to the light
+    /// if points on the light are sampled uniformly: distance² / (cos θ · area), where θ is the
+    /// angle between the light's normal and the direction back to the point. See Shirley, Wang and
     /// Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1), 1996,
     /// section 3.
     ///
     /// - `direction` has length one. The given [`AreaLight::intersect`] finds the distance.
-    /// - The result is zero past the light, and from behind, where it doesn't emit.
-    /// - Nothing else is in the way: the density doesn't depend on it.
+    /// - The result is zero if the direction misses the light, and from behind, where the light
+    ///   doesn't emit.
+    /// - It doesn't matter whether something else is in the way.
     pub fn pdf(&self, from: Vec3, direction: Vec3) -> f32 {
         todo!("part two, lights: how dense are samples at {from:?} toward {direction:?}?")
     }
@@ -148,8 +150,8 @@ impl Light {
         }
     }
 
-    /// Returns the radiance that is emitted against a direction toward the light. An area light is
-    /// dark from behind.
+    /// Returns the radiance that the light emits toward a point from which it is seen in this
+    /// direction. An area light is dark from behind.
     pub fn emitted(&self, direction: Vec3) -> Vec3 {
         match self {
             Light::Area(light) if direction.dot(light.normal) >= 0.0 => Vec3::ZERO,
@@ -216,19 +218,20 @@ impl Lights {
     /// - `choice` picks the light: a light's share of `[0, 1)` is its share of the power, in the
     ///   order of the list. Numbers at the border between two lights are not tested.
     /// - `random` picks the point on that light: see [`AreaLight::point`]. The result is the
-    ///   direction to that point, of length one.
-    /// - The result is `None` if there are no lights, and if the light that was picked faces away:
-    ///   no other light is picked instead.
-    /// - Nothing blocks a light here, neither shapes nor other lights.
+    ///   direction to that point, as a unit vector.
+    /// - The result is `None` if there are no lights, or if the light that was picked faces away.
+    ///   No other light is picked instead.
+    /// - Shapes and other lights that are in the way are ignored.
     pub fn sample(&self, from: Vec3, choice: f32, random: Vec2) -> Option<Vec3> {
         todo!("part two, lights: which way from {from:?} is {random:?} on light {choice}?")
     }
 
-    /// Returns the probability density, per solid angle, of a direction from a point if
-    /// [`Lights::sample`] chooses it.
+    /// Returns the probability density, per solid angle, with which [`Lights::sample`] chooses a
+    /// direction from a point.
     ///
     /// - Every light in that direction adds its density, given by [`Light::pdf`], times the
-    ///   probability that it is picked. A light adds it even where another light is in front of it.
+    ///   probability that it is picked. A light adds its density even if another light is in front
+    ///   of it.
     /// - The result is zero if there are no lights.
     pub fn pdf(&self, from: Vec3, direction: Vec3) -> f32 {
         todo!("part two, lights: how often is {direction:?} sampled at {from:?}?")
@@ -241,7 +244,7 @@ mod tests {
 
     use super::*;
 
-    /// A square with sides of length 2 that is parallel to the floor and emits down.
+    /// A square with sides of length 2 that is parallel to the floor and emits downward.
     fn square(center: Vec3, radiance: f32) -> AreaLight {
         let corner = center - vec3(1.0, 0.0, 1.0);
         let edges = [2.0 * Vec3::X, 2.0 * Vec3::Z];

@@ -1,10 +1,10 @@
 //! Part two, step 1: how surfaces scatter light.
 //!
 //! ```text
-//!        out   normal, +z                All directions have length one, lead away from the
+//!        out   normal, +z                All directions have length one, point away from the
 //!           ╲    │    ╱ direction        surface and are in the surface's frame, where +z is the
-//!            ╲   │   ╱                   normal. `out` leads to where the path came from, and
-//!             ╲  │  ╱                    `direction` to where it goes on.
+//!            ╲   │   ╱                   normal. `out` points to where the path came from, and
+//!             ╲  │  ╱                    `direction` to where it goes next.
 //!      ────────╲─┼─╱──────────
 //!                │╲                      The normal of glass points out of the glass, so out.z < 0
 //!                │ ╲ refracted           means that the path is inside. The normal of any other
@@ -12,8 +12,8 @@
 //! ```
 //!
 //! A path starts at the camera, so it follows the light backwards: light comes in from `direction`
-//! and leaves toward `out`. The book *Physically Based Rendering* (PBR), 4th edition, has the
-//! formulas: <https://pbr-book.org>.
+//! and leaves toward `out`. The formulas are in the book *Physically Based Rendering* (PBR), 4th
+//! edition: <https://pbr-book.org>.
 
 #[allow(unused_imports, reason = "your code will use it")]
 use std::f32::consts::FRAC_1_PI;
@@ -31,7 +31,7 @@ pub struct Scattered {
     /// fraction per solid angle, times the cosine, divided by the probability density.
     pub attenuation: Vec3,
     /// The probability density of the direction, per solid angle, or `None` for mirrors and glass,
-    /// which have no directions to choose from.
+    /// which don't choose from a continuous range of directions.
     pub pdf: Option<f32>,
 }
 
@@ -57,17 +57,17 @@ pub struct Glass {
 }
 
 impl Lambertian {
-    /// Returns the fraction of the light from `incoming` that is scattered to `out`, per solid angle:
-    /// albedo / π · cos θ, where θ is the angle between `incoming` and the normal. See PBR, section
-    /// 9.2, whose f has no cosine.
+    /// Returns the fraction of the light from `incoming` that is scattered to `out`, per solid
+    /// angle: albedo / π · cos θ, where θ is the angle between `incoming` and the normal. See PBR,
+    /// section 9.2, whose f doesn't include the cosine.
     ///
     /// - The result is zero unless both directions are above the surface (z > 0).
     pub fn evaluate(&self, out: Vec3, incoming: Vec3) -> Vec3 {
         todo!("part two, lambertian: how much does {self:?} scatter from {incoming:?} to {out:?}?")
     }
 
-    /// Returns the probability density, per solid angle, of `incoming` if [`Lambertian::scatter`]
-    /// chooses it: cos θ / π.
+    /// Returns the probability density, per solid angle, with which [`Lambertian::scatter`] chooses
+    /// `incoming`: cos θ / π.
     ///
     /// - The result is zero unless both directions are above the surface (z > 0).
     pub fn pdf(&self, out: Vec3, incoming: Vec3) -> f32 {
@@ -79,16 +79,16 @@ impl Lambertian {
     /// - `direction` is the one that the given [`sample_cosine_hemisphere`] returns for `random`.
     /// - `attenuation` is [`Lambertian::evaluate`] divided by [`Lambertian::pdf`], simplified so
     ///   that it is also right at the horizon, where both are zero.
-    /// - `pdf` is that of the direction.
+    /// - `pdf` is the density of this direction.
     /// - `out` is above the surface.
     pub fn scatter(&self, out: Vec3, random: Vec2) -> Scattered {
         todo!("part two, lambertian: which way does {random:?} scatter {out:?}?")
     }
 }
 
-/// Mirrors a direction at the normal.
+/// Mirrors a direction about the normal.
 ///
-/// - The result is on the same side of the surface as `out`, which can be either.
+/// - The result is on the same side of the surface as `out`, which can be on either side.
 pub fn reflect(out: Vec3) -> Vec3 {
     todo!("part two, specular: which way does a mirror reflect {out:?}?")
 }
@@ -98,9 +98,9 @@ pub fn reflect(out: Vec3) -> Vec3 {
 ///
 /// - If out.z > 0, the path is outside, where the index is 1, and the result has z < 0. If out.z <
 ///   0, the path is inside, and the result has z > 0.
-/// - `ior` can be less than 1, so that there is total reflection outside, and it can be 1, so that
-///   the direction doesn't change.
-/// - The result has length one, also along the normal.
+/// - `ior` can be less than 1, in which case total reflection can occur outside. It can also be 1,
+///   in which case light isn't bent.
+/// - The result has length one, even along the normal.
 /// - Directions along the surface (z = 0), and those at the critical angle, are not tested.
 pub fn refract(out: Vec3, ior: f32) -> Option<Vec3> {
     todo!("part two, specular: which way does an index of {ior} refract {out:?}?")
@@ -108,7 +108,7 @@ pub fn refract(out: Vec3, ior: f32) -> Option<Vec3> {
 
 /// Returns the fraction of unpolarised light that the surface of a medium with index of refraction
 /// `ior` reflects, according to the Fresnel equations. See PBR, section 9.3.5: the mean of the
-/// squares of two ratios, one for each polarisation. Schlick's approximation differs by too much.
+/// squares of two ratios, one for each polarisation. Schlick's approximation isn't accurate enough.
 ///
 /// - `out` can be on either side of the surface, as for [`refract`]. Two directions that refract
 ///   into each other have the same fraction.

@@ -21,18 +21,20 @@ use crate::world::World;
 /// Estimates the radiance that arrives at the origin of a ray, by following one path. See Kajiya,
 /// "The Rendering Equation", SIGGRAPH 1986, and PBR, section 13.4.
 ///
-/// - The path is scattered at most `bounces` times. With 0 bounces, only what the ray hits itself is
-///   seen: its emitted light, or the environment. With 1, there is direct light, too.
-/// - Bounce 0 is at the first surface. There, the path adds [`direct`] light and goes on in the
-///   direction that `Material::scatter` returns, each with the random numbers
-///   `sampler.numbers(bounce)`. Everything from there on is multiplied by the attenuation.
-/// - What a surface emits, and the environment where a ray hits nothing, is counted if the ray
-///   comes from the camera, a mirror or glass (`pdf` is `None`). After a matte surface, `direct` has
-///   counted it.
-/// - A path ends at a surface that scatters nothing, where its throughput is zero, and by chance:
-///   from bounce 3 on (the fourth surface), it survives if `numbers.survive` is less than q, and its
-///   throughput is divided by q. This is Russian roulette: see PBR, section 2.2.4. q is the largest
-///   channel of the throughput after this bounce's attenuation, but at least 0.05 and at most 0.95.
+/// - The path is scattered at most `bounces` times. With 0 bounces, the result is only the light
+///   emitted by the surface that the ray hits, or the environment if the ray hits nothing. With 1
+///   bounce, direct light is added.
+/// - Bounce 0 is at the first surface. At each bounce, the path adds [`direct`] light and continues
+///   in the direction that `Material::scatter` returns. Both use the random numbers
+///   `sampler.numbers(bounce)`. Everything after the bounce is multiplied by the attenuation.
+/// - The light that a surface emits, or the environment if the ray hits nothing, is counted only if
+///   the ray comes from the camera, a mirror or glass (whose `pdf` is `None`). After a matte
+///   surface, `direct` has already counted it.
+/// - A path ends at a surface that scatters nothing, when its throughput is zero, or by chance:
+///   from bounce 3 on (the fourth surface), it survives if `numbers.survive` is less than q, and
+///   its throughput is divided by q. This is Russian roulette: see PBR, section 2.2.4. q is the
+///   largest channel of the throughput after this bounce's attenuation, but at least 0.05 and at
+///   most 0.95.
 pub fn radiance(world: &World, ray: Ray, sampler: &Sampler, bounces: u32) -> Vec3 {
     let _ = (world, sampler);
     todo!("part two, path: how much light has {ray:?} after {bounces} bounces?")

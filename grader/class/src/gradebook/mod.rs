@@ -271,7 +271,7 @@ fn match_rows<'c>(
     let mut warnings = Vec::new();
     for class_row in &class.rows {
         for (person, grade) in class_row.people() {
-            // The row gets the points of the valid attempt.
+            // The row gets the points of the attempt that counts.
             if grade.is_superseded() {
                 continue;
             }

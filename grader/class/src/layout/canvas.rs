@@ -1,5 +1,5 @@
-//! The names of Canvas's files. They contain the numbers of students and attachments, and also any
-//! numbers in the students' own file names.
+//! The names of Canvas's files. They contain the IDs of the student and the attachment, as well as
+//! any numbers in the student's own file name.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +17,7 @@ impl Reader<'_> {
     /// Returns whether the files could be a download from Canvas. The names of other files may also
     /// contain two numbers, such as parts of a date. Such files can be recognised because they all
     /// have the same number or name where the student's would be, or because two of them have the
-    /// same attachment number.
+    /// same attachment ID.
     pub fn is_canvas_download(&self, names: &[&str]) -> bool {
         let names = names.iter();
         let names = names.map(|name| (name, first_readings(&self.platform.files, name)));
@@ -42,7 +42,7 @@ impl Reader<'_> {
 }
 
 /// Returns the name under which Canvas shows a page: the name of the last attachment, provided that
-/// Canvas reads the first two numbers in that name as the numbers of the user and the attachment.
+/// Canvas reads the first two numbers in that name as the IDs of the user and the attachment.
 pub(super) fn attachment_name(
     canvas: &'static Platform,
     files: &[SubmissionNode],

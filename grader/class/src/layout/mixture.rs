@@ -1,7 +1,6 @@
-//! Finds entries of a plain class that seem to belong to several people: a folder for a tutorial
-//! with a folder for each student, or the files of several people side by side, with numbers that a
-//! browser or a drive has added to their names. It would be unclear who gets the points for such an
-//! entry.
+//! Finds entries of a plain class that seem to belong to several people: a tutorial's folder with a
+//! folder for each student, or several people's files side by side, with file names that a browser
+//! or cloud drive has numbered. It would be unclear who gets the points for such an entry.
 
 use grader::handed_out::{HandedOut, TaskFile};
 
@@ -14,9 +13,9 @@ use crate::roster::Member;
 /// The maximum number of names in a message.
 const MAX_NAMES: usize = 3;
 
-/// Marks each entry that seems to belong to several people as having no files. Returns the reasons.
-/// An entry that belongs to somebody on a list always counts as one submission, regardless of its
-/// folders.
+/// If an entry seems to belong to several people, marks it as having no files. Returns the reasons.
+/// An entry that belongs to somebody on a list always counts as one submission, whatever folders it
+/// contains.
 pub(super) fn reject_mixtures(
     root: &Node,
     entries: &mut [Entry],
@@ -67,8 +66,8 @@ pub(super) fn reject_mixtures(
 }
 
 /// Returns the reason a folder seems to contain the files of several people: several versions of
-/// more than one task file, or at least three versions of a single task file. The versions differ
-/// by numbers that a browser or a drive has added to their names.
+/// more than one task file, or at least three versions of a single task file. The names of the
+/// versions differ only in the numbers that a browser or cloud drive has added.
 pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     let versions = |file: &TaskFile| -> Vec<&str> {
         let names = node.children().iter().filter(|node| !node.is_folder());
@@ -131,8 +130,8 @@ fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<
 }
 
 /// Returns whether a folder contains repositories but isn't one itself. A repository is recognised
-/// by its task files or by the hidden folder `.git`, which nobody can hand in because Git never
-/// commits it.
+/// by its task files or by the hidden folder `.git`, which can't be part of a submission because
+/// Git never commits it.
 pub(super) fn is_section(node: &Node, handed_out: &HandedOut) -> bool {
     let is_repository = |node: &Node| node.path.join(".git").exists();
     let has_repositories = || node.children().iter().any(is_repository);
@@ -140,8 +139,8 @@ pub(super) fn is_section(node: &Node, handed_out: &HandedOut) -> bool {
     !node.is_link && !is_repository(node) && is_section()
 }
 
-/// Returns whether a folder has task files in one of the places where students are expected to put
-/// them.
+/// Returns whether a folder has task files in one of the locations where students are expected to
+/// put them.
 fn is_submission(node: &Node, handed_out: &HandedOut) -> bool {
     let below = |path: &&str| {
         let mut names = path.split('/').filter(|name| !name.is_empty());

@@ -194,11 +194,11 @@ fn is_github_classroom(root: &Node) -> bool {
     let has_results = || folders().all(|node| node.find(CLASSROOM50_RESULT).is_some());
     root.name.ends_with(SUBMISSIONS_SUFFIX)
         || root.find(CLASSROOM50_SCORES).is_some()
-        // A student can add this file but cannot make all folder names begin alike.
+        // A student can add this file but cannot give all folder names a common prefix.
         || (!common_prefix(&names, '-').is_empty() && has_results())
 }
 
-/// Marks each entry whose files include a link as having no files.
+/// Rejects links: if an entry's files include a link, marks the entry as having no files.
 fn reject_links(entries: &mut [Entry]) {
     for entry in entries {
         let mut paths = entry.source.paths().into_iter();
@@ -210,8 +210,8 @@ fn reject_links(entries: &mut [Entry]) {
     }
 }
 
-/// Returns whether more than half of the names are in the platform's format, ignoring those of files
-/// that the platform writes in addition to the submissions.
+/// Returns whether more than half of the names are in the platform's format, ignoring files that
+/// the platform writes in addition to the submissions.
 fn is_majority(names: &[&str], platform: &'static Platform) -> bool {
     let is_own = |name: &&&str| platform.own_files.iter().any(|own| own == **name);
     let names = names.iter().filter(|name| !is_own(name));

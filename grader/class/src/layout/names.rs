@@ -45,7 +45,7 @@ pub(super) struct Names<'a> {
     pub notes: Vec<String>,
 }
 
-/// Returns whether a name in the class's folder follows one of the platform's templates.
+/// Returns whether a name in the class's folder matches one of the platform's templates.
 pub(super) fn is_name(platform: &'static Platform, name: &str) -> bool {
     let outermost = platform.outer_folders.first();
     let templates = [outermost.unwrap_or(&platform.files), &platform.texts];
@@ -175,13 +175,13 @@ impl Reader<'_> {
         });
     }
 
-    /// Returns the path of a file or folder whose name doesn't follow any template.
+    /// Returns the path of a file or folder whose name doesn't match any template.
     pub fn unmatched(&self, path: String) -> UnmatchedPath {
         UnmatchedPath::new(path, &self.platform.unmatched)
     }
 
-    /// Removes the text that the names begin with, such as the assignment's title. A name that
-    /// doesn't begin with it remains unchanged, and a note lists it.
+    /// Removes the prefix that the names share, such as the assignment's title. Names without the
+    /// prefix are left unchanged and listed in a note.
     fn strip_prefix(&self, root: &Node, names: &mut Names) -> Result<(), Error> {
         let Some((field, separator)) = &self.platform.prefixed else {
             return Ok(());
@@ -268,8 +268,8 @@ fn most_frequent_prefix<'a>(
     }
 }
 
-/// Returns the text that all names begin with. If more than half of them have a longer prefix,
-/// nothing shows whether the other names belong to another assignment, so the class is rejected.
+/// Returns the prefix that all names share. If more than half of them share a longer prefix, the
+/// others could belong to another assignment, so the class is rejected.
 fn unlisted_prefix<'a>(names: &[&'a str], separator: char) -> Result<&'a str, Error> {
     let shared = common_prefix(names, separator);
     let longer = names.iter().flat_map(|name| prefixes(name, separator));
@@ -320,15 +320,15 @@ fn choose_title(found: &mut Vec<SubmissionNode>, choice: &LayoutChoice) -> Resul
     }
 }
 
-/// Returns the possible readings of a name according to the first template that it follows.
+/// Returns the possible readings of a name according to the first template that it matches.
 pub(super) fn first_readings<'a>(templates: &'static [String], name: &'a str) -> Vec<Parts<'a>> {
     let mut ways = templates.iter().map(|template| readings(template, name));
     ways.find(|ways| !ways.is_empty()).unwrap_or_default()
 }
 
 /// Returns the common prefix of all names, cut off after its last separator, since the account
-/// names may begin with the same letters too. For a single name, the prefix is empty, since nothing
-/// shows where the account name begins.
+/// names may happen to begin with the same letters. For a single name, the prefix is empty, since
+/// it is unclear where the account name begins.
 pub(super) fn common_prefix<'a>(names: &[&'a str], separator: char) -> &'a str {
     let [first, others @ ..] = names else {
         return "";

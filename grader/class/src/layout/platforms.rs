@@ -49,7 +49,7 @@ pub struct Platform {
     /// The reason for not grading texts in addition to files, or `None` if every submission has a
     /// text.
     pub text_beside_files: Option<String>,
-    /// The reason for listing a name as unmatched if it doesn't follow any template.
+    /// The reason for listing a name as unmatched if it doesn't match any template.
     pub unmatched: String,
     /// Files that the platform writes in addition to the submissions.
     pub own_files: Vec<String>,
@@ -63,11 +63,11 @@ pub struct Platform {
     pub is_named_by_file: bool,
     /// The source of the people and the time, if they don't come from the name.
     pub record: Record,
-    /// The field that begins with the same text in all names, such as the assignment's title, and
-    /// the separator that ends this text.
+    /// The field whose texts share a prefix, such as the assignment's title, and the separator that
+    /// ends the prefix.
     pub prefixed: Option<(String, char)>,
-    /// Whether names contain the numbers of attachments, as in Canvas, which requires a page to
-    /// have the name of the last attachment.
+    /// Whether file names contain attachment IDs, as in Canvas, where a page must be named after
+    /// the last attachment.
     pub has_attachments: bool,
     /// The file name that the platform requires for a page, with the placeholders
     /// [`WHO`](crate::entry::WHO) and [`NUMBER`](crate::entry::NUMBER). `None` if any name is

@@ -18,12 +18,12 @@ pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
             has_time && people.any(|person| row.matches(person))
         });
         let mut theirs: Vec<&Member> = theirs.collect();
-        // The roster corrects the list in the download.
+        // The roster takes precedence over the list in the download.
         if theirs.iter().any(|row| row.list == ListKind::Roster) {
             theirs.retain(|row| row.list != ListKind::Downloaded);
         }
-        // If there are several submissions, the last one was cloned. If a time is unreadable,
-        // nobody knows which submission is the last, so the unreadable time takes precedence and is
+        // If there are several submissions, the last one was cloned. If a time is unreadable, it is
+        // unclear which submission is the last, so the unreadable time takes precedence and is
         // reported.
         let Some(last) = theirs.iter().max_by_key(|member| {
             let time = time(member);

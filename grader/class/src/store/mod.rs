@@ -287,7 +287,8 @@ impl Store {
         Ok(())
     }
 
-    /// Returns the earlier score of an entry in the file [`PREVIOUS`] or [`REPLACED`], if any.
+    /// Returns an entry's earlier score from the file [`PREVIOUS`] or [`REPLACED`], if there is
+    /// one.
     pub fn earlier_score(&self, id: &str, name: &str) -> Result<Option<ScoreSummary>, Error> {
         let path = self.entry_folder(id).join(name);
         let text = files::read_if_exists(&path)?;

@@ -79,8 +79,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs histories in this process. The commands print their usual output, so the process that
-/// starts this one ignores it.
+/// Runs histories in this process. The commands print their usual output, which the parent process
+/// ignores.
 fn run_here(seeds: Range<u64>, report: &Path, until_lost: bool) -> ExitCode {
     faulty_disk::install();
     let lost = seeds.filter_map(|seed| Some((seed, history::run(seed).err()?)));

@@ -44,7 +44,7 @@ pub enum Target {
     Part(usize),
     /// The merged shards.
     Merged,
-    /// A new folder for a run against which other runs are compared.
+    /// A new folder for a run that other runs are compared with.
     Fresh,
 }
 

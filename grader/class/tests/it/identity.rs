@@ -137,8 +137,8 @@ fn folders_of_tutorials_and_flat_folders_of_several_people_are_refused() {
     }
 }
 
-/// The whole class is checked even if only a shard is graded, since a shard may have too few
-/// entries for the check.
+/// The whole class is checked even if only a shard is graded, since a shard may be too small to
+/// check.
 #[test]
 fn a_class_of_which_most_are_on_no_list_needs_a_confirmation() {
     let class = TestClass::named("class")

@@ -319,7 +319,7 @@ fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
 }
 
 /// A single clone of another assignment or of a staff project doesn't change where the account name
-/// begins in the names of the other clones.
+/// begins in the other clones' names.
 #[test]
 fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
     let scores = "username,first_name,last_name,email,datetime,late\n\
@@ -401,7 +401,7 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
     );
 }
 
-/// If there is only one attempt and no receipt, nothing shows where the account name begins in the
+/// If there is only one attempt and no receipt, it is unclear where the account name begins in the
 /// file name.
 #[test]
 fn a_chosen_layout_enters_a_folder_that_is_no_submission() {

@@ -121,7 +121,7 @@ impl Threshold {
         }
     }
 
-    /// Returns the place where the threshold is defined: a constant and its file (relative to
+    /// Returns the location where the threshold is defined: a constant and its file (relative to
     /// `grader/judging/src`), or a field in an exam's key.
     pub fn location(self) -> &'static str {
         match self {

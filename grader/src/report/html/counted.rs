@@ -9,18 +9,18 @@ use super::elements::plain_text;
 use crate::machine::files::{self, PathError};
 use crate::report::atomic_write;
 
-/// The marks that enclose the placeholder for the text. No text from a submission can contain them,
-/// since `<` is escaped.
+/// The markers that enclose the placeholder for the text. No text from a submission can contain
+/// them, since `<` is escaped.
 const START: &str = "<!--counted-->";
 const END: &str = "<!--/counted-->";
 
-/// Renders the marks, with nothing between them.
+/// Renders the placeholder markers, with nothing between them.
 pub(super) fn marks() -> Markup {
     PreEscaped(format!("{START}{END}"))
 }
 
 /// Returns a page with these sentences below its points, replacing any earlier sentences. A page
-/// without the marks is returned unchanged.
+/// without the placeholder markers is returned unchanged.
 pub fn with_counted(page: &str, texts: &[String]) -> String {
     let parts = page.split_once(START).and_then(|(before, rest)| {
         let (_, after) = rest.split_once(END)?;

@@ -51,8 +51,8 @@ fn folded_path(path: &str) -> String {
     names.collect::<Vec<_>>().join("/")
 }
 
-/// Rejects a link or device, except in `target/`, where Cargo creates hard links and from which
-/// nothing is read.
+/// Rejects a link or device, except in `target/`: Cargo creates hard links there, and nothing is
+/// read from it.
 pub(super) fn check_special(path: &str) -> Result<(), ArchiveError> {
     if path.split('/').any(|part| part == "target") {
         Ok(())

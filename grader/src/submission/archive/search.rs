@@ -13,7 +13,7 @@ use crate::submission::{MAX_FILE_BYTES, SubmissionError};
 /// The maximum size of a nested archive, in bytes.
 const MAX_INNER_BYTES: u64 = 64 << 20;
 
-/// The reason why reading an archive's nested archives was stopped early.
+/// Why the reader stopped early when unpacking nested archives.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 enum StopReason {

@@ -338,7 +338,7 @@ impl Candidate {
     }
 
     /// Returns the error to report when two folders contain different versions of a task file. It
-    /// also names any other files that differ between the same two places.
+    /// also names any other files that differ between the same two folders.
     fn conflict(
         &self,
         other: &Candidate,

@@ -1,5 +1,5 @@
 //! A small HTTP server for one page on the loopback address: one thread per connection, one request
-//! per connection. `httparse` parses the requests. The rest is written here, because suitable
+//! per connection. `httparse` parses the requests. The rest is implemented here, because suitable
 //! servers (tiny_http, rouille, axum) have had no release for years or need many other crates.
 
 mod request;

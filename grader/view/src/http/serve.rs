@@ -38,7 +38,7 @@ struct Server<S> {
 }
 
 /// Answers requests until the process ends. Each connection has its own thread, so that a request
-/// that waits for news doesn't delay others.
+/// that waits for updates doesn't delay others.
 pub fn serve(listener: &TcpListener, site: impl Site) {
     let server = Arc::new(Server {
         site,

@@ -47,7 +47,7 @@ function lines(tests, isMistakes) {
   return [...none, ...broken, mean];
 }
 
-/** Formats a share. A few rays never look like none, and all but a few never look like all. */
+/** Formats a share. A share just above 0 % is never shown as 0 %, or one just below 100 % as 100 %. */
 function percent(share) {
   const rounded = 100 * share;
   if (rounded > 0 && rounded < 0.1) return "less than 0.1 %";

@@ -171,7 +171,7 @@ function fill(parent, ray, index, traversal) {
 
 function outcomeOf(row) {
   // `row.closest` is the closest hit right after this test. A closer one may have been found later,
-  // before it was the node's turn.
+  // before the traversal came to the node.
   const isLater = row.outcome === "skipped_beyond" && !(row.closest !== null && row.closest < row.at[0]);
   const text = isLater ? "hit from AT: left for later, then not entered, because a closer hit was found" : OUTCOMES[row.outcome];
   return text.replace("AT", row.at.map((x) => number(x)).join(" to "));
@@ -211,7 +211,7 @@ function lines(ray, step) {
   ray.rows.slice(start, step + 1).forEach((row, i) => {
     const isNow = start + i === step;
     const style = { colour: row.marks.length > 0 ? COLOURS.bad : COLOUR_OF[row.outcome], width: isNow ? 3.5 : 1.5 };
-    // Of the earlier tests, only the boxes that were entered and the last closest hit stay.
+    // Of the earlier tests, only the entered boxes and the most recent closest hit are still drawn.
     if (row.outcome === "closest") closest = row;
     if (!isNow && row.outcome !== "entered" && row.marks.length === 0) return;
     if (row.triangle) all.push({ points: [...row.triangle, row.triangle[0]], fill: isNow, ...style });

@@ -1,4 +1,4 @@
-// Talks to the viewer: sends commands, and waits for news.
+// Talks to the viewer: sends commands, and waits for updates.
 
 const refused = document.getElementById("refused");
 const token = takeToken();
@@ -23,7 +23,7 @@ export async function request(path, options) {
 
 /** Sends a command, such as { view: "depth" }. If it is refused, the page shows why. */
 export async function send(command) {
-  // If the viewer has ended, the request for news fails, too, and the page says so.
+  // If the viewer has ended, the request for updates fails too, and the page says so.
   const answer = await request("/command", { method: "POST", body: JSON.stringify(command) }).catch(() => null);
   refused.textContent = answer && !answer.ok ? await answer.text() : "";
 }

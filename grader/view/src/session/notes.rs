@@ -72,7 +72,7 @@ impl Session {
         };
         let texts = [self.loading_error.clone(), recording];
         let texts = texts.into_iter().flatten().map(Note::without_location);
-        // The reason why the last version stopped says nothing about files that don't compile.
+        // If the new files don't compile, it doesn't matter why the last version stopped.
         let is_ready = matches!(self.drawing, BuildState::Ready(_));
         let fault = self.fault.iter().filter(|_| is_ready).cloned();
         let mut notes: Vec<Note> = fault.chain(texts).collect();

@@ -59,8 +59,8 @@ impl Session {
     }
 
     /// Keeps the averages for the drawn picture, so that they can be compared with the averages for
-    /// the next version of the code. An incomplete picture is ignored, since it is no basis for a
-    /// comparison.
+    /// the next version of the code. An incomplete picture is ignored, since its averages can't be
+    /// compared with others.
     pub(super) fn keep_averages(&mut self) {
         if self.tests.tiles.is_complete() {
             let rays: Vec<MarkedTests> = self.tests.values().flatten().collect();

@@ -1,6 +1,6 @@
-// Inserts the primitives one by one, each at the place where it increases the areas of the boxes
-// the least. See Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing",
-// IEEE Computer Graphics and Applications 7(5), 1987.
+// Inserts the primitives one by one, each where it increases the areas of the boxes the least. See
+// Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE Computer
+// Graphics and Applications 7(5), 1987.
 
 impl Bvh {
     /// Builds the tree by inserting the primitives one by one.

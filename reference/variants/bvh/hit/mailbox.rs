@@ -1,8 +1,8 @@
-// Never tests a primitive twice for one ray, even if it is in several leaves of a tree. A mailbox
-// contains the number of the last ray that was tested against its primitive. Every call has its own
-// number, and missing mailboxes are added, so that no answer depends on earlier rays or other
-// trees. See Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics
-// 1987.
+// Never tests a primitive twice for one ray, even if it is in several leaves of a tree. Each
+// primitive has a mailbox, which contains the number of the last ray that was tested against it.
+// Every call uses a new number, and missing mailboxes are added, so that no answer depends on
+// earlier rays or other trees. See Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray
+// Tracing", Eurographics 1987.
 
 use std::cell::RefCell;
 

@@ -14,7 +14,7 @@ struct Pack<'a>(&'a [CacheLine; Pack::LINES]);
 struct Word(u32);
 
 impl Word {
-    /// The upper limit (exclusive) of the extra data.
+    /// The end (exclusive) of the extra data.
     const EXTRA_LIMIT: u32 = 1 << 22;
     const FLAG: u32 = 1 << 31;
 

@@ -36,9 +36,9 @@ pub(crate) fn claim_standard_streams() -> io::Result<(File, File)> {
     Ok((questions, answers))
 }
 
-/// Makes the operating system kill this process when the grader ends, however the grader ends.
-/// Otherwise, an infinite loop would run on for minutes after a Ctrl-C. A sandbox may forbid this
-/// call, but then the sandbox itself ends the process when the grader ends.
+/// Makes the operating system kill this process when the grader ends, no matter how it ends.
+/// Otherwise, an infinite loop would keep running for minutes after a Ctrl-C. A sandbox may forbid
+/// this call, but then the sandbox itself ends the process when the grader ends.
 #[cfg(target_os = "linux")]
 pub(crate) fn end_with_the_grader() {
     use rustix::process::{Signal, set_parent_process_death_signal};

@@ -25,7 +25,7 @@ pub enum Purpose {
     Survival,
 }
 
-/// The random numbers for one bounce, each in `[0, 1)` and for one use.
+/// The random numbers for one bounce, each in `[0, 1)` and with its own purpose.
 #[derive(Clone, Copy, Debug)]
 pub struct RandomNumbers {
     /// The light to sample.

@@ -1,4 +1,4 @@
-//! The rows of a table: a list, or all rays of a picture.
+//! The rows of a table: either the rays in a list, or every ray of a picture.
 
 use std::borrow::Cow;
 use std::ops::Range;

@@ -91,7 +91,6 @@ fn content_security_policy() -> String {
     )
 }
 
-/// Renders a section with a heading. `id` identifies the heading.
 /// Returns a share in percent. It is only 0 or 100 if the count is 0 or complete.
 fn percent(count: usize, all: usize) -> usize {
     let rounded = (100 * count + all / 2) / all;
@@ -102,6 +101,7 @@ fn percent(count: usize, all: usize) -> usize {
     }
 }
 
+/// Renders a section with a heading. `id` identifies the heading.
 fn section(id: &str, title: &str, contents: &Markup) -> Markup {
     html! { section aria-labelledby=(id) { h2 id=(id) { (title) } (contents) } }
 }

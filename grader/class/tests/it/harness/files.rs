@@ -48,7 +48,7 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Returns all files in a folder, without anything that differs between equivalent runs: the
-/// timings, the folder's own path in reports, and the mark that a merge puts on each list taken
+/// timings, the folder's own path in reports, and the flag that a merge sets on each list taken
 /// from the shards.
 pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let comparable = |path: PathBuf| {
@@ -67,5 +67,5 @@ pub fn comparable_files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     files_below(folder).into_iter().map(comparable).collect()
 }
 
-/// The mark that a merge puts on each list taken from the shards.
+/// The flag that a merge sets on each list taken from the shards.
 const IS_OF_PARTS: &str = ",\n      \"is_of_parts\": true";

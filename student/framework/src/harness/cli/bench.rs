@@ -27,8 +27,8 @@ pub(super) struct Measurement {
     share_in_hit: f64,
 }
 
-/// Traces one path per pixel in each run. Runs that measure the whole picture alternate with runs
-/// that also time each call to `Bvh::hit`, which makes them slower.
+/// Traces one path per pixel in each run. Runs that time only the whole picture alternate with
+/// slower runs that also time each call to `Bvh::hit`.
 pub(super) fn measure(job: &Job, renderer: &dyn Renderer) -> Result<Measurement, RenderError> {
     let mut best = Measurement {
         rays: 0,

@@ -89,8 +89,9 @@ fn cargo_test(packages: &[&str]) -> Command {
 /// The packages with examples, and the folders of their sources, relative to this package.
 const PACKAGES: [(&str, &str); 2] = [("student", "../src"), ("light", "../light/src")];
 
-/// Returns the packages to test: that of the named files, or all if a name isn't that of a file. So
-/// a part that doesn't compile yet doesn't keep the other part's examples from running.
+/// Returns the packages to test: those that contain the named files, or all packages if a name
+/// isn't the name of a file. This way, a part that doesn't compile yet doesn't keep the other
+/// part's examples from running.
 fn packages(names: &[String]) -> Vec<&'static str> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let has = |sources: &str, name: &String| {

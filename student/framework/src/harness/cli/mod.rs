@@ -39,8 +39,8 @@ use crate::render::renderer::{Lighting, RenderStats, Renderer};
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
 
-/// Runs the command. Without part two, `light`, there is no shaded view. Exit codes: 0 for success, 1 if the submission's code panicked, 2 for invalid
-/// input, 130 after Ctrl-C.
+/// Runs the command. `light` is part two's code. Without it, there is no shaded view. Exit codes: 0
+/// for success, 1 if the submission's code panicked, 2 for invalid input, 130 after Ctrl-C.
 pub fn main(submission: &dyn Submission, light: Option<&dyn Lighting>) -> ExitCode {
     let options = match Options::try_parse() {
         Ok(options) => options,

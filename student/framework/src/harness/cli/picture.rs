@@ -61,7 +61,7 @@ impl<'a> Picture<'a> {
         Ok(Picture { view, renderer })
     }
 
-    /// Returns how the picture's values become colours.
+    /// Returns the conversion of the picture's values to colours.
     pub(super) fn tone(&self, options: &Options) -> Tone {
         match self.view {
             ViewMode::Shaded | ViewMode::Clay => Tone::Light {

@@ -22,7 +22,7 @@ use crate::sandbox::Isolation;
 use crate::score::rerun_command::RerunCommand;
 use crate::score::{
     BuildReport, CodeLocation, Evidence, Hint, ItemScore, SCHEMA_VERSION, Score, TaskScore,
-    Timings, Verdict, VerdictKind,
+    Timings, Verdict,
 };
 use crate::verdict::item_outcome::{ItemOutcome, NotRunReason, worst_failure};
 use crate::workspace::bundle_version::bundle_version;

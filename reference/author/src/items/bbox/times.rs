@@ -42,7 +42,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
 
 pub(super) const CLIPPED: Declaration = Declaration {
     id: "bbox.clipped",
-    title: "the answer is only the part of `times` during which the ray is inside the box",
+    title: "the answer is the part of the given times during which the ray is in the box",
     look: "Clip the interval at both ends. If the ray's line passes through the box, it is a miss \
            only if the box is entered after times.max or left before times.min.",
     section: "boxes.md#clip-the-result-to-times",
@@ -57,7 +57,7 @@ pub(super) const CLIPPED: Declaration = Declaration {
 
 pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
     id: "bbox.wholly_inside",
-    title: "if the ray is inside the box throughout `times`, all of `times` is returned",
+    title: "if the ray is in the box all the time, the given times are returned",
     look: "If the ray is inside the box throughout `times`, it doesn't cross any of the box's \
         planes in that time, but it is still a hit, from times.min to times.max.",
     look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
@@ -76,7 +76,7 @@ pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
 
 pub(super) const TIMES_NOT_RANGE: Declaration = Declaration {
     id: "bbox.times_not_range",
-    title: "the argument `times` is used, not the ray's own range",
+    title: "the given times are used, not the ray's own range",
     look: "BBox::hit uses only the times that it is given; ray.range is up to the caller.",
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
     tests: &["Use `times` and ignore…"],

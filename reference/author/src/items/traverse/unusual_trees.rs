@@ -15,7 +15,7 @@ use crate::tree::{RootPosition, Tree, decoy};
 
 pub(super) const ROOT: Declaration = Declaration {
     id: "traverse.root",
-    title: "traversal starts at `root`, wherever it is in `nodes`",
+    title: "traversal starts at the root, wherever it is in the list of nodes",
     look: "The root is nodes[root]. Any node can be first or last in nodes, even a child, or a \
         node that is not part of the tree. A node is a leaf if and only if l == r.",
     section: "traversal.md#the-root-can-be-any-node",

@@ -169,8 +169,8 @@ pub fn file_message(file: &str, why: &NotCompiled) -> String {
         NotCompiled::Unreadable(unreadable) => unreadable.message(file),
         NotCompiled::MissingDeclaration(part) => {
             format!(
-                "{file} has no `{part}`, which other files use: restore its line, or restore the \
-                 original file with `cargo grade --reset {file}`"
+                "{file} has no `{part}`, which other files use: put it back, or restore the original \
+                 file with `cargo grade --reset {file}`"
             )
         }
         NotCompiled::Error { text, .. } | NotCompiled::Compiler(text) => {

@@ -70,14 +70,14 @@ fn a_file_that_is_not_compiled_says_why_in_its_items_and_in_full() {
     });
     insta::assert_snapshot!(items.join("\n"), @r"
     bbox.rs is missing
-    bbox.rs has no `struct BBox`, which other files use
+    bbox.rs has no `struct BBox`, which other files use: put it back, or restore the original file with `cargo grade --reset bbox.rs`
     bbox.rs does not compile
     the submission does not compile
     ");
     let files = reasons().map(|why| file_message("bbox.rs", &why));
     insta::assert_snapshot!(files.join("\n"), @r"
     bbox.rs is missing
-    bbox.rs has no `struct BBox`, which other files use
+    bbox.rs has no `struct BBox`, which other files use: put it back, or restore the original file with `cargo grade --reset bbox.rs`
     error: a    mistake\u{1b}
     error: no linker
     ");

@@ -149,6 +149,10 @@ pub struct MistakesArgs {
     /// Write only the table, which takes a minute; leave the lists unchanged
     #[arg(long, conflicts_with_all = ["seeds", "check"])]
     pub table: bool,
+    /// Grade only the mistakes in one task, such as sphere, or in all tasks in a file, such as bvh,
+    /// and write only their lists
+    #[arg(long, value_name = "TASK", conflicts_with_all = ["seeds", "table", "check", "record"])]
+    pub task: Option<String>,
     /// Whether to write the lists and the table, or to check them.
     #[command(flatten)]
     pub check: CheckArgs,

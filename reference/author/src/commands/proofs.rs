@@ -35,6 +35,10 @@ pub(super) fn mistakes(
     if args.table {
         return write_table_of_mistakes(&solutions, &practice, Mode::Write);
     }
+    if let Some(task) = &args.task {
+        let tasks = parse_tasks(task, authoring)?;
+        return write_lists_of_tasks(root, &solutions.only_mistakes(&tasks), &practice);
+    }
     let default = match mode {
         Mode::Write => failures::MANY_SEEDS,
         Mode::Check => failures::FEW_SEEDS,
@@ -72,6 +76,30 @@ pub(super) fn mistakes(
     report(&thin, &line)
 }
 
+/// Updates the lists of the mistakes in these solutions, with as many seeds as the other lists.
+fn write_lists_of_tasks(root: &Path, solutions: &Solutions, practice: &Exam) -> CommandResult {
+    let handed_out = solutions.workbench.handed_out();
+    let mut lists = FailedItems::load(root, handed_out)?;
+    let seeds = SeedCounts {
+        all: lists.seeds,
+        thinnest: lists.seeds,
+    };
+    let (failed, detections) = failures::failed_items(solutions, practice, seeds)?;
+    let line = format!("{} mistakes, {} seeds", failed.fails.len(), failed.seeds);
+    lists.fails.extend(failed.fails);
+    generate(
+        &[lists.generated_file(handed_out)?],
+        Mode::Write,
+        "mistakes",
+    )?;
+    report(&detections.problems(), &line)
+}
+
+/// Returns the tasks with a name given on the command line.
+fn parse_tasks(name: &str, authoring: &Authoring) -> anyhow::Result<TaskSelection> {
+    TaskSelection::parse(name, authoring.handed_out.assignment).map_err(Error::msg)
+}
+
 /// Writes or checks the table for the practice exam.
 fn write_table_of_mistakes(solutions: &Solutions, practice: &Exam, mode: Mode) -> CommandResult {
     let table = matrix::generated_file(solutions, practice)?;
@@ -86,8 +114,8 @@ pub(super) fn mutants(
     task: Option<&str>,
     record: RecordArgs,
 ) -> CommandResult {
-    let tasks = task.map(|task| TaskSelection::parse(task, authoring.handed_out.assignment));
-    let tasks = tasks.transpose().map_err(Error::msg)?.unwrap_or_default();
+    let tasks = task.map(|task| parse_tasks(task, authoring));
+    let tasks = tasks.transpose()?.unwrap_or_default();
     let findings = mutants::run(authoring, &tasks, if fast { SAMPLE_STEP } else { 1 })?;
     let of_task = task.map_or(String::new(), |task| format!(" of {task}"));
     if fast {

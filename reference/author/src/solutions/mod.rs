@@ -20,6 +20,7 @@ use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
 use grader::files;
+use grader::task_selection::TaskSelection;
 use serde::de::DeserializeOwned;
 
 use crate::solutions::catalogue::{Mistake, mistakes};
@@ -109,6 +110,13 @@ impl Solutions {
             || mistakes.any(|mistake| {
                 mistake.true_of_pairs.iter().any(is_pair) && self.have_same_hint(&mistake.id, hint)
             })
+    }
+
+    /// Keeps the mistakes in these tasks and drops all other mistakes.
+    pub fn only_mistakes(mut self, tasks: &TaskSelection) -> Self {
+        self.mistakes
+            .retain(|mistake| tasks.includes(mistake.task()));
+        self
     }
 
     /// Keeps one variant and drops all other variants and all mistakes.

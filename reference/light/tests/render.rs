@@ -2,9 +2,10 @@
 
 use std::process::Command;
 
-use framework::render::renderer::{Lighting, PathSettings, RenderStats};
+use framework::render::rectangles::GivenRectangles;
+use framework::render::renderer::{self, Lighting, PathSettings, RenderStats};
 use framework::scene::Scene;
-use framework::submission::World;
+use framework::submission::{Submission, World};
 use glam::UVec2;
 use reference::world::Student;
 use reference_light::integrator::Light;
@@ -19,6 +20,9 @@ fn the_reference_renders_every_scene_without_a_note() {
         "cornell-box",
         "checkered-teapot",
         "flat",
+        "lamp",
+        "lantern",
+        "lights",
         "open-sky",
         "spheres",
         "wide",
@@ -34,6 +38,30 @@ fn the_reference_renders_every_scene_without_a_note() {
         assert!(!messages.contains("note:"), "{scene}: {messages}");
     }
     std::fs::remove_file(out).expect("the picture exists");
+}
+
+/// With rectangles that the framework intersects, only the camera comes from part one.
+#[test]
+fn given_rectangles_give_the_same_picture_without_part_one() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/lamp.json");
+    let scene = Scene::load(path.as_ref()).expect("the scene is valid");
+    let scene = scene.on_film(UVec2::new(16, 12));
+    let settings = PathSettings {
+        bounces: 3,
+        seed: 1,
+    };
+    let means = [&Student as &dyn Submission, &GivenRectangles(&Student)].map(|submission| {
+        let world = World::new(submission, &scene);
+        let path_tracer = Light.path_tracer(&scene, &world, settings);
+        let film = scene.camera.pinhole.film;
+        let pixels = renderer::render(path_tracer.as_ref(), film, 16);
+        pixels.iter().map(|pixel| pixel.y).sum::<f32>() / pixels.len() as f32
+    });
+    let [own, given] = means;
+    assert!(
+        (own - given).abs() < 1e-3 * own && own > 0.0,
+        "{own} {given}"
+    );
 }
 
 /// If only points on the light were sampled, some points next to the floor would contribute

@@ -24,7 +24,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use glam::{UVec2, Vec2};
-use protocol::{Trace, Tree};
+use protocol::{Shape, Trace, Tree};
 
 use crate::harness::attempt::keep_panics_quiet;
 use crate::harness::cli::canvas::{Canvas, Event};
@@ -35,6 +35,7 @@ use crate::harness::cli::picture::Picture;
 use crate::harness::cli::progress::Progress;
 use crate::harness::view;
 use crate::render::film::Film;
+use crate::render::rectangles::{GivenRectangles, first_other_shape};
 use crate::render::renderer::{Lighting, RenderStats, Renderer};
 use crate::scene::Scene;
 use crate::submission::{Submission, World};
@@ -119,6 +120,13 @@ fn run(
     let (scene, names) = stages::show(&loading, || Scene::load_with_names(&path))?;
     let scene = &scene.on_film(options.size.unwrap_or(scene.camera.pinhole.film));
     let out = &files::output_path(options, &path)?;
+    let rectangles = GivenRectangles(submission);
+    let submission = if options.rectangles {
+        refuse_other_shapes(scene)?;
+        &rectangles
+    } else {
+        submission
+    };
     let pool = &RenderPool::new(scene.camera.pinhole.film, options.threads)?;
 
     let (world, tree) = &stages::build(submission, scene)?;
@@ -132,7 +140,9 @@ fn run(
         let renderer = picture.renderer.as_deref();
         return pixel::print(pixel, options, scene, &names, world, renderer);
     }
-    if let Some(note) = slow::note(submission, scene, tree) {
+    // Rectangles need no tree.
+    let note = (!options.rectangles).then(|| slow::note(submission, scene, tree));
+    if let Some(note) = note.flatten() {
         eprintln!("{note}");
     }
     let job = Job {
@@ -170,6 +180,22 @@ fn run(
         );
     }
     Ok(())
+}
+
+/// Fails if a scene contains anything but rectangles.
+fn refuse_other_shapes(scene: &Scene) -> Result<(), RenderError> {
+    let other = first_other_shape(&scene.shapes);
+    let message = |index: usize| {
+        let kind = match scene.shapes[index] {
+            Shape::Sphere { .. } => "a sphere",
+            Shape::Triangle { .. } | Shape::FlatTriangle { .. } => "a triangle or another polygon",
+        };
+        RenderError::Other(format!(
+            "--rectangles draws only scenes of rectangles, such as lamp, but this one contains {kind}: \
+             leave the option out, or choose another scene"
+        ))
+    };
+    other.map_or(Ok(()), |index| Err(message(index)))
 }
 
 /// Renders a picture of first hits.

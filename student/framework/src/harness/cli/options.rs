@@ -52,6 +52,11 @@ pub(super) struct Options {
     #[arg(long, value_enum)]
     pub(super) view: Option<ViewMode>,
 
+    /// Let the framework find the hits, so that you need only the camera from part one. The scene
+    /// must consist of rectangles
+    #[arg(long, conflicts_with = "bench")]
+    pub(super) rectangles: bool,
+
     /// Exposure: each stop doubles the brightness (PNG only)
     #[arg(
         long,

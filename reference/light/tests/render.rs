@@ -40,6 +40,39 @@ fn the_reference_renders_every_scene_without_a_note() {
     std::fs::remove_file(out).expect("the picture exists");
 }
 
+#[test]
+fn a_pixel_shows_what_its_first_path_asks_and_gets() {
+    let command = Command::new(env!("CARGO_BIN_EXE_reference-light"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .args([
+            "lamp",
+            "--pixel",
+            "8,3",
+            "--size",
+            "16x12",
+            "--bounces",
+            "1",
+        ])
+        .output()
+        .expect("the program can be started");
+    let text = String::from_utf8_lossy(&command.stdout);
+    let steps = text.lines().skip_while(|line| !line.starts_with("path of"));
+    let kinds: Vec<&str> = steps
+        .filter_map(|line| line.split_once(':'))
+        .map(|(kind, _)| kind.trim())
+        .collect();
+    let path = [
+        "path of the first sample, whose radiance is",
+        "hit",
+        "light",
+        "light pdf",
+    ];
+    assert!(kinds[0].starts_with(path[0]), "{text}");
+    assert_eq!(kinds[1..4], path[1..], "{text}");
+    assert!(kinds.contains(&"scatter"), "{text}");
+    assert!(text.contains("hit: a matte surface at"), "{text}");
+}
+
 /// With rectangles that the framework intersects, only the camera comes from part one.
 #[test]
 fn given_rectangles_give_the_same_picture_without_part_one() {

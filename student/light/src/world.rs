@@ -2,6 +2,7 @@
 //! are, and [`Surface`] converts between directions in the world and in the surface's own frame.
 
 use framework::render::frame::Frame;
+use framework::render::path_log::log;
 use framework::render::sampler::RandomNumbers;
 use framework::render::sphere_light::SphereLight;
 use framework::render::tracer::{self, Intersect};
@@ -68,15 +69,27 @@ impl<'a> World<'a> {
 
     /// Returns the surface that a ray hits first, or `None` if it hits nothing.
     pub fn hit(&self, ray: &Ray) -> Option<Surface<'_>> {
-        self.hits.intersect(ray).map(Surface::of)
+        let surface = self.hits.intersect(ray).map(Surface::of);
+        log(|| match &surface {
+            Some(surface) => {
+                let Surface {
+                    position, emitted, ..
+                } = surface;
+                format!(
+                    "hit: {} at {position:.4}, which emits {emitted:.4}",
+                    surface.material.name()
+                )
+            }
+            None => "no hit".to_owned(),
+        });
+        surface
     }
 
     /// Returns the radiance that arrives from far away in a direction, which must be a unit vector.
     pub fn environment(&self, direction: Vec3) -> Vec3 {
-        match &self.sources.sky {
-            Sky::Constant(radiance) => *radiance,
-            Sky::Map(map) => map.radiance(direction),
-        }
+        let radiance = self.sources.sky.radiance(direction);
+        log(|| format!("environment: {radiance:.4} from {direction:.4}"));
+        radiance
     }
 
     /// Returns the radiance that arrives at a surface from this direction without being scattered
@@ -85,10 +98,17 @@ impl<'a> World<'a> {
     /// A ray is traced only if there is something to see, and only as far as the nearest light in
     /// this direction, since nothing behind that light is visible.
     pub fn emitted(&self, at: &Surface, direction: Vec3) -> Vec3 {
+        let radiance = self.unblocked(at, direction);
+        log(|| format!("light: {radiance:.4} from {direction:.4}"));
+        radiance
+    }
+
+    /// Computes [`World::emitted`].
+    fn unblocked(&self, at: &Surface, direction: Vec3) -> Vec3 {
         let nearest = self.sources.lights.nearest(at.position, direction);
         let radiance = match nearest {
             Some((light, _)) => light.emitted(direction),
-            None => self.environment(direction),
+            None => self.sources.sky.radiance(direction),
         };
         if radiance == Vec3::ZERO {
             return Vec3::ZERO;
@@ -124,10 +144,22 @@ impl<'a> World<'a> {
     /// this direction. The direction must be a unit vector.
     pub fn light_pdf(&self, from: Vec3, direction: Vec3) -> f32 {
         let LightSources { lights, sky } = self.sources;
-        match sky {
+        let pdf = match sky {
             Sky::Constant(_) => lights.pdf(from, direction),
             Sky::Map(map) if lights.is_empty() => map.pdf(direction),
             Sky::Map(map) => 0.5 * (lights.pdf(from, direction) + map.pdf(direction)),
+        };
+        log(|| format!("light pdf: {pdf:.4} toward {direction:.4}"));
+        pdf
+    }
+}
+
+impl Sky {
+    /// Returns the radiance that arrives from a direction, which must be a unit vector.
+    fn radiance(&self, direction: Vec3) -> Vec3 {
+        match self {
+            Sky::Constant(radiance) => *radiance,
+            Sky::Map(map) => map.radiance(direction),
         }
     }
 }
@@ -186,11 +218,35 @@ impl Material {
     /// Samples the continuation of a path, in the surface's frame. Returns `None` if the path ends
     /// at the surface.
     pub fn scatter(&self, out: Vec3, numbers: &RandomNumbers) -> Option<Scattered> {
-        match self {
+        let scattered = match self {
             Material::Lambertian(lambertian) => Some(lambertian.scatter(out, numbers.scatter)),
             Material::Mirror(mirror) => Some(mirror.scatter(out)),
             Material::Glass(glass) => Some(glass.scatter(out, numbers.reflect)),
             Material::Emitter => None,
+        };
+        log(|| match scattered {
+            Some(Scattered {
+                direction,
+                attenuation,
+                pdf,
+            }) => {
+                let pdf = pdf.map_or("no pdf".to_owned(), |pdf| format!("pdf {pdf:.4}"));
+                format!(
+                    "scatter: {direction:.4} in the surface's frame, attenuation {attenuation:.4}, {pdf}"
+                )
+            }
+            None => "scatter: nothing".to_owned(),
+        });
+        scattered
+    }
+
+    /// Returns the material's name in a sentence.
+    fn name(&self) -> &'static str {
+        match self {
+            Material::Lambertian(_) => "a matte surface",
+            Material::Mirror(_) => "a mirror",
+            Material::Glass(_) => "glass",
+            Material::Emitter => "a light",
         }
     }
 }

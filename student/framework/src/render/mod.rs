@@ -4,6 +4,7 @@ pub mod clay;
 pub mod film;
 pub mod frame;
 pub mod offset;
+pub mod path_log;
 pub mod rectangles;
 pub mod renderer;
 pub mod sampler;

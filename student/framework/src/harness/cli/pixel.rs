@@ -9,6 +9,7 @@ use protocol::{Shape, Trace};
 use super::error::{RenderError, call};
 use super::first_hit;
 use super::options::Options;
+use crate::render::path_log::follow;
 use crate::render::renderer::{RenderStats, Renderer};
 use crate::scene::{Material, Scene};
 use crate::submission::World;
@@ -46,7 +47,20 @@ pub(super) fn print(
         "  radiance  {light}, from {samples} samples and {} rays",
         stats.rays
     );
+    let first = || follow(|| renderer.sample_radiance(pixel, 0, &mut stats));
+    let (light, steps) = call(Some(pixel), first)?;
+    print!("{}", description_of_path(light, &steps));
     Ok(())
+}
+
+/// Returns the lines that describe the path of a pixel's first sample. Clay has no paths.
+fn description_of_path(radiance: Vec3, steps: &[String]) -> String {
+    if steps.is_empty() {
+        return String::new();
+    }
+    let steps = steps.iter().map(|step| format!("  {step}\n"));
+    let steps: String = steps.collect();
+    format!("path of the first sample, whose radiance is {radiance}:\n{steps}")
 }
 
 /// Returns the lines that describe the hit at a pixel's centre.

@@ -169,7 +169,8 @@ fn how_to_restore(file: &TaskFile, changed: Option<ChangedDeclaration>) -> Strin
         ),
         None => format!(
             "\n\n{RESTORE_LABEL}what you have changed or removed in {}, such as a field, a method or a \
-             `derive`: other files rely on it.",
+             `derive`: other files rely on it. If you have defined a type with the name of a given \
+             one, such as `Ray`, use the given type instead.",
             file.name
         ),
     }

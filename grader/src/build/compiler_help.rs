@@ -17,7 +17,7 @@ const BORROWS: &str = "cpp.md#recursion-that-fills-a-vector";
 
 /// Triples of an error code, words in the compiler's text, and the section that explains errors
 /// that match both. Syntax errors have no code. The first match is used.
-const SECTIONS: [(&str, &str, &str); 43] = [
+const SECTIONS: [(&str, &str, &str); 51] = [
     ("", "expected `;`", BLOCKS),
     ("", "expected one of `.`, `;`", BLOCKS),
     ("E0308", "found `()`", BLOCKS),
@@ -53,8 +53,16 @@ const SECTIONS: [(&str, &str, &str); 43] = [
     ("E0599", "`Vec3`", VECTORS),
     ("E0609", "`Option<", OPTION),
     ("E0004", "`None`", OPTION),
+    ("E0425", "function `max`", ORDER),
+    ("E0425", "function `min`", ORDER),
+    ("E0412", "cannot find type", CRATES),
+    ("E0425", "cannot find type", CRATES),
+    ("E0425", "`vec2`", CRATES),
+    ("E0425", "`vec3`", CRATES),
     ("E0432", "missing a crate named", CRATES),
     ("E0433", "unlinked crate", CRATES),
+    ("E0433", "undeclared type", CRATES),
+    ("E0433", "cannot find type", CRATES),
     ("E0382", "", MOVES),
     ("E0499", "", BORROWS),
     ("E0502", "", BORROWS),
@@ -113,6 +121,16 @@ mod tests {
                 Some("E0277"),
                 "the trait bound `f32: Ord` is not satisfied",
                 Some(ORDER),
+            ),
+            (
+                Some("E0425"),
+                "cannot find function `max` in this scope; consider importing this function",
+                Some(ORDER),
+            ),
+            (
+                Some("E0433"),
+                "failed to resolve: use of undeclared type `Vec3`",
+                Some(CRATES),
             ),
             (
                 Some("E0384"),

@@ -68,6 +68,12 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
              that your code builds for four primitives: which part of it appears more than once?",
         );
     }
+    if message.contains("slice index starts at") || message.contains("but ends at") {
+        return Some(
+            "The range ends before it starts. A leaf holds the primitives start..start + size: which \
+             two numbers does your range go from and to?",
+        );
+    }
     // The first message is from a vector, the second from an array of three numbers.
     let is_axis = message == "index out of bounds" || message.contains("the len is 3 ");
     let is_too_large = ["add", "multiply", "shift"]
@@ -120,6 +126,12 @@ mod tests {
             let clue = of_panic(message).unwrap();
             assert_eq!(clue.contains("axes"), can_be_axis, "{message}: {clue}");
         }
+    }
+
+    #[test]
+    fn a_range_that_ends_before_it_starts_is_not_blamed_on_the_length() {
+        let clue = of_panic("slice index starts at 3 but ends at 1").unwrap();
+        assert!(clue.contains("start..start + size"), "{clue}");
     }
 
     #[test]

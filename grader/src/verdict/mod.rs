@@ -253,10 +253,10 @@ fn score_answers(
             };
             score.message = sanitize(&text, MAX_TEXT_CHARS);
             score.at = CodeLocation::from_panic(&panic.location, handed_out);
-            score.clue = clue::of_panic(message).map(str::to_owned);
-            if score.clue.is_none() && score.at.is_some() {
+            let unknown = score.at.is_some().then_some(clue::UNKNOWN_PANIC);
+            score.clue = clue::of_panic(message).or(unknown).map(str::to_owned);
+            if score.clue.is_some() {
                 // The item's advice is about wrong answers.
-                score.clue = Some(clue::UNKNOWN_PANIC.to_owned());
                 score.section = item.section.as_ref().map(Section::whole_chapter);
             }
             let panicked = partial(Verdict::Panicked);

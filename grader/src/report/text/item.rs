@@ -26,7 +26,7 @@ pub(super) fn write_item(
     for line in wrap(&item.title, WIDTH - 4) {
         writeln!(out, "    {line}")?;
     }
-    let hint = hint_text(&item.hints, hints, same_hint).or_else(|| no_hint(item, hints));
+    let hint = hint_text(&item.hints, hints, same_hint);
     let mut rows = item.rows(item.message.clone(), hint).into_iter();
     rows.try_for_each(|(label, text)| write_row(out, label, &text))
 }
@@ -38,13 +38,6 @@ pub fn joined_hints(hints: &[Hint], detail: HintDetail) -> String {
         HintDetail::Full => hint.hint.as_str(),
     });
     texts.collect::<Vec<_>>().join(" Or: ")
-}
-
-/// Returns the text in place of a hint if detailed hints are requested, but wrong answers aren't
-/// those of a known mistake.
-fn no_hint(item: &ItemScore, hints: HintDetail) -> Option<String> {
-    let is_unexplained = item.has_no_clue() && hints == HintDetail::Full;
-    is_unexplained.then(|| "none of the mistakes known to the exam gives these answers".to_owned())
 }
 
 /// Joins the hints of an item and adds the ids of the other items that they explain. Returns `None`

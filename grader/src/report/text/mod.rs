@@ -17,7 +17,7 @@ use crate::report::text::item::{
     write_command, write_hidden_count, write_item, write_printed, write_warnings,
 };
 use crate::sandbox::Isolation;
-use crate::score::{ItemScore, Score, TaskScore, Verdict};
+use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
 
 pub use item::{MAX_WARNINGS, joined_hints};
 pub use short_table::short_table;
@@ -104,7 +104,25 @@ pub fn report(score: &Score, tasks: &TaskSelection, hints: HintDetail) -> String
     let order = ItemOrder::FirstAtPrompt;
     let parts = report_parts(score, tasks, hints, OldResults::default(), order);
     let details = parts.details_text();
-    format!("\n{}{}{details}\n", parts.headline, parts.table)
+    let no_hint = no_hint(score, tasks, hints);
+    format!("\n{}{}{details}{no_hint}\n", parts.headline, parts.table)
+}
+
+/// Returns a line to print if detailed hints are requested and answers are wrong, but not as those
+/// of a known mistake.
+fn no_hint(score: &Score, selection: &TaskSelection, hints: HintDetail) -> &'static str {
+    let tasks = score
+        .tasks
+        .iter()
+        .filter(|task| selection.includes(task.id));
+    let items = || tasks.clone().flat_map(|task| &task.items);
+    let is_wrong = items().any(|item| item.verdict.kind() == VerdictKind::Failed);
+    let has_hint = items().any(|item| !item.hints.is_empty());
+    if hints == HintDetail::Full && is_wrong && !has_hint {
+        "\n  --hints: none of the mistakes that the exam knows gives these answers\n"
+    } else {
+        ""
+    }
 }
 
 /// Renders the parts of the report. Old results are grey.

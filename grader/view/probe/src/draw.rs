@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use framework::harness::attempt::attempt;
 use framework::harness::lighting::written_path_tracer;
 use framework::render::clay::Clay;
+use framework::render::path_log;
 use framework::render::renderer::{Lighting, PathSettings, RenderStats, Renderer};
 use glam::{UVec2, Vec2};
 use protocol::{Panic, Trace};
@@ -220,7 +221,7 @@ impl OpenScene<'_> {
 pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow) -> RecordedRays {
     let mut stats = RenderStats::default();
     record::start(request.max_tests, request.max_rays);
-    let outcome = attempt(|| match request.target {
+    let trace = || match request.target {
         Target::Centre(pixel) => {
             stage.first_hit(pixel);
             None
@@ -235,7 +236,12 @@ pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow)
             stage.world.bvh.closest_hit(&ray);
             None
         }
-    });
+    };
+    let (outcome, mut steps) = path_log::follow(|| attempt(trace));
+    steps.truncate(MAX_STEPS);
+    for step in &mut steps {
+        step.truncate(step.floor_char_boundary(MAX_STEP_BYTES));
+    }
     let rays = record::finish();
     let (radiance, panic) = match outcome {
         Ok(radiance) => (radiance, None),
@@ -244,6 +250,7 @@ pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow)
     RecordedRays {
         rays,
         radiance,
+        steps,
         panic,
     }
 }

@@ -129,10 +129,9 @@ pub(super) const SPHERE: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::MISS],
             clue: "The ray hits the sphere, but your code returns a miss. Work out the discriminant and \
-                both roots by hand for the ray shown, and compare them with the values in your code: which \
-                comparison rejects a root that is in \
-                     ray.range?",
-            section: "sphere.md#the-quadratic-equation",
+                both roots by hand for the ray shown, and compare them with the values in your code. At \
+                least one root is in ray.range: what does your code do with it?",
+            section: "sphere.md#check-each-root-by-itself",
         },
         SymptomClue {
             symptoms: &[Symptom::HIT],

@@ -16,6 +16,11 @@ pub const MAX_PANICS: usize = 64;
 /// The maximum number of rays in a recording. It is more than twice the maximum number of bounces.
 pub(super) const MAX_RAYS: usize = 1 << 15;
 
+/// The maximum number of steps in a recording of a path, and of bytes in each step. Longer
+/// recordings are cut off.
+pub(crate) const MAX_STEPS: usize = 1 << 12;
+pub(crate) const MAX_STEP_BYTES: usize = 256;
+
 /// The maximum sizes on the wire, in bytes. A 32-bit integer takes up to 5 bytes, and a float takes
 /// 4.
 const PANIC_BYTES: usize = 2 * (Panic::MAX_TEXT_BYTES + 2);
@@ -34,7 +39,8 @@ impl Request {
             Request::Draw(draw) => draw.pixels().count() * (1 + TRACE_BYTES + 5),
             Request::Tree(size) => size.nodes as usize * NODE_BYTES + size.primitives as usize * 4,
             Request::Follow(follow) => {
-                MAX_RAYS * RAY_BYTES + follow.max_tests as usize * TEST_BYTES
+                let steps = MAX_STEPS * (MAX_STEP_BYTES + 2);
+                MAX_RAYS * RAY_BYTES + follow.max_tests as usize * TEST_BYTES + steps
             }
             Request::Boxes(queries) => queries.boxes.len() * SPAN_BYTES,
         };

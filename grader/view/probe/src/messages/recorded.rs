@@ -5,7 +5,7 @@ use protocol::{Interval, Panic, Ray, Trace};
 use serde::{Deserialize, Serialize};
 
 use super::TestCounts;
-use super::limits::{MAX_RAYS, at_most};
+use super::limits::{MAX_RAYS, MAX_STEPS, at_most};
 
 /// The tests recorded for a ray, or for all rays in a path.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -15,6 +15,9 @@ pub struct RecordedRays {
     pub rays: Vec<RecordedRay>,
     /// The radiance of the path.
     pub radiance: Option<Vec3>,
+    /// The steps of the path, as logged by the path tracer.
+    #[serde(deserialize_with = "at_most::<_, _, MAX_STEPS>")]
+    pub steps: Vec<String>,
     /// The panic that ended the recording.
     pub panic: Option<Panic>,
 }

@@ -56,6 +56,7 @@ pub fn explain(
         sample,
         rays: explained.collect(),
         radiance: followed.radiance,
+        steps: followed.steps.clone(),
         panic: followed
             .panic
             .clone()

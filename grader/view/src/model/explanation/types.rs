@@ -15,6 +15,8 @@ pub struct Explanation {
     pub rays: Vec<ExplainedRay>,
     /// The radiance of the path.
     pub radiance: Option<Vec3>,
+    /// The steps of the path, as logged by the path tracer.
+    pub steps: Vec<String>,
     /// The panic that ended the recording: its message and its location.
     pub panic: Option<[String; 2]>,
 }

@@ -159,13 +159,7 @@ pub(super) const PARTITION: Declaration = Declaration {
     look: "Return a tree whose root is nodes[root]. From there, l and r, which are indices into \
            nodes, lead to the leaves. A leaf holds the primitives start..start + size of the list \
            that you return, and every primitive is in exactly one leaf.",
-    look_fits: &[
-        Symptom::of("nodes"),
-        Symptom::of("root"),
-        Symptom::of("l"),
-        Symptom::of("r"),
-        Symptom::of("leaves"),
-    ],
+    look_fits: &[Symptom::of("nodes"), Symptom::of("leaves")],
     section: "building.md#a-leaf-is-a-slice-of-the-list",
     tests: &["Every primitive is…"],
     questions: |rng| {
@@ -199,8 +193,9 @@ pub(super) const CONTAINS: Declaration = Declaration {
 pub(super) const TIGHT: Declaration = Declaration {
     id: "build.tight",
     title: "no box is larger than its contents require",
-    look: "A node's box is the union of its primitives' boxes. A box that starts at the origin \
-           instead of BBox::EMPTY, or is the parent's box, is too large.",
+    look: "A node's box is the union of its primitives' boxes. It is too large if it starts at the \
+           origin instead of BBox::EMPTY, if it is the parent's box, or if start and size leave \
+           out a primitive that it was made for.",
     look_fits: &[Symptom::of("box too large")],
     section: "building.md#start-each-box-empty",
     tests: &["The box of a node…"],

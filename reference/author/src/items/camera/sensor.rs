@@ -23,7 +23,7 @@ pub(in crate::items) const CORNERS: Declaration = Declaration {
     title: "the film's corners map to the sensor's corners, and its centre to (0, 0, −1)",
     look: "The sensor spans −1 to 1 in x and y, at z = −1. Work out one position by hand: (pixel + \
         offset) / film runs from 0 to 1.",
-    section: "camera.md#from-pixel-to-sensor",
+    section: "camera.md#derivation",
     tests: &["Returns the ray that…", "The sensor is the…"],
     questions: corners,
     ..Declaration::in_group(groups::CAMERA_RAYS)

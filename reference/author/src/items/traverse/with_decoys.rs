@@ -198,7 +198,7 @@ pub(super) const NEARER_FIRST: Declaration = Declaration {
         compare the entry of the other child with the closest hit: the slides' hit2.t is the entry \
         of r, even if l comes second.",
     look_fits: &[Symptom::less("distance")],
-    section: "traversal.md#compare-the-entry-of-the-second-child",
+    section: "traversal.md#order-the-children-and-prune",
     tests: &[
         "If the ray hits the…",
         "Do not take the slides'…",

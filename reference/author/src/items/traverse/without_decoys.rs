@@ -27,7 +27,7 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
            primitives need to be tested, and which of their hits is the closest? Then see which \
            primitives your code tests, and which hit it keeps after each.",
     look_fits: &[Symptom::more("distance")],
-    section: "traversal.md#the-first-hit-need-not-be-the-closest",
+    section: "traversal.md#the-algorithm",
     tests: &["Returns the ray's…", "Boxes overlap, so…"],
     questions: |rng| {
         // At least half of the closest hits are found after a farther hit.

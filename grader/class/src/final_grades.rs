@@ -148,7 +148,8 @@ impl FinalGrades {
     /// additional submission, that doesn't count as a change.
     fn change_to(&self, now: &FinalGrade, after: &Self, causes: &[&str]) -> Option<String> {
         let is_gone = |was: &&FinalGrade| after.find(was).is_none();
-        let other = || self.counting(&now.person).filter(is_gone);
+        let own = || self.of_person(&now.person).filter(is_gone);
+        let other = || own().max_by_key(|was| was.counts.is_some());
         if let Some(was) = self.find(now).or_else(other) {
             return (was.counts != now.counts).then(|| now.change(was, causes));
         }
@@ -159,17 +160,16 @@ impl FinalGrades {
         })
     }
 
-    /// Returns the grade that counts for a person.
-    fn counting(&self, person: &Person) -> Option<&FinalGrade> {
-        let mut own = self.grades.iter().filter(|own| own.counts.is_some());
-        own.find(|own| own.person.is_same(person))
+    fn of_person(&self, person: &Person) -> impl Iterator<Item = &FinalGrade> {
+        let grades = self.grades.iter();
+        grades.filter(|own| own.person.is_same(person))
     }
 
     /// Returns a sentence about an earlier grade that is missing from this run although its
     /// submission is still present.
     fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
-        let is_lost = self.find(was).is_none() && self.counting(&was.person).is_none();
+        let is_lost = self.find(was).is_none() && self.of_person(&was.person).next().is_none();
         (was.counts.is_some() && is_lost).then(|| {
             let why = "the submission no longer counts for this person";
             was.changed(&was.value(false), "–", why)

@@ -45,8 +45,9 @@ struct FinalGrade {
     status: String,
     /// The final points and their maximum, or `None` for a submission without final points.
     counts: Option<[u32; 2]>,
-    /// The graded points.
-    graded: u32,
+    /// The graded points, or `None` if the submission wasn't graded.
+    graded: Option<u32>,
+    /// The manual points, even if there are no final points.
     manual: i32,
     late_days: u32,
     #[serde(default)]
@@ -198,8 +199,8 @@ impl FinalGrade {
             person: person.clone(),
             status: row.status(grade).to_owned(),
             counts: counted.map(|counted| [counted.points, counted.max_points]),
-            graded: row.result.score().map_or(0, |score| score.points),
-            manual: counted.map_or(0, |counted| counted.manual),
+            graded: row.result.score().map(|score| score.points),
+            manual: grade.manual.iter().map(|points| points.delta).sum(),
             late_days: counted.map_or(0, |counted| counted.late_days),
             is_corrected: row.result.info.is_corrected,
             changes: counted.map_or_else(Vec::new, |counted| counted.changes.clone()),
@@ -220,22 +221,28 @@ impl FinalGrade {
         let maxima = [was, self].map(maximum);
         let with_maximum = maxima[0] != maxima[1] && maxima.iter().all(Option::is_some);
         let mut why = Vec::new();
-        if was.submission != self.submission {
+        let is_same = was.submission == self.submission;
+        if !is_same && self.counts.is_some() {
             why.push(format!("it counts instead of {}", was.submission));
+        } else if !is_same {
+            why.push(format!("this attempt replaces {}", was.submission));
         }
-        if was.graded != self.graded {
-            why.push(format!("graded {} → {}", was.graded, self.graded));
+        match (was.graded, self.graded) {
+            (Some(was), Some(now)) if was != now => why.push(format!("graded {was} → {now}")),
+            (None, Some(now)) if is_same => why.push(format!("now graded {now}")),
+            (Some(was), None) if is_same => why.push(format!("previously graded {was}")),
+            _ => {}
         }
         if !was.is_corrected && self.is_corrected {
             why.push("the files were handed in again".to_owned());
         }
+        if was.manual != self.manual {
+            why.push(format!(
+                "manual points {:+} → {:+}",
+                was.manual, self.manual
+            ));
+        }
         if was.counts.is_some() && self.counts.is_some() {
-            if was.manual != self.manual {
-                why.push(format!(
-                    "manual points {:+} → {:+}",
-                    was.manual, self.manual
-                ));
-            }
             if was.late_days != self.late_days {
                 why.push(format!("days late {} → {}", was.late_days, self.late_days));
             }

@@ -3,7 +3,9 @@
 
 use std::fs;
 
-use crate::harness::{TestClass, assert_contains, cell, refusal, source, successful_stdout, unzip};
+use crate::harness::{
+    TestClass, assert_contains, cell, refusal, source, successful_stdout, unzip, zip,
+};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const POLICY: &str =
@@ -95,21 +97,24 @@ fn a_copy_that_was_changed_is_not_used() {
     graded.run(&["--drop-list", "roster"]);
 }
 
+/// Returns the list of final grades that changed, which is also in `class.html`.
+fn grade_changes(class: &TestClass, text: &str) -> String {
+    let lines = text.lines();
+    let lines = lines.skip_while(|line| !line.contains("final grade"));
+    let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
+    let page = class.read("class.html").replace("&quot;", "\"");
+    for line in lines.iter().skip(1).map(|line| line.trim()) {
+        assert!(page.contains(line), "{line}: {page}");
+    }
+    lines.join("\n")
+}
+
 #[test]
 fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     let graded = GradedTwice::new();
     let changes = |more: &[&str]| {
         let [text, _] = graded.run(more);
-        let lines = text
-            .lines()
-            .skip_while(|line| !line.contains("final grade"));
-        let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
-        let page = graded.class.read("class.html");
-        let listed = lines.iter().skip(1).map(|line| line.trim());
-        for line in listed {
-            assert!(page.contains(line), "{line}: {page}");
-        }
-        lines.join("\n")
+        grade_changes(&graded.class, &text)
     };
     let write = |name: &str, text: &str| graded.class.write_beside(name, text);
     let all = [
@@ -133,6 +138,91 @@ fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     ann (Ann Lee): 33 of 100 → 3 of 10: the policy
     1 final grade changed (changed: the policy)
     ann (Ann Lee): 3 of 10 → 7 of 20: the policy
+    ");
+}
+
+/// Adds an attempt to a Blackboard export, given the account, the day and an archive. An attempt
+/// with an empty archive has no files.
+fn with_attempt(class: TestClass, attempt: &(&str, u32, &[u8])) -> TestClass {
+    let (login, day, archive) = attempt;
+    let file = format!("gradebook_CG26_Path_{login}_attempt_2026-11-{day}-10-00-00");
+    let receipt = format!(
+        "\u{feff}Name: {login} ({login})\r\nAssignment: Path tracer\r\n\
+         Date Submitted: Friday, 20 November 2026 10:00:00 o'clock CET\r\n\
+         Current Mark: Needs Marking\r\n\r\nSubmission Field:\r\n\
+         There is no student submission text data for this assignment.\r\n"
+    );
+    let class = class.with(&format!("{file}.txt"), receipt);
+    if archive.is_empty() {
+        class
+    } else {
+        class.with(&format!("{file}_hw.zip"), archive)
+    }
+}
+
+/// Returns an archive with the reference's camera and the sphere from this folder.
+fn archive_with(sphere: &str) -> Vec<u8> {
+    let files = [
+        ("camera.rs", source("reference/src/camera.rs")),
+        ("sphere.rs", source(&format!("{sphere}/sphere.rs"))),
+    ];
+    zip(files)
+}
+
+/// In the first export, Eva's only attempt is empty and Bob's latest one is a damaged archive. In
+/// the second export, everybody has a new attempt. In the third, Ann's latest one is damaged.
+#[test]
+fn a_grade_is_listed_if_an_earlier_or_later_attempt_has_none() {
+    let [solution, partial] = ["reference/src", "grader/starter"].map(archive_with);
+    let damaged = &solution[..solution.len() / 2];
+    let first: [(&str, u32, &[u8]); 4] = [
+        ("ann", 18, &solution),
+        ("bob", 18, &partial),
+        ("bob", 19, damaged),
+        ("eva", 18, &[]),
+    ];
+    let second: [(&str, u32, &[u8]); 3] = [
+        ("ann", 20, &partial),
+        ("bob", 20, &solution),
+        ("eva", 20, &solution),
+    ];
+    let third = ("ann", 21, damaged);
+    let mut all = Vec::new();
+    for rule in ["latest", "best"] {
+        let mut class = first.iter().fold(TestClass::named("export"), with_attempt);
+        let exam = class.small_exam(&ITEMS);
+        let policy = format!("[attempts]\ncounts = '{rule}'\n[late]\ntimezone = 'UTC'\n");
+        class.graded_with(&exam, &[("policy", &policy)], &[]);
+        class = second.iter().fold(class, with_attempt);
+        let grade = |class: &TestClass| grade_changes(class, &class.graded(&exam, &[]));
+        all.extend([rule.to_owned(), grade(&class)]);
+        if rule == "best" {
+            break;
+        }
+        class = with_attempt(class, &third);
+        all.push(grade(&class));
+        for file in fs::read_dir(class.input()).unwrap() {
+            let path = file.unwrap().path();
+            if path.to_str().unwrap().contains("_ann_attempt_2026-11-21") {
+                fs::remove_file(path).unwrap();
+            }
+        }
+        all.push(grade(&class));
+    }
+    insta::assert_snapshot!(all.join("\n"), @r"
+    latest
+    3 final grades changed
+    ann_2026-11-20-10-00-00 (ann): 3 → 2: it counts instead of ann_2026-11-18-10-00-00, graded 3 → 2
+    bob_2026-11-20-10-00-00 (bob): no points (nothing to grade) → 3: it counts instead of bob_2026-11-19-10-00-00
+    eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: it counts instead of eva_2026-11-18-10-00-00
+    1 final grade changed
+    ann_2026-11-21-10-00-00 (ann): 2 → no points (nothing to grade): this attempt replaces ann_2026-11-20-10-00-00
+    1 final grade changed
+    ann_2026-11-20-10-00-00 (ann): no points (nothing to grade) → 2: it counts instead of ann_2026-11-21-10-00-00
+    best
+    2 final grades changed
+    bob_2026-11-20-10-00-00 (bob): 2 → 3: it counts instead of bob_2026-11-18-10-00-00, graded 2 → 3
+    eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: it counts instead of eva_2026-11-18-10-00-00
     ");
 }
 

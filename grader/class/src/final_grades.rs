@@ -248,6 +248,14 @@ impl FinalGrade {
             }
             let is_new = |change: &&String| !was.changes.contains(change);
             why.extend(self.changes.iter().filter(is_new).cloned());
+            // A sentence about the same item or task replaces the earlier sentence.
+            let subject = |change: &str| change.split(' ').next().map(str::to_owned);
+            let is_about = |old: &str| {
+                let mut changes = self.changes.iter();
+                changes.any(|change| subject(change) == subject(old))
+            };
+            let withdrawn = was.changes.iter().filter(|old| !is_about(old));
+            why.extend(withdrawn.map(|old| format!("\"{old}\" no longer applies")));
         }
         if why.is_empty() {
             why = causes.iter().map(|cause| (*cause).to_owned()).collect();

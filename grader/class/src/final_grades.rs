@@ -3,9 +3,11 @@
 
 use std::collections::BTreeMap;
 
+use clap::ValueEnum;
+use grader::policy::FinalPoints;
 use serde::{Deserialize, Serialize};
 
-use crate::entry::Person;
+use crate::entry::{ListedTime, Person};
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::list_kind::ListKind;
 use crate::names::with_detail;
@@ -55,6 +57,12 @@ struct FinalGrade {
     /// How the policy's items and tasks differ from those in the exam.
     #[serde(default)]
     changes: Vec<String>,
+    /// The policy's rules that apply to the submission.
+    #[serde(default)]
+    rules: Option<String>,
+    /// The submission time from a list.
+    #[serde(default)]
+    listed: Option<ListedTime>,
 }
 
 /// The final grades that changed.
@@ -101,7 +109,8 @@ impl GradeHistory {
         let before = self.before.as_ref()?;
         let mut causes = before.settings.differences(&self.now.settings);
         let differs = |kind: &&ListKind| before.lists.get(kind) != self.now.lists.get(kind);
-        causes.extend(LISTS.iter().filter(differs).map(|kind| kind.title()));
+        let kinds = ListKind::value_variants().iter().filter(differs);
+        causes.extend(kinds.map(|kind| kind.title()));
         let changes = self.now.grades.iter();
         let changes = changes.filter_map(|now| before.change_to(now, &self.now, &causes));
         let gone = before.grades.iter().filter_map(|was| self.now.loss(was));
@@ -109,10 +118,6 @@ impl GradeHistory {
         Some(GradeChanges { causes, changes })
     }
 }
-
-/// The lists that grades depend on. Gradebooks aren't among them: only their information about
-/// people matters, and it is visible in the grades.
-const LISTS: [ListKind; 3] = [ListKind::Policy, ListKind::Roster, ListKind::ManualPoints];
 
 impl FinalGrades {
     fn new(run: &Run, class: &GradedClass, last: Option<&FinalGrades>) -> Self {
@@ -127,7 +132,7 @@ impl FinalGrades {
                 grades.extend(people.map(|(person, grade)| FinalGrade::new(row, person, grade)));
             }
         }
-        let lists = run.lists.iter().filter(|(kind, _)| LISTS.contains(kind));
+        let lists = run.lists.iter();
         let lists = lists.map(|(kind, list)| (*kind, list.hash.clone()));
         FinalGrades {
             round: run.round,
@@ -204,6 +209,8 @@ impl FinalGrade {
             late_days: counted.map_or(0, |counted| counted.late_days),
             is_corrected: row.result.info.is_corrected,
             changes: counted.map_or_else(Vec::new, |counted| counted.changes.clone()),
+            rules: counted.and_then(FinalPoints::rules),
+            listed: row.result.info.listed.clone(),
         }
     }
 
@@ -242,23 +249,38 @@ impl FinalGrade {
                 was.manual, self.manual
             ));
         }
-        if was.counts.is_some() && self.counts.is_some() {
+        let both_count = was.counts.is_some() && self.counts.is_some();
+        if both_count {
             if was.late_days != self.late_days {
                 why.push(format!("days late {} → {}", was.late_days, self.late_days));
             }
             let is_new = |change: &&String| !was.changes.contains(change);
             why.extend(self.changes.iter().filter(is_new).cloned());
             // A sentence about the same item or task replaces the earlier sentence.
-            let subject = |change: &str| change.split(' ').next().map(str::to_owned);
-            let is_about = |old: &str| {
-                let mut changes = self.changes.iter();
-                changes.any(|change| subject(change) == subject(old))
-            };
-            let withdrawn = was.changes.iter().filter(|old| !is_about(old));
+            let subject = |change: &String| change.split(' ').next().map(str::to_owned);
+            let subjects: Vec<_> = self.changes.iter().map(subject).collect();
+            let withdrawn = was.changes.iter();
+            let withdrawn = withdrawn.filter(|old| !subjects.contains(&subject(old)));
             why.extend(withdrawn.map(|old| format!("\"{old}\" no longer applies")));
         }
+        let policy = ListKind::Policy.title();
+        let is_same_case = (was.late_days, &was.changes) == (self.late_days, &self.changes);
         if why.is_empty() {
-            why = causes.iter().map(|cause| (*cause).to_owned()).collect();
+            // Manual points and lateness are the same, so the lists of people can only decide
+            // whether there are any points.
+            let has_new_data =
+                !both_count && (&was.person, &was.listed) != (&self.person, &self.listed);
+            let can_matter = |kind: &&ListKind| {
+                **kind == ListKind::Policy || (has_new_data && **kind != ListKind::ManualPoints)
+            };
+            let lists = ListKind::value_variants().iter().filter(can_matter);
+            let mut own: Vec<&str> = lists.map(|kind| kind.title()).collect();
+            own.retain(|list| causes.contains(list));
+            let own = if own.is_empty() { causes } else { &own };
+            why.extend(own.iter().map(|cause| (*cause).to_owned()));
+        } else if both_count && is_same_case && was.rules != self.rules && causes.contains(&policy)
+        {
+            why.push(policy.to_owned());
         }
         let (was, now) = (was.value(with_maximum), self.value(with_maximum));
         self.changed(&was, &now, &why.join(", "))

@@ -73,7 +73,8 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     let dropped = ["manual-points", "roster", "canvas"];
     let dropped = dropped.map(|list| ["--drop-list", list]).concat();
     let [text, _] = graded.run(&dropped);
-    let changed = "1 final grade changed (changed: the roster, the table of manual points)";
+    let changed = "1 final grade changed (changed: the roster, the table of manual points, the \
+                   Canvas gradebook)";
     assert!(text.contains(changed), "{text}");
     // A repeated run reports the same change and doesn't need `--drop-list`.
     let [again, error] = graded.run(&[]);
@@ -101,9 +102,10 @@ fn a_copy_that_was_changed_is_not_used() {
 fn grade_changes(class: &TestClass, text: &str) -> String {
     let lines = text.lines();
     let lines = lines.skip_while(|line| !line.contains("final grade"));
-    let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
+    let lines = lines.take_while(|line| !line.is_empty()).map(str::trim);
+    let lines: Vec<&str> = lines.collect();
     let page = class.read("class.html").replace("&quot;", "\"");
-    for line in lines.iter().skip(1).map(|line| line.trim()) {
+    for line in &lines[1.min(lines.len())..] {
         assert!(page.contains(line), "{line}: {page}");
     }
     lines.join("\n")
@@ -223,6 +225,73 @@ fn a_grade_is_listed_if_an_earlier_or_later_attempt_has_none() {
     2 final grades changed
     bob_2026-11-20-10-00-00 (bob): 2 → 3: it counts instead of bob_2026-11-18-10-00-00, graded 2 → 3
     eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: it counts instead of eva_2026-11-18-10-00-00
+    ");
+}
+
+/// In Moodle, Ann's files are first a draft, and Bob replaces his archive by a damaged one. Then
+/// the policy and the manual points change together.
+#[test]
+fn each_change_of_a_grade_names_the_causes_that_apply_to_this_person() {
+    let folder = |name: &str, number: u32| format!("{name}_{number}_assignsubmission_file_/hw.zip");
+    let [solution, partial] = ["reference/src", "grader/starter"].map(archive_with);
+    let class = TestClass::named("CG-Path tracing-77")
+        .with(&folder("Ann Lee", 301), &solution)
+        .with(&folder("Bob Kim", 302), &partial)
+        .with(&folder("Eva Roth", 303), &solution);
+    let exam = class.small_exam(&ITEMS);
+    let worksheet = |ann: &str, bob: &str| {
+        let row = |number: u32, name: &str, status: &str, grade: &str, day: u32| {
+            let time = format!("{day} November 2026, 10:00 AM");
+            format!("Participant {number},{name},{status},{grade},3.00,Yes,\"{time}\"\n")
+        };
+        let header = "Identifier,Full name,Status,Grade,Maximum Grade,Grade can be changed,\
+                      Last modified (submission)\n";
+        let submitted = "Submitted for grading";
+        [
+            header.to_owned(),
+            row(301, "Ann Lee", ann, "", 19),
+            row(302, "Bob Kim", submitted, bob, 19),
+            row(303, "Eva Roth", submitted, "", 21),
+        ]
+        .concat()
+    };
+    let policy = |percent: u32| {
+        format!(
+            "[late]\ndue = 2026-11-20T12:00:00Z\ntimezone = 'UTC'\npercent_per_day = {percent}\n"
+        )
+    };
+    let draft = worksheet("Draft (not submitted)", "");
+    let lists = [("policy", &*policy(0)), ("moodle", &*draft)];
+    class.graded_with(&exam, &lists, &[]);
+    let mut all = Vec::new();
+    let class = class.with(&folder("Bob Kim", 302), &partial[..partial.len() / 2]);
+    let lists = [("moodle", &*worksheet("Submitted for grading", "2.00"))];
+    let text = class.graded_with(&exam, &lists, &[]);
+    all.push(grade_changes(&class, &text));
+    let kept = "Bob Kim: nothing to grade; left unchanged, so the gradebook still contains 2.00";
+    assert_contains(&text, &[kept]);
+
+    let manual = "student,task,delta,comment,author\nBob Kim,camera,1,on paper,Tess\n\
+                  Ann Lee,camera,-1,copied,Tess\n";
+    let lists = [("policy", &*policy(50)), ("manual-points", manual)];
+    let text = class.graded_with(&exam, &lists, &[]);
+    all.push(grade_changes(&class, &text));
+    let class = class.with(&folder("Bob Kim", 302), &partial);
+    all.push(grade_changes(
+        &class,
+        &class.graded(&exam, &["--drop-list", "manual-points"]),
+    ));
+    insta::assert_snapshot!(all.join("\n"), @r"
+    2 final grades changed (changed: the Moodle worksheet)
+    Ann_Lee_301 (Ann Lee): no points (draft) → 3: the Moodle worksheet
+    Bob_Kim_302 (Bob Kim): 2 → no points (nothing to grade): previously graded 2
+    3 final grades changed (changed: the policy, the table of manual points)
+    Ann_Lee_301 (Ann Lee): 3 → 2: manual points +0 → -1
+    Bob_Kim_302 (Bob Kim): no points (nothing to grade) → 1: manual points +0 → +1
+    Eva_Roth_303 (Eva Roth): 3 → 2: the policy
+    2 final grades changed (changed: the table of manual points)
+    Ann_Lee_301 (Ann Lee): 2 → 3: manual points -1 → +0
+    Bob_Kim_302 (Bob Kim): 1 → 2: now graded 2, manual points +1 → +0
     ");
 }
 

@@ -62,6 +62,10 @@ fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
         for ((row, person), problem) in problems {
             let grade = &mut rows[row].grades[person];
             grade.counted = None;
+            if chosen.is_some() {
+                // Manual points apply to the attempt that counts.
+                grade.manual.clear();
+            }
             grade.problem = Some(problem);
         }
     }

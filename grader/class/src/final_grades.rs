@@ -3,9 +3,11 @@
 
 use std::collections::BTreeMap;
 
+use clap::ValueEnum;
+use grader::policy::FinalPoints;
 use serde::{Deserialize, Serialize};
 
-use crate::entry::Person;
+use crate::entry::{ListedTime, Person};
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::list_kind::ListKind;
 use crate::names::with_detail;
@@ -45,8 +47,9 @@ struct FinalGrade {
     status: String,
     /// The final points and their maximum, or `None` for a submission without final points.
     counts: Option<[u32; 2]>,
-    /// The graded points.
-    graded: u32,
+    /// The graded points, or `None` if the submission wasn't graded.
+    graded: Option<u32>,
+    /// The manual points, even if there are no final points.
     manual: i32,
     late_days: u32,
     #[serde(default)]
@@ -54,6 +57,12 @@ struct FinalGrade {
     /// How the policy's items and tasks differ from those in the exam.
     #[serde(default)]
     changes: Vec<String>,
+    /// The policy's rules that apply to the submission.
+    #[serde(default)]
+    rules: Option<String>,
+    /// The submission time from a list.
+    #[serde(default)]
+    listed: Option<ListedTime>,
 }
 
 /// The final grades that changed.
@@ -100,7 +109,8 @@ impl GradeHistory {
         let before = self.before.as_ref()?;
         let mut causes = before.settings.differences(&self.now.settings);
         let differs = |kind: &&ListKind| before.lists.get(kind) != self.now.lists.get(kind);
-        causes.extend(LISTS.iter().filter(differs).map(|kind| kind.title()));
+        let kinds = ListKind::value_variants().iter().filter(differs);
+        causes.extend(kinds.map(|kind| kind.title()));
         let changes = self.now.grades.iter();
         let changes = changes.filter_map(|now| before.change_to(now, &self.now, &causes));
         let gone = before.grades.iter().filter_map(|was| self.now.loss(was));
@@ -108,10 +118,6 @@ impl GradeHistory {
         Some(GradeChanges { causes, changes })
     }
 }
-
-/// The lists that grades depend on. Gradebooks aren't among them: only their information about
-/// people matters, and it is visible in the grades.
-const LISTS: [ListKind; 3] = [ListKind::Policy, ListKind::Roster, ListKind::ManualPoints];
 
 impl FinalGrades {
     fn new(run: &Run, class: &GradedClass, last: Option<&FinalGrades>) -> Self {
@@ -126,7 +132,7 @@ impl FinalGrades {
                 grades.extend(people.map(|(person, grade)| FinalGrade::new(row, person, grade)));
             }
         }
-        let lists = run.lists.iter().filter(|(kind, _)| LISTS.contains(kind));
+        let lists = run.lists.iter();
         let lists = lists.map(|(kind, list)| (*kind, list.hash.clone()));
         FinalGrades {
             round: run.round,
@@ -148,7 +154,8 @@ impl FinalGrades {
     /// additional submission, that doesn't count as a change.
     fn change_to(&self, now: &FinalGrade, after: &Self, causes: &[&str]) -> Option<String> {
         let is_gone = |was: &&FinalGrade| after.find(was).is_none();
-        let other = || self.counting(&now.person).filter(is_gone);
+        let own = || self.of_person(&now.person).filter(is_gone);
+        let other = || own().max_by_key(|was| was.counts.is_some());
         if let Some(was) = self.find(now).or_else(other) {
             return (was.counts != now.counts).then(|| now.change(was, causes));
         }
@@ -159,17 +166,16 @@ impl FinalGrades {
         })
     }
 
-    /// Returns the grade that counts for a person.
-    fn counting(&self, person: &Person) -> Option<&FinalGrade> {
-        let mut own = self.grades.iter().filter(|own| own.counts.is_some());
-        own.find(|own| own.person.is_same(person))
+    fn of_person(&self, person: &Person) -> impl Iterator<Item = &FinalGrade> {
+        let grades = self.grades.iter();
+        grades.filter(|own| own.person.is_same(person))
     }
 
     /// Returns a sentence about an earlier grade that is missing from this run although its
     /// submission is still present.
     fn loss(&self, was: &FinalGrade) -> Option<String> {
         self.of(&was.submission).next()?;
-        let is_lost = self.find(was).is_none() && self.counting(&was.person).is_none();
+        let is_lost = self.find(was).is_none() && self.of_person(&was.person).next().is_none();
         (was.counts.is_some() && is_lost).then(|| {
             let why = "the submission no longer counts for this person";
             was.changed(&was.value(false), "–", why)
@@ -198,11 +204,13 @@ impl FinalGrade {
             person: person.clone(),
             status: row.status(grade).to_owned(),
             counts: counted.map(|counted| [counted.points, counted.max_points]),
-            graded: row.result.score().map_or(0, |score| score.points),
-            manual: counted.map_or(0, |counted| counted.manual),
+            graded: row.result.score().map(|score| score.points),
+            manual: grade.manual.iter().map(|points| points.delta).sum(),
             late_days: counted.map_or(0, |counted| counted.late_days),
             is_corrected: row.result.info.is_corrected,
             changes: counted.map_or_else(Vec::new, |counted| counted.changes.clone()),
+            rules: counted.and_then(FinalPoints::rules),
+            listed: row.result.info.listed.clone(),
         }
     }
 
@@ -220,30 +228,59 @@ impl FinalGrade {
         let maxima = [was, self].map(maximum);
         let with_maximum = maxima[0] != maxima[1] && maxima.iter().all(Option::is_some);
         let mut why = Vec::new();
-        if was.submission != self.submission {
+        let is_same = was.submission == self.submission;
+        if !is_same && self.counts.is_some() {
             why.push(format!("it counts instead of {}", was.submission));
+        } else if !is_same {
+            why.push(format!("this attempt replaces {}", was.submission));
         }
-        if was.graded != self.graded {
-            why.push(format!("graded {} → {}", was.graded, self.graded));
+        match (was.graded, self.graded) {
+            (Some(was), Some(now)) if was != now => why.push(format!("graded {was} → {now}")),
+            (None, Some(now)) if is_same => why.push(format!("now graded {now}")),
+            (Some(was), None) if is_same => why.push(format!("previously graded {was}")),
+            _ => {}
         }
         if !was.is_corrected && self.is_corrected {
             why.push("the files were handed in again".to_owned());
         }
-        if was.counts.is_some() && self.counts.is_some() {
-            if was.manual != self.manual {
-                why.push(format!(
-                    "manual points {:+} → {:+}",
-                    was.manual, self.manual
-                ));
-            }
+        if was.manual != self.manual {
+            why.push(format!(
+                "manual points {:+} → {:+}",
+                was.manual, self.manual
+            ));
+        }
+        let both_count = was.counts.is_some() && self.counts.is_some();
+        if both_count {
             if was.late_days != self.late_days {
                 why.push(format!("days late {} → {}", was.late_days, self.late_days));
             }
             let is_new = |change: &&String| !was.changes.contains(change);
             why.extend(self.changes.iter().filter(is_new).cloned());
+            // A sentence about the same item or task replaces the earlier sentence.
+            let subject = |change: &String| change.split(' ').next().map(str::to_owned);
+            let subjects: Vec<_> = self.changes.iter().map(subject).collect();
+            let withdrawn = was.changes.iter();
+            let withdrawn = withdrawn.filter(|old| !subjects.contains(&subject(old)));
+            why.extend(withdrawn.map(|old| format!("\"{old}\" no longer applies")));
         }
+        let policy = ListKind::Policy.title();
+        let is_same_case = (was.late_days, &was.changes) == (self.late_days, &self.changes);
         if why.is_empty() {
-            why = causes.iter().map(|cause| (*cause).to_owned()).collect();
+            // Manual points and lateness are the same, so the lists of people can only decide
+            // whether there are any points.
+            let has_new_data =
+                !both_count && (&was.person, &was.listed) != (&self.person, &self.listed);
+            let can_matter = |kind: &&ListKind| {
+                **kind == ListKind::Policy || (has_new_data && **kind != ListKind::ManualPoints)
+            };
+            let lists = ListKind::value_variants().iter().filter(can_matter);
+            let mut own: Vec<&str> = lists.map(|kind| kind.title()).collect();
+            own.retain(|list| causes.contains(list));
+            let own = if own.is_empty() { causes } else { &own };
+            why.extend(own.iter().map(|cause| (*cause).to_owned()));
+        } else if both_count && is_same_case && was.rules != self.rules && causes.contains(&policy)
+        {
+            why.push(policy.to_owned());
         }
         let (was, now) = (was.value(with_maximum), self.value(with_maximum));
         self.changed(&was, &now, &why.join(", "))

@@ -10,7 +10,7 @@ use crate::final_grades::GradeChanges;
 use crate::names::with_detail;
 use crate::outcome::{EntryResult, ItemScore, ScoreSummary, id_and_names};
 use crate::run::Run;
-use crate::store::{PREVIOUS, Store};
+use crate::store::{PREVIOUS, REPLACED, Store};
 
 /// The differences from earlier runs.
 #[derive(Clone, Debug, Default)]
@@ -34,7 +34,8 @@ pub struct RegradeChanges {
     pub causes: Vec<&'static str>,
 }
 
-/// Returns the changes that a regrade made, or `None` in a folder's first round.
+/// Returns the changes that a regrade made, or `None` in a folder's first round. Submissions whose
+/// files have changed are left out.
 pub fn find_regrade_changes(
     store: &Store,
     run: &Run,
@@ -50,7 +51,7 @@ pub fn find_regrade_changes(
 }
 
 /// Compares each result with its entry's earlier score in the file [`PREVIOUS`] or
-/// [`REPLACED`](crate::store::REPLACED).
+/// [`REPLACED`].
 pub fn find_score_changes(
     store: &Store,
     results: &[EntryResult],
@@ -58,6 +59,10 @@ pub fn find_score_changes(
 ) -> Result<Vec<ScoreChange>, Error> {
     let mut changes = Vec::new();
     for result in results {
+        // If the files changed too, the new score says nothing about the regrade.
+        if earlier == PREVIOUS && store.earlier_score(&result.id, REPLACED)?.is_some() {
+            continue;
+        }
         let was = store.earlier_score(&result.id, earlier)?;
         changes.extend(was.and_then(|was| compare_scores(&result.id, &was, result.score())));
     }

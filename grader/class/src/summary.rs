@@ -184,6 +184,13 @@ impl ClassSummary {
             rows.filter(|row| is_one(row)).count()
         };
         let grades = class.rows.iter().flat_map(|row| &row.grades);
+        let mut decisions = Vec::new();
+        for manual in grades.flat_map(|grade| &grade.manual) {
+            // Attempts that the teacher has yet to choose from have the same manual points.
+            if !decisions.contains(manual) {
+                decisions.push(manual.clone());
+            }
+        }
         let (sections, failed) = failure_rates(class);
         ClassSummary {
             schema: SCHEMA,
@@ -207,7 +214,7 @@ impl ClassSummary {
             failed,
             causes: causes(&scores),
             outliers: outliers(class, points.as_ref()),
-            decisions: grades.flat_map(|grade| &grade.manual).cloned().collect(),
+            decisions,
             points,
         }
     }

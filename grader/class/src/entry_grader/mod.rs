@@ -103,7 +103,8 @@ impl EntryGrader<'_> {
                 }
             }
             Err(outcome) => {
-                self.store.set_score_aside(&entry.id, self.run.round)?;
+                self.store
+                    .set_score_aside(&entry.id, self.run.round, None)?;
                 let is_new = !self.store.has_nothing_to_grade(&entry.id, &outcome);
                 (outcome, is_new)
             }
@@ -128,7 +129,9 @@ impl EntryGrader<'_> {
         submission: &Submission,
         show_status: &dyn Fn(&str),
     ) -> Result<EntryOutcome, Error> {
-        self.store.set_score_aside(&entry.id, self.run.round)?;
+        let round = self.run.round;
+        self.store
+            .set_score_aside(&entry.id, round, Some(submission))?;
         self.store.remove_stamp(&entry.id)?;
         let mut why = String::new();
         for _ in 0..ATTEMPTS {

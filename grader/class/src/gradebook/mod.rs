@@ -221,20 +221,25 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
         }
         let cell = &mut gradebook.table.rows[row_index][gradebook.target];
         let why = match (&grade.counted, &grade.problem) {
+            (Some(counted), _) if cell_equals(cell, counted.points) => continue,
             (None, Some(problem)) => format!(": {problem}"),
             (None, None) => format!(": {}", class_row.status(grade)),
             (Some(_), _) if is_locked => ": the platform does not allow changes".to_owned(),
             (Some(_), _) if cell.trim() == EXCUSED => " is excused".to_owned(),
             (Some(counted), _) => {
-                if !cell_equals(cell, counted.points) {
-                    let now = counted.points.to_string();
-                    let was = std::mem::replace(cell, now.clone());
-                    changes.push(CellChange { who, was, now });
-                }
+                let now = counted.points.to_string();
+                let was = std::mem::replace(cell, now.clone());
+                changes.push(CellChange { who, was, now });
                 continue;
             }
         };
-        warnings.push(format!("{who}{why}; left unchanged"));
+        let kept = match cell.trim() {
+            "" | EXCUSED => String::new(),
+            kept => format!(
+                ", so the gradebook still contains {kept}: change it by hand unless that is right"
+            ),
+        };
+        warnings.push(format!("{who}{why}; left unchanged{kept}"));
     }
     warnings.extend(maximum_warning(class, gradebook.maximum.as_deref()));
     FilledGradebook {

@@ -183,7 +183,7 @@ Participant 6,Finn,,100.00,Yes
     Participant 6,Finn,,100.00,Yes
     ");
     insta::assert_snapshot!(filled.warnings.join("\n"), @"
-    Bob: the platform does not allow changes; left unchanged
+    Bob: the platform does not allow changes; left unchanged, so the gradebook still contains 12.50: change it by hand unless that is right
     Carl is excused; left unchanged
     Eve: nothing to grade; left unchanged
     Finn: b by the same person could also count: remove one, or set `counts` under [attempts] in the policy; `latest` needs the times of all attempts; left unchanged

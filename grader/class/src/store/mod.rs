@@ -2,7 +2,7 @@
 //! stamp is written last, so a killed run never leaves an incomplete entry that looks complete.
 
 use std::ffi::OsStr;
-use std::io::ErrorKind;
+use std::io::{Cursor, ErrorKind};
 use std::path::{self, Path, PathBuf};
 
 use grader::files::{self, PathError};
@@ -12,6 +12,7 @@ use grader::report::html::{with_name, write_counted};
 use grader::rerun_command::with_moved_submission;
 use grader::submission::Submission;
 use serde::de::DeserializeOwned;
+use zip::ZipArchive;
 
 use crate::error::Error;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
@@ -25,8 +26,7 @@ pub const SUBMISSION: &str = "submission.zip";
 const STAMP: &str = "entry.json";
 /// The file with an entry's score from before the current round.
 pub const PREVIOUS: &str = "previous.json";
-/// The file with the score that an older version of the entry's submission got earlier in the same
-/// round.
+/// The file with the score that an older version of the entry's submission got.
 pub const REPLACED: &str = "replaced.json";
 const RUN: &str = "run.json";
 /// The prefix of temporary files, which are renamed when complete.
@@ -164,8 +164,7 @@ impl Store {
 
     /// Writes the graded task files.
     pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
-        let archive = archive_bytes(submission).expect("writing to memory succeeds");
-        self.write_of_entry(id, SUBMISSION, archive)
+        self.write_of_entry(id, SUBMISSION, packed(submission))
     }
 
     /// Reads the page that the student may see.
@@ -181,10 +180,23 @@ impl Store {
     }
 
     /// Saves the score of an entry whose submission has changed, before the entry is graded again.
-    /// Scores from earlier rounds are kept by [`save_previous_scores`](Self::save_previous_scores).
-    pub fn set_score_aside(&self, id: &str, round: u32) -> Result<(), Error> {
+    /// In a new round, unchanged files are graded again too. Their earlier scores are only kept by
+    /// [`save_previous_scores`](Self::save_previous_scores). `submission` is `None` if there is
+    /// nothing to grade.
+    pub fn set_score_aside(
+        &self,
+        id: &str,
+        round: u32,
+        submission: Option<&Submission>,
+    ) -> Result<(), Error> {
         let stamp = self.read_stamp(id)?;
-        let is_kept = |stamp: Stamp| stamp.result.score().is_some() && stamp.round == round;
+        let last = files::read(self.entry_folder(id).join(SUBMISSION)).ok();
+        let is_other = |last: Vec<u8>| {
+            submission.is_some_and(|own| checksums(&packed(own)) != checksums(&last))
+        };
+        let is_changed = last.is_some_and(is_other);
+        let is_kept =
+            |stamp: Stamp| stamp.result.score().is_some() && (stamp.round == round || is_changed);
         if stamp.is_some_and(is_kept) {
             let text = files::read_to_string(self.entry_folder(id).join(SCORE))?;
             self.write_of_entry(id, REPLACED, text)?;
@@ -310,6 +322,19 @@ impl Store {
     fn read_stamp(&self, id: &str) -> Result<Option<Stamp>, Error> {
         read_json(self.entry_folder(id).join(STAMP))
     }
+}
+
+fn packed(submission: &Submission) -> Vec<u8> {
+    archive_bytes(submission).expect("writing to memory succeeds")
+}
+
+/// Returns the checksums of the files in an archive. The same files may be compressed differently
+/// after an update.
+fn checksums(archive: &[u8]) -> Option<Vec<u32>> {
+    let mut archive = ZipArchive::new(Cursor::new(archive)).ok()?;
+    let files = 0..archive.len();
+    let crc32 = |index| Some(archive.by_index(index).ok()?.crc32());
+    files.map(crc32).collect()
 }
 
 /// Returns the paths of a folder's contents, or none if the folder doesn't exist.

@@ -109,7 +109,7 @@ fn a_stamp_is_never_left_without_its_score() {
         replaced.is_err(),
         "a folder cannot be removed the way a file can"
     );
-    store.set_score_aside("a", 1).unwrap();
+    store.set_score_aside("a", 1, None).unwrap();
     assert_eq!(store.result("a").unwrap(), None);
 }
 
@@ -165,7 +165,7 @@ fn the_scores_from_before_a_regrade_are_kept() {
     let save = |id: &str, outcome| store.save_graded(&result(id, &["Ann"], outcome), "", 1);
     for id in ["graded", "nothing", "fault"] {
         save(id, graded(80));
-        store.set_score_aside(id, 1).unwrap();
+        store.set_score_aside(id, 1, None).unwrap();
     }
     save("graded", graded(70));
     save("nothing", nothing());

@@ -153,11 +153,14 @@ impl Model {
     }
 
     /// Returns the ids of the class's entries whose scores a regrade changed, together with the
-    /// previous scores.
+    /// previous scores. If an entry's files changed too, it isn't among them.
     fn score_changes(&self, class: &BTreeMap<&str, Option<ScoreId>>) -> Vec<(String, ScoreId)> {
         let ids = class.keys().copied();
         let entries = &self.observed.entries;
-        let before = ids.filter_map(|id| Some((id.to_owned(), entries.get(id)?.previous?)));
+        let before = ids.filter_map(|id| {
+            let files = entries.get(id).filter(|files| files.replaced.is_none())?;
+            Some((id.to_owned(), files.previous?))
+        });
         before
             .filter(|(id, was)| class[id.as_str()] != Some(*was))
             .collect()

@@ -1,6 +1,8 @@
 //! The table of manual points: who its rows belong to, what effect they have, and what can be wrong
 //! with them.
 
+use serde_json::Value;
+
 use crate::harness::{TestClass, cell};
 
 const HEADER: &str = "author,student,task,comment,delta";
@@ -106,8 +108,19 @@ fn a_row_must_fit_the_attempt_that_counts() {
         class.graded_with(&exam, &lists, &[]);
         ["ann", "u1"].map(|id| cell(&class, id, "Ann Lee", "counts"))
     };
+    let decisions = || {
+        let summary: Value = serde_json::from_str(&class.read("class.json")).unwrap();
+        summary["decisions"].as_array().unwrap().len()
+    };
     assert_eq!(grade("ask"), ["", ""], "nobody has chosen yet");
+    assert_eq!(decisions(), 1);
     assert_eq!(grade("best"), ["", "1"]);
+    // The decision is only listed with the attempt that counts.
+    let comments = ["ann", "u1"].map(|id| cell(&class, id, "Ann Lee", "comments"));
+    assert_eq!(comments, ["", "camera: -1 point by Kim"]);
+    assert_eq!(decisions(), 1);
+    let page = class.read("class.html");
+    assert_eq!(page.matches("by Kim").count(), 1, "{page}");
     std::fs::remove_dir_all(class.input().join("u1")).unwrap();
     let error = class.refused(&exam, &[]);
     assert!(error.contains("-1 points is out of range"), "{error}");

@@ -130,3 +130,49 @@ fn a_changed_submission_keeps_its_old_score_and_removed_students_are_named() {
     assert!(text.contains("  bob: 3 → 2\n"), "{text}");
     assert!(!text.contains("changed submissions"), "{text}");
 }
+
+/// Ann's files change between the first run and the regrade, and Bob's files after the regrade.
+#[test]
+fn a_regrade_does_not_list_submissions_whose_files_changed() {
+    let class = TestClass::named("class")
+        .with_starter("ann")
+        .with_starter("bob")
+        .with_reference("carl");
+    let exam = class.small_exam(&ITEMS);
+    class.graded(&exam, &[]);
+    let class = class.with_reference("ann");
+    let (_, other) = exam_with_changed_points(&class, &exam, -1);
+    let regraded = class.graded(&other, &["--regrade"]);
+    let listed = |text: &str| {
+        let (regrade, rest) = text
+            .split_once("regraded: ")
+            .unwrap()
+            .1
+            .split_once("\n\n")
+            .unwrap();
+        (regrade.to_owned(), rest.to_owned())
+    };
+    let (regrade, rest) = listed(&regraded);
+    assert_contains(
+        &regrade,
+        &[
+            "1 score changed (changed settings: the exam)",
+            "  carl: 3 → 2\n",
+        ],
+    );
+    assert!(!regrade.contains("ann"), "{regrade}");
+    let changed = "changed submissions";
+    assert_contains(&rest, &[changed, "  ann: 0 → 2\n"]);
+
+    let class = class.with_reference("bob");
+    let (regrade, rest) = listed(&class.graded(&other, &[]));
+    assert!(!regrade.contains("bob"), "{regrade}");
+    assert_contains(&rest, &[changed, "  bob: 0 → 2\n"]);
+    let drift: Value = serde_json::from_str(&class.read("drift.json")).unwrap();
+    let ids = drift.as_array().unwrap().iter().map(|change| &change["id"]);
+    assert_eq!(ids.collect::<Vec<_>>(), ["carl"]);
+    let page = class.read("class.html");
+    let (_, regrade) = page.split_once("Scores that the regrade changed").unwrap();
+    let (regrade, _) = regrade.split_once("</section>").unwrap();
+    assert!(!regrade.contains("bob"), "{regrade}");
+}

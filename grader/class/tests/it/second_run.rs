@@ -3,7 +3,9 @@
 
 use std::fs;
 
-use crate::harness::{TestClass, assert_contains, cell, refusal, source, successful_stdout, unzip};
+use crate::harness::{
+    TestClass, assert_contains, cell, refusal, source, successful_stdout, unzip, zip,
+};
 
 const ITEMS: [&str; 2] = ["camera.offset", "sphere.radius"];
 const POLICY: &str =
@@ -71,7 +73,8 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
     let dropped = ["manual-points", "roster", "canvas"];
     let dropped = dropped.map(|list| ["--drop-list", list]).concat();
     let [text, _] = graded.run(&dropped);
-    let changed = "1 final grade changed (changed: the roster, the table of manual points)";
+    let changed = "1 final grade changed (changed: the roster, the table of manual points, the \
+                   Canvas gradebook)";
     assert!(text.contains(changed), "{text}");
     // A repeated run reports the same change and doesn't need `--drop-list`.
     let [again, error] = graded.run(&[]);
@@ -95,21 +98,25 @@ fn a_copy_that_was_changed_is_not_used() {
     graded.run(&["--drop-list", "roster"]);
 }
 
+/// Returns the list of final grades that changed, which is also in `class.html`.
+fn grade_changes(class: &TestClass, text: &str) -> String {
+    let lines = text.lines();
+    let lines = lines.skip_while(|line| !line.contains("final grade"));
+    let lines = lines.take_while(|line| !line.is_empty()).map(str::trim);
+    let lines: Vec<&str> = lines.collect();
+    let page = class.read("class.html").replace("&quot;", "\"");
+    for line in &lines[1.min(lines.len())..] {
+        assert!(page.contains(line), "{line}: {page}");
+    }
+    lines.join("\n")
+}
+
 #[test]
 fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     let graded = GradedTwice::new();
     let changes = |more: &[&str]| {
         let [text, _] = graded.run(more);
-        let lines = text
-            .lines()
-            .skip_while(|line| !line.contains("final grade"));
-        let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
-        let page = graded.class.read("class.html");
-        let listed = lines.iter().skip(1).map(|line| line.trim());
-        for line in listed {
-            assert!(page.contains(line), "{line}: {page}");
-        }
-        lines.join("\n")
+        grade_changes(&graded.class, &text)
     };
     let write = |name: &str, text: &str| graded.class.write_beside(name, text);
     let all = [
@@ -133,6 +140,158 @@ fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     ann (Ann Lee): 33 of 100 → 3 of 10: the policy
     1 final grade changed (changed: the policy)
     ann (Ann Lee): 3 of 10 → 7 of 20: the policy
+    ");
+}
+
+/// Adds an attempt to a Blackboard export, given the account, the day and an archive. An attempt
+/// with an empty archive has no files.
+fn with_attempt(class: TestClass, attempt: &(&str, u32, &[u8])) -> TestClass {
+    let (login, day, archive) = attempt;
+    let file = format!("gradebook_CG26_Path_{login}_attempt_2026-11-{day}-10-00-00");
+    let receipt = format!(
+        "\u{feff}Name: {login} ({login})\r\nAssignment: Path tracer\r\n\
+         Date Submitted: Friday, 20 November 2026 10:00:00 o'clock CET\r\n\
+         Current Mark: Needs Marking\r\n\r\nSubmission Field:\r\n\
+         There is no student submission text data for this assignment.\r\n"
+    );
+    let class = class.with(&format!("{file}.txt"), receipt);
+    if archive.is_empty() {
+        class
+    } else {
+        class.with(&format!("{file}_hw.zip"), archive)
+    }
+}
+
+/// Returns an archive with the reference's camera and the sphere from this folder.
+fn archive_with(sphere: &str) -> Vec<u8> {
+    let files = [
+        ("camera.rs", source("reference/src/camera.rs")),
+        ("sphere.rs", source(&format!("{sphere}/sphere.rs"))),
+    ];
+    zip(files)
+}
+
+/// In the first export, Eva's only attempt is empty and Bob's latest one is a damaged archive. In
+/// the second export, everybody has a new attempt. In the third, Ann's latest one is damaged.
+#[test]
+fn a_grade_is_listed_if_an_earlier_or_later_attempt_has_none() {
+    let [solution, partial] = ["reference/src", "grader/starter"].map(archive_with);
+    let damaged = &solution[..solution.len() / 2];
+    let first: [(&str, u32, &[u8]); 4] = [
+        ("ann", 18, &solution),
+        ("bob", 18, &partial),
+        ("bob", 19, damaged),
+        ("eva", 18, &[]),
+    ];
+    let second: [(&str, u32, &[u8]); 3] = [
+        ("ann", 20, &partial),
+        ("bob", 20, &solution),
+        ("eva", 20, &solution),
+    ];
+    let third = ("ann", 21, damaged);
+    let mut all = Vec::new();
+    for rule in ["latest", "best"] {
+        let mut class = first.iter().fold(TestClass::named("export"), with_attempt);
+        let exam = class.small_exam(&ITEMS);
+        let policy = format!("[attempts]\ncounts = '{rule}'\n[late]\ntimezone = 'UTC'\n");
+        class.graded_with(&exam, &[("policy", &policy)], &[]);
+        class = second.iter().fold(class, with_attempt);
+        let grade = |class: &TestClass| grade_changes(class, &class.graded(&exam, &[]));
+        all.extend([rule.to_owned(), grade(&class)]);
+        if rule == "best" {
+            break;
+        }
+        class = with_attempt(class, &third);
+        all.push(grade(&class));
+        for file in fs::read_dir(class.input()).unwrap() {
+            let path = file.unwrap().path();
+            if path.to_str().unwrap().contains("_ann_attempt_2026-11-21") {
+                fs::remove_file(path).unwrap();
+            }
+        }
+        all.push(grade(&class));
+    }
+    insta::assert_snapshot!(all.join("\n"), @r"
+    latest
+    3 final grades changed
+    ann_2026-11-20-10-00-00 (ann): 3 → 2: it counts instead of ann_2026-11-18-10-00-00, graded 3 → 2
+    bob_2026-11-20-10-00-00 (bob): no points (nothing to grade) → 3: it counts instead of bob_2026-11-19-10-00-00
+    eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: it counts instead of eva_2026-11-18-10-00-00
+    1 final grade changed
+    ann_2026-11-21-10-00-00 (ann): 2 → no points (nothing to grade): this attempt replaces ann_2026-11-20-10-00-00
+    1 final grade changed
+    ann_2026-11-20-10-00-00 (ann): no points (nothing to grade) → 2: it counts instead of ann_2026-11-21-10-00-00
+    best
+    2 final grades changed
+    bob_2026-11-20-10-00-00 (bob): 2 → 3: it counts instead of bob_2026-11-18-10-00-00, graded 2 → 3
+    eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: it counts instead of eva_2026-11-18-10-00-00
+    ");
+}
+
+/// In Moodle, Ann's files are first a draft, and Bob replaces his archive by a damaged one. Then
+/// the policy and the manual points change together.
+#[test]
+fn each_change_of_a_grade_names_the_causes_that_apply_to_this_person() {
+    let folder = |name: &str, number: u32| format!("{name}_{number}_assignsubmission_file_/hw.zip");
+    let [solution, partial] = ["reference/src", "grader/starter"].map(archive_with);
+    let class = TestClass::named("CG-Path tracing-77")
+        .with(&folder("Ann Lee", 301), &solution)
+        .with(&folder("Bob Kim", 302), &partial)
+        .with(&folder("Eva Roth", 303), &solution);
+    let exam = class.small_exam(&ITEMS);
+    let worksheet = |ann: &str, bob: &str| {
+        let row = |number: u32, name: &str, status: &str, grade: &str, day: u32| {
+            let time = format!("{day} November 2026, 10:00 AM");
+            format!("Participant {number},{name},{status},{grade},3.00,Yes,\"{time}\"\n")
+        };
+        let header = "Identifier,Full name,Status,Grade,Maximum Grade,Grade can be changed,\
+                      Last modified (submission)\n";
+        let submitted = "Submitted for grading";
+        [
+            header.to_owned(),
+            row(301, "Ann Lee", ann, "", 19),
+            row(302, "Bob Kim", submitted, bob, 19),
+            row(303, "Eva Roth", submitted, "", 21),
+        ]
+        .concat()
+    };
+    let policy = |percent: u32| {
+        format!(
+            "[late]\ndue = 2026-11-20T12:00:00Z\ntimezone = 'UTC'\npercent_per_day = {percent}\n"
+        )
+    };
+    let draft = worksheet("Draft (not submitted)", "");
+    let lists = [("policy", &*policy(0)), ("moodle", &*draft)];
+    class.graded_with(&exam, &lists, &[]);
+    let mut all = Vec::new();
+    let class = class.with(&folder("Bob Kim", 302), &partial[..partial.len() / 2]);
+    let lists = [("moodle", &*worksheet("Submitted for grading", "2.00"))];
+    let text = class.graded_with(&exam, &lists, &[]);
+    all.push(grade_changes(&class, &text));
+    let kept = "Bob Kim: nothing to grade; left unchanged, so the gradebook still contains 2.00";
+    assert_contains(&text, &[kept]);
+
+    let manual = "student,task,delta,comment,author\nBob Kim,camera,1,on paper,Tess\n\
+                  Ann Lee,camera,-1,copied,Tess\n";
+    let lists = [("policy", &*policy(50)), ("manual-points", manual)];
+    let text = class.graded_with(&exam, &lists, &[]);
+    all.push(grade_changes(&class, &text));
+    let class = class.with(&folder("Bob Kim", 302), &partial);
+    all.push(grade_changes(
+        &class,
+        &class.graded(&exam, &["--drop-list", "manual-points"]),
+    ));
+    insta::assert_snapshot!(all.join("\n"), @r"
+    2 final grades changed (changed: the Moodle worksheet)
+    Ann_Lee_301 (Ann Lee): no points (draft) → 3: the Moodle worksheet
+    Bob_Kim_302 (Bob Kim): 2 → no points (nothing to grade): previously graded 2
+    3 final grades changed (changed: the policy, the table of manual points)
+    Ann_Lee_301 (Ann Lee): 3 → 2: manual points +0 → -1
+    Bob_Kim_302 (Bob Kim): no points (nothing to grade) → 1: manual points +0 → +1
+    Eva_Roth_303 (Eva Roth): 3 → 2: the policy
+    2 final grades changed (changed: the table of manual points)
+    Ann_Lee_301 (Ann Lee): 2 → 3: manual points -1 → +0
+    Bob_Kim_302 (Bob Kim): 1 → 2: now graded 2, manual points +1 → +0
     ");
 }
 

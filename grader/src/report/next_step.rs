@@ -164,10 +164,14 @@ fn after_all_points(assignment: &Assignment) -> String {
     let steps: Vec<String> = picture.into_iter().chain(challenge).collect();
     match steps.len() {
         0 => "`cargo handin` packs the files that you hand in".to_owned(),
-        _ => steps.join("\n          "),
+        _ => steps.join("\n"),
     }
 }
 
 fn row(text: &str) -> String {
-    format!("  next    {text}\n\n")
+    let lines: Vec<String> = text
+        .lines()
+        .flat_map(|line| wrap(line.trim(), TEXT_WIDTH))
+        .collect();
+    format!("  next    {}\n\n", lines.join("\n          "))
 }

@@ -6,7 +6,11 @@ use std::hash::{BuildHasher, RandomState};
 
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
+use crate::graded_class::GradeProblem::{
+    self, OtherAttempt, SeveralAttempts, UnclearPerson, UnclearTime,
+};
 use crate::graded_class::{ClassRow, GradedClass};
+use crate::late;
 use crate::store::{Store, json};
 
 /// The name of the key in the output folder.
@@ -27,18 +31,19 @@ impl Pseudonyms {
     }
 
     /// Returns the graded submissions under pseudonyms, without times or the names of people and
-    /// files. Adds missing pseudonyms to the key.
+    /// files. Superseded attempts are left out. Adds missing pseudonyms to the key.
     pub fn hide(&mut self, class: &GradedClass, store: &Store) -> Result<GradedClass, Error> {
         let mut hidden = class.clone();
         hidden.missing.clear();
-        hidden
-            .rows
-            .retain(|row| row.result.score().is_some() && !row.is_of_test_student());
-        for row in &mut hidden.rows {
+        hidden.rows.retain(is_shown);
+        for row in &hidden.rows {
             // Each `RandomState` has random keys from the operating system.
             let random = || format!("anon-{:010x}", RandomState::new().hash_one(()) >> 24);
             let pseudonym = self.0.entry(row.result.id.clone());
-            hide_row(row, pseudonym.or_insert_with(random));
+            pseudonym.or_insert_with(random);
+        }
+        for row in &mut hidden.rows {
+            self.hide_row(row);
         }
         // Sorting by name would give the names away.
         let rows = &mut hidden.rows;
@@ -46,26 +51,46 @@ impl Pseudonyms {
         store.write(KEY, json(&self.0))?;
         Ok(hidden)
     }
-}
 
-fn hide_row(row: &mut ClassRow, pseudonym: &str) {
-    let person = |number: usize| match row.grades.len() {
-        1 => Person::named(pseudonym),
-        _ => Person::named(format!("{pseudonym}, member {number}")),
-    };
-    row.result.info = EntryInfo {
-        people: (1..=row.grades.len()).map(person).collect(),
-        late: row.result.info.is_late(),
-        is_corrected: row.result.info.is_corrected,
-        from: pseudonym.to_owned(),
-        ..EntryInfo::default()
-    };
-    pseudonym.clone_into(&mut row.result.id);
-    for grade in &mut row.grades {
-        // The problem may name other submissions.
-        grade.problem = None;
-        for points in &mut grade.manual {
-            pseudonym.clone_into(&mut points.student);
+    fn hide_row(&self, row: &mut ClassRow) {
+        let pseudonym = self.of(&row.result.id);
+        let person = |number: usize| match row.grades.len() {
+            1 => Person::named(&pseudonym),
+            _ => Person::named(format!("{pseudonym}, member {number}")),
+        };
+        row.result.info = EntryInfo {
+            people: (1..=row.grades.len()).map(person).collect(),
+            late: row.result.info.is_late(),
+            is_corrected: row.result.info.is_corrected,
+            from: pseudonym.clone(),
+            ..EntryInfo::default()
+        };
+        for grade in &mut row.grades {
+            grade.problem = grade.problem.take().map(|problem| self.hide_problem(problem));
+            for points in &mut grade.manual {
+                points.student.clone_from(&pseudonym);
+            }
+        }
+        row.result.id = pseudonym;
+    }
+
+    /// Returns the problem without the names of people and submissions, and without times.
+    fn hide_problem(&self, problem: GradeProblem) -> GradeProblem {
+        let of = |id: String| match self.of(&id) {
+            unknown if unknown.is_empty() => "without a score".to_owned(),
+            pseudonym => pseudonym,
+        };
+        let why = "whoever has the key can resolve this".to_owned();
+        match problem {
+            UnclearTime(time) => UnclearTime(late::UnclearTime { why, ..time }),
+            UnclearPerson(_) => UnclearPerson(why),
+            OtherAttempt(id) => OtherAttempt(of(id)),
+            SeveralAttempts(ids) => SeveralAttempts(ids.into_iter().map(of).collect()),
         }
     }
+}
+
+/// Returns whether the copy contains this submission.
+pub fn is_shown(row: &ClassRow) -> bool {
+    row.result.score().is_some() && !row.is_of_test_student() && !row.is_superseded()
 }

@@ -6,7 +6,7 @@ use grader::handed_out::HandedOut;
 use grader::policy::Policy;
 use grader::printing::{counted, print, print_line};
 
-use crate::anonymous::Pseudonyms;
+use crate::anonymous::{Pseudonyms, is_shown};
 use crate::attempts::count_points;
 use crate::cli::Lists;
 use crate::entry_completion::ListFindings;
@@ -140,11 +140,9 @@ fn write_for_graders(
     let copy = Store::new(folder);
     let mut pseudonyms = Pseudonyms::read(store)?;
     let hidden = pseudonyms.hide(class, store)?;
-    for row in &class.rows {
-        if row.result.score().is_some() {
-            let id = &row.result.id;
-            copy.copy_files(&pseudonyms.of(id), store, id)?;
-        }
+    for row in class.rows.iter().filter(|row| is_shown(row)) {
+        let id = &row.result.id;
+        copy.copy_files(&pseudonyms.of(id), store, id)?;
     }
     for row in &hidden.rows {
         copy.save_result(&row.result, "", run.round)?;

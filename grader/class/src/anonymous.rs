@@ -80,7 +80,7 @@ impl Pseudonyms {
             unknown if unknown.is_empty() => "without a score".to_owned(),
             pseudonym => pseudonym,
         };
-        let why = "whoever has the key can resolve this".to_owned();
+        let why = "the person with the key can resolve this".to_owned();
         match problem {
             UnclearTime(time) => UnclearTime(late::UnclearTime { why, ..time }),
             UnclearPerson(_) => UnclearPerson(why),

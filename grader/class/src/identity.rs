@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use grader::nearest_name::suggestion;
 
 use crate::entry::{EntryInfo, Person};
-use crate::names::{are_equal, are_same_name, fold};
+use crate::names::{are_equal, are_same_name, fold, joined};
 
 /// One person's part in a submission: the index of the row, and the person's index in that row.
 pub type Attempt = (usize, usize);
@@ -26,35 +26,48 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
 }
 
 /// Returns the index of the submission that `who` refers to: by the submission's id, by its file or
-/// folder, or by the name or an identifier of somebody who has only one submission. `all` contains
-/// each submission's id and information.
-pub fn find_submission(who: &str, all: &[(&str, &EntryInfo)]) -> Result<usize, String> {
+/// folder, or by the name or an identifier of somebody who handed it in. If somebody has several
+/// submissions, `counts` returns whether the one with this id counts for them. `all` contains each
+/// submission's id and information.
+pub fn find_submission(
+    who: &str,
+    all: &[(&str, &EntryInfo)],
+    counts: impl Fn(&str, &Person) -> bool,
+) -> Result<usize, String> {
     let by_id = all.iter().position(|(id, _)| are_equal(id, who));
     if let Some(index) = by_id.or_else(|| all.iter().position(|(_, info)| info.from == who)) {
         return Ok(index);
     }
-    let is_theirs = |index: &usize| {
-        let mut names = all[*index].1.people.iter().flat_map(Person::identifiers);
-        names.any(|name| are_equal(name, who))
+    let is_theirs = |person: &Person| person.identifiers().any(|name| are_equal(name, who));
+    let is_called = |person: &Person| are_same_name(&person.name, who);
+    let are_called = |index: &usize| are_same_name(&all[*index].1.display_names(), who);
+    let of = |is_meant: &dyn Fn(&str, &Person) -> bool| {
+        let is_meant = |index: &usize| {
+            let (id, info) = all[*index];
+            info.people.iter().any(|person| is_meant(id, person))
+        };
+        Vec::from_iter((0..all.len()).filter(is_meant))
     };
-    let is_called = |index: &usize| {
-        let info = all[*index].1;
-        let mut people = info.people.iter();
-        are_same_name(&info.display_names(), who)
-            || people.any(|person| are_same_name(&person.name, who))
-    };
-    let mut theirs: Vec<usize> = (0..all.len()).filter(is_theirs).collect();
-    if theirs.is_empty() {
-        theirs = (0..all.len()).filter(is_called).collect();
+    let mut found = of(&|_, person| is_theirs(person));
+    if found.is_empty() {
+        found = of(&|_, person| is_called(person));
+        found.extend((0..all.len()).filter(are_called));
+        found.dedup();
     }
-    Err(match theirs.as_slice() {
+    let counting = of(&|id, person| (is_theirs(person) || is_called(person)) && counts(id, person));
+    let is_counting = |index: &&usize| counting.contains(index);
+    Err(match found.as_slice() {
         [only] => return Ok(*only),
-        [one, other, ..] => format!(
-            "{who:?} could be {} or {}: use the name of the submission's folder",
-            all[*one].0, all[*other].0
-        ),
+        [_, ..] => match Vec::from_iter(found.iter().filter(is_counting)).as_slice() {
+            [only] => return Ok(**only),
+            _ => format!(
+                "{who:?} could be {}: use one of these names instead",
+                joined(found.iter().map(|index| all[*index].0), " or ")
+            ),
+        },
         [] => format!(
-            "no submission is called {who:?}, and none belongs to a person with this name or identifier{}",
+            "no submission is called {who:?}, and none belongs to a person with this name or \
+             identifier{}; --dry-run and grades.csv list all submissions and people",
             suggestion(who, all.iter().map(|(id, _)| *id))
         ),
     })
@@ -135,13 +148,16 @@ mod tests {
             ..EntryInfo::default()
         };
         let [one, two] = [info("pt-owls", &["Ann", "Bob"]), info("pt-ann", &["Ann"])];
-        let find = |who: &str| find_submission(who, &[("owls", &one), ("ann2", &two)]);
+        let all = [("owls", &one), ("ann2", &two)];
+        let find = |who: &str| find_submission(who, &all, |_, _| true);
         for who in ["owls", "pt-owls", "Ann + Bob", "bob"] {
             assert_eq!(find(who), Ok(0), "{who}");
         }
         assert_eq!(find("pt-ann"), Ok(1));
         assert!(find("Ann").unwrap_err().contains("owls or ann2"));
         assert!(find("Eve").is_err());
+        let counting = |id: &str, person: &Person| id == "ann2" || person.name == "Bob";
+        assert_eq!(find_submission("Ann", &all, counting), Ok(1));
     }
 
     #[test]

@@ -50,6 +50,8 @@ pub struct ClassSummary {
     pub superseded: usize,
     /// The number of submissions that the teacher has yet to choose or reject.
     pub undecided: usize,
+    /// The maximum of the final points, which the policy may change, or `None` if there are none.
+    pub counts_max: Option<u32>,
     /// The distribution of the total points, or `None` if there are no scores.
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
@@ -202,6 +204,7 @@ impl ClassSummary {
             superseded: count(ClassRow::is_superseded),
             undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
             undated: count(|row| row.grades.iter().any(|grade| grade.is_undated())),
+            counts_max: class.counts_max(),
             tasks: tasks(&scores),
             sections,
             failed,

@@ -78,6 +78,13 @@ impl GradedClass {
         first.map_or(&[], |score| score.tasks.as_slice())
     }
 
+    /// Returns the maximum of the final points. It is `None` if nobody has any.
+    pub fn counts_max(&self) -> Option<u32> {
+        let grades = self.rows.iter().flat_map(|row| &row.grades);
+        let counted = grades.filter_map(|grade| grade.counted.as_ref());
+        counted.map(|counted| counted.max_points).max()
+    }
+
     /// Returns the number of submissions that could not be graded because of a fault and have to be
     /// graded again.
     pub fn fault_count(&self) -> usize {

@@ -2,6 +2,8 @@
 //! Nothing a student chooses may cause such characters to appear in the teacher's terminal, tables
 //! or pages.
 
+use std::collections::BTreeSet;
+
 use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
 use class::final_grades::GradeChanges;
 use class::gradebook::{CellChange, FilledGradebook};

@@ -91,6 +91,10 @@ Ann Lee,camera,0,see me,Tess
     );
     assert_eq!(of("ann", "Bea Berg"), format!("90 {most}  1"));
     assert_eq!(of("carl", "Carl C"), format!("{} 0 1 0", counts(1.0)));
+    assert_eq!(cell(&class, "carl", "Carl C", "counts_max"), "100");
+    let headings = ["Counts (of 100)", &format!("Points (of {most})")];
+    assert_contains(&class.read("class.html"), &headings);
+    assert_contains(&class.read("class.json"), &["\"counts_max\": 100"]);
     let comment = cell(&class, "carl", "Carl C", "comments");
     assert_eq!(
         comment,

@@ -175,8 +175,9 @@ impl Outlier {
 }
 
 impl ClassSummary {
-    /// Summarises a class.
-    pub fn new(class: &GradedClass) -> Self {
+    /// Summarises a class. `with_message` contains the indices of the submissions that there are
+    /// messages to students about.
+    pub fn new(class: &GradedClass, with_message: &BTreeSet<usize>) -> Self {
         let scores: Vec<&ScoreSummary> = class.scores().map(|(_, score)| score).collect();
         let max_points = scores.first().map_or(0, |score| score.max_points);
         let points: Vec<u32> = scores.iter().map(|score| score.points).collect();
@@ -209,7 +210,7 @@ impl ClassSummary {
             sections,
             failed,
             causes: causes(&scores),
-            outliers: outliers(class, points.as_ref()),
+            outliers: outliers(class, points.as_ref(), with_message),
             decisions: grades.flat_map(|grade| &grade.manual).cloned().collect(),
             points,
         }
@@ -325,12 +326,17 @@ fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
 
 /// Returns the submissions that have no score or no points, are far below the others (by Tukey's
 /// fence), lack a file, or contain files that look like task files but were not graded.
-fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> {
+fn outliers(
+    class: &GradedClass,
+    points: Option<&Distribution>,
+    with_message: &BTreeSet<usize>,
+) -> Vec<Outlier> {
     let fence = points.map_or(0.0, |points| {
         let [lower, upper] = [points.lower_quartile, points.upper_quartile].map(f64::from);
         lower - 1.5 * (upper - lower)
     });
-    let outlier = |row: &ClassRow| {
+    let outlier = |(index, row): (usize, &ClassRow)| {
+        let has_message = with_message.contains(&index);
         let copies = row.result.ignored_copies().iter().map(|note| Reason {
             cause: "some files are copies or have unexpected names".to_owned(),
             detail: note.clone(),
@@ -338,7 +344,7 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
         });
         let problem = match row.result.score().filter(|_| row.problem().is_none()) {
             Some(score) => low_score(score, fence),
-            None => missing_grade(row),
+            None => missing_grade(row, has_message),
         };
         let unlisted = row.result.info.is_unlisted.then(|| Reason {
             cause: "nobody on the lists has this name or identifier".to_owned(),
@@ -348,7 +354,11 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
         let missing = row.result.missing_files().map(|file| Reason {
             cause: "a file is missing".to_owned(),
             detail: file.to_owned(),
-            remedy: "; ask for it, using the message in hand-in-again, or correct its name",
+            remedy: if has_message {
+                "; ask for it, using the message in hand-in-again, or correct its name"
+            } else {
+                ""
+            },
         });
         let problem = problem.into_iter().chain(unlisted).chain(missing);
         let problem: Vec<Reason> = problem.collect();
@@ -362,19 +372,22 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
             reasons: problem.into_iter().chain(copies).collect(),
         })
     };
-    class.rows.iter().filter_map(outlier).collect()
+    let rows = class.rows.iter().enumerate();
+    rows.filter_map(outlier).collect()
 }
 
-/// If one of the people has no final points, returns the reason.
-fn missing_grade(row: &ClassRow) -> Option<Reason> {
+/// If one of the people has no final points, returns the reason. `has_message` is true if there is
+/// a message to a student about the submission.
+fn missing_grade(row: &ClassRow, has_message: bool) -> Option<Reason> {
     let grade = row.grades.iter().find(|grade| grade.counted.is_none())?;
     let remedy = match (&row.result.outcome, &grade.problem) {
         (EntryOutcome::NothingToGrade(_), None) if row.result.info.needs_staff => {
             "; correct this in the input, or give manual points"
         }
-        (EntryOutcome::NothingToGrade(_), None) => {
+        (EntryOutcome::NothingToGrade(_), None) if has_message => {
             "; ask for the files, using the message in hand-in-again, or give manual points"
         }
+        (EntryOutcome::NothingToGrade(_), None) => "; ask for the files, or give manual points",
         (EntryOutcome::Fault(_), _) => "; run this command again",
         (_, _) => "",
     };

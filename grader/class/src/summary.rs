@@ -7,7 +7,7 @@ use std::iter;
 use serde::Serialize;
 
 use crate::distribution::Distribution;
-use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
+use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
 use crate::manual_points::ManualPoints;
 use crate::names::with_detail;
 use crate::outcome::{EntryOutcome, ItemScore, ScoreSummary, TaskScore, id_and_names};
@@ -41,6 +41,8 @@ pub struct ClassSummary {
     pub undated: usize,
     /// The number of submissions without final points because their submission time is unclear.
     pub unclear_times: usize,
+    /// The number of submissions without final points because they are drafts.
+    pub drafts: usize,
     /// The number of submissions without final points because it is unclear who handed them in.
     pub unclear_people: usize,
     /// The number of submissions by people who aren't on the lists.
@@ -48,6 +50,8 @@ pub struct ClassSummary {
     /// The number of submissions that aren't used because another submission by the same person
     /// counts.
     pub superseded: usize,
+    /// The number of submissions by Canvas's test student that the other numbers leave out.
+    pub by_test_student: usize,
     /// The number of submissions that the teacher has yet to choose or reject.
     pub undecided: usize,
     /// The maximum of the final points, which the policy may change, or `None` if there are none.
@@ -197,14 +201,18 @@ impl ClassSummary {
             nothing_to_grade: count(has_nothing),
             not_graded: class.fault_count(),
             missing: class.missing.len(),
-            unclear_times: count(|row| matches!(row.problem(), Some(GradeProblem::UnclearTime(_)))),
+            unclear_times: count(|row| unsubmitted(row) == Some(false)),
+            drafts: count(|row| unsubmitted(row) == Some(true)),
             unclear_people: count(|row| {
                 matches!(row.problem(), Some(GradeProblem::UnclearPerson(_)))
             }),
-            unlisted: count(|row| row.result.info.is_unlisted),
+            unlisted: count(|row| row.result.info.is_unlisted && !row.is_superseded()),
             superseded: count(ClassRow::is_superseded),
+            by_test_student: count(is_left_out),
             undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
-            undated: count(|row| row.grades.iter().any(|grade| grade.is_undated())),
+            undated: count(|row| {
+                !row.is_of_test_student() && row.grades.iter().any(PersonGrade::is_undated)
+            }),
             counts_max: class.counts_max(),
             tasks: tasks(&scores),
             sections,
@@ -218,7 +226,23 @@ impl ClassSummary {
 }
 
 fn has_nothing(row: &ClassRow) -> bool {
-    matches!(row.result.outcome, EntryOutcome::NothingToGrade(_)) && !row.is_superseded()
+    let is_counted = !row.is_superseded() && !row.is_of_test_student();
+    matches!(row.result.outcome, EntryOutcome::NothingToGrade(_)) && is_counted
+}
+
+/// Returns whether the numbers of graded submissions and of those with nothing to grade leave this
+/// row out because the test student handed it in.
+fn is_left_out(row: &ClassRow) -> bool {
+    let is_fault = matches!(row.result.outcome, EntryOutcome::Fault(_));
+    row.is_of_test_student() && !row.is_superseded() && !is_fault
+}
+
+/// If the submission time is unclear, returns whether that is because the submission is a draft.
+fn unsubmitted(row: &ClassRow) -> Option<bool> {
+    match row.problem()? {
+        GradeProblem::UnclearTime(unclear) => Some(unclear.is_draft),
+        _ => None,
+    }
 }
 
 fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {

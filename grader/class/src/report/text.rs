@@ -41,6 +41,10 @@ pub fn render_summary(summary: &ClassSummary) -> String {
             "without final points, because it is unclear when they were submitted: see class.html",
         ),
         (
+            summary.drafts,
+            "without final points, because of drafts that were not submitted: see class.html",
+        ),
+        (
             summary.unclear_people,
             "without final points, because it is unclear who handed them in: see class.html",
         ),
@@ -56,6 +60,10 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         (
             summary.superseded,
             "not counted, because another submission by the same person counts",
+        ),
+        (
+            summary.by_test_student,
+            "by Canvas's test student, not in the statistics",
         ),
         (
             summary.undated,

@@ -61,6 +61,24 @@ pub enum GradeProblem {
     SeveralAttempts(Vec<String>),
 }
 
+impl GradeProblem {
+    /// Returns the problem without advice for staff and without other people's data.
+    fn for_student(&self) -> String {
+        let text = match self {
+            GradeProblem::UnclearTime(unclear) if unclear.is_draft => {
+                "it is a draft that was not submitted"
+            }
+            GradeProblem::UnclearTime(_) => "it is unclear when it was submitted",
+            GradeProblem::UnclearPerson(_) => "it is unclear who handed it in",
+            GradeProblem::OtherAttempt(_) => return self.to_string(),
+            GradeProblem::SeveralAttempts(_) => {
+                "there are several submissions, and it is not decided yet which one counts"
+            }
+        };
+        text.to_owned()
+    }
+}
+
 impl GradedClass {
     /// Returns the results that have a score, except for superseded attempts and submissions by
     /// Canvas's test student.
@@ -140,10 +158,25 @@ impl ClassRow {
         self.result.info.people.iter().zip(&self.grades)
     }
 
-    /// Returns sentences that explain how the score contributes to each person's grade. A sentence
-    /// that applies to everyone doesn't contain names.
+    /// Returns sentences that explain how the score contributes to each person's grade, for staff.
+    /// A sentence that applies to everyone doesn't contain names.
     pub fn counted_texts(&self) -> Vec<String> {
         let mut texts = self.merge(PersonGrade::explanation);
+        texts.extend(self.correction().map(str::to_owned));
+        texts
+    }
+
+    /// Returns these sentences for a page that every member of a group can see. If they differ, the
+    /// page must not reveal one member's points to another.
+    pub fn texts_for_everyone(&self) -> Vec<String> {
+        let mut all = self.grades.iter().map(PersonGrade::explanation);
+        let first = all.next().unwrap_or_default();
+        let mut texts = if all.all(|texts| texts == first) {
+            first
+        } else {
+            vec!["The members of this group have different final points, which this page doesn't show."
+                .to_owned()]
+        };
         texts.extend(self.correction().map(str::to_owned));
         texts
     }
@@ -247,7 +280,10 @@ impl PersonGrade {
     /// staff's comments. No explanation is needed if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {
         let counts = match (&self.problem, &self.counted) {
-            (Some(problem), _) => Some(format!("No points count towards the grade: {problem}.")),
+            (Some(problem), _) => {
+                let problem = problem.for_student();
+                Some(format!("No points count towards the grade: {problem}."))
+            }
             (None, Some(counted)) => counted.explanation_if_changed(),
             (None, None) => None,
         };

@@ -173,11 +173,18 @@ impl Store {
         Ok(files::read_to_string(self.entry_folder(id).join(FEEDBACK))?)
     }
 
-    /// Adds sentences to the entry's pages, explaining how the score contributes to the grade.
-    pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), Error> {
+    /// Adds sentences to the entry's pages for staff and for students, explaining how the score
+    /// contributes to the grade.
+    pub fn write_counted(
+        &self,
+        id: &str,
+        texts: &[String],
+        for_students: &[String],
+    ) -> Result<(), Error> {
         // Older results from a shard may lack a page.
         write_counted(&self.entry_folder(id).join(REPORT), texts)?;
-        Ok(write_counted(&self.entry_folder(id).join(FEEDBACK), texts)?)
+        let feedback = self.entry_folder(id).join(FEEDBACK);
+        Ok(write_counted(&feedback, for_students)?)
     }
 
     /// Saves the score of an entry whose submission has changed, before the entry is graded again.

@@ -32,6 +32,9 @@ fn the_policy_says_which_of_several_attempts_counts() {
     for submission in ["ann", "u1"] {
         assert_eq!(ann(submission, "status"), "several attempts");
         assert_eq!(ann(submission, "counts"), "");
+        let page = class.read(&format!("students/{submission}/feedback.html"));
+        assert_contains(&page, &["it is not decided yet which one counts"]);
+        assert!(!page.contains("[attempts]"), "this is for staff: {page}");
     }
     assert_eq!(cell(&class, "bob", "Bob", "counts"), "100");
 
@@ -105,12 +108,16 @@ Ann Lee,camera,0,see me,Tess
     let line = "camera: +1 point by Tess: =HYPERLINK(&quot;x&quot;) &lt;b&gt;good&lt;/b&gt; sketch";
     assert!(page.contains(line), "{page}");
     assert!(page.contains("1 point added by hand"));
-    let page = class.read("students/ann/feedback.html");
     let expected = [
         "Ann Lee: sphere: -1 point by Tess: copied",
         "Bea Berg: 90 of 100 points count",
     ];
-    assert_contains(&page, &expected);
+    assert_contains(&class.read("students/ann/report.html"), &expected);
+    // The page is for both, and neither may see the other's points.
+    let page = class.read("students/ann/feedback.html");
+    let expected = "The members of this group have different final points";
+    assert_contains(&page, &[expected]);
+    assert!(!page.contains("Tess") && !page.contains("points count"), "{page}");
     // The graded files stay unchanged.
     let score = class.read("students/carl/score.json");
     assert!(score.contains("\"points\": 0"), "{score}");

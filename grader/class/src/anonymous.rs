@@ -85,7 +85,7 @@ impl Pseudonyms {
             UnclearTime(time) => UnclearTime(late::UnclearTime { why, ..time }),
             UnclearPerson(_) => UnclearPerson(why),
             OtherAttempt(id) => OtherAttempt(of(id)),
-            SeveralAttempts(ids) => SeveralAttempts(ids.into_iter().map(of).collect()),
+            SeveralAttempts(ids, _) => SeveralAttempts(ids.into_iter().map(of).collect(), why),
         }
     }
 }

@@ -209,7 +209,7 @@ impl ClassSummary {
             unlisted: count(|row| row.result.info.is_unlisted && !row.is_superseded()),
             superseded: count(ClassRow::is_superseded),
             by_test_student: count(is_left_out),
-            undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
+            undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(..)))),
             undated: count(|row| {
                 !row.is_of_test_student() && row.grades.iter().any(PersonGrade::is_undated)
             }),

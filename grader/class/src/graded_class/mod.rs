@@ -52,13 +52,10 @@ pub enum GradeProblem {
     /// Another submission by the same person is used.
     #[error("submission {0} by the same person counts instead")]
     OtherAttempt(String),
-    /// The teacher hasn't chosen between several submissions by the same person.
-    #[error(
-        "{} by the same person could also count: remove one, or set `counts` under [attempts] \
-         in the policy; `latest` needs the times of all attempts",
-        .0.join(" and ")
-    )]
-    SeveralAttempts(Vec<String>),
+    /// Neither the policy nor the teacher has chosen between several submissions by the same
+    /// person: the ids of the other submissions, and what to do.
+    #[error("{ids} by the same person could also count: {1}", ids = .0.join(" and "))]
+    SeveralAttempts(Vec<String>, String),
 }
 
 impl GradeProblem {
@@ -71,7 +68,7 @@ impl GradeProblem {
             GradeProblem::UnclearTime(_) => "it is unclear when it was submitted",
             GradeProblem::UnclearPerson(_) => "it is unclear who handed it in",
             GradeProblem::OtherAttempt(_) => return self.to_string(),
-            GradeProblem::SeveralAttempts(_) => {
+            GradeProblem::SeveralAttempts(..) => {
                 "there are several submissions, and it is not decided yet which one counts"
             }
         };
@@ -246,7 +243,7 @@ impl ClassRow {
             (_, Some(GradeProblem::UnclearTime(_))) => "time unclear",
             (_, Some(GradeProblem::UnclearPerson(_))) => "person unclear",
             (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
-            (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",
+            (_, Some(GradeProblem::SeveralAttempts(..))) => "several attempts",
             (EntryOutcome::NothingToGrade(_), None) if grade.counted.is_some() => "points by hand",
             (EntryOutcome::NothingToGrade(_), None) => "nothing to grade",
         }
@@ -256,8 +253,11 @@ impl ClassRow {
     /// neither is missing.
     pub fn why(&self, grade: &PersonGrade) -> String {
         match (&self.result.outcome, &grade.problem) {
-            (EntryOutcome::Graded(_), Some(problem))
-            | (EntryOutcome::NothingToGrade(_), Some(problem @ GradeProblem::UnclearTime(_))) => {
+            (
+                EntryOutcome::NothingToGrade(why),
+                Some(problem @ GradeProblem::SeveralAttempts(..)),
+            ) => format!("{problem}; this one cannot be graded: {why}"),
+            (EntryOutcome::Graded(_) | EntryOutcome::NothingToGrade(_), Some(problem)) => {
                 problem.to_string()
             }
             (outcome, _) => outcome.why().to_owned(),

@@ -104,7 +104,7 @@ fn problems() -> [GradeProblem; 3] {
     [
         GradeProblem::UnclearTime(UnclearTime::new(ONLY_A_FLAG)),
         GradeProblem::OtherAttempt("b".to_owned()),
-        GradeProblem::SeveralAttempts(vec!["b".to_owned(), "c".to_owned()]),
+        GradeProblem::SeveralAttempts(vec!["b".to_owned(), "c".to_owned()], "remove one".to_owned()),
     ]
 }
 
@@ -137,8 +137,8 @@ fn the_status_and_the_reason_follow_from_the_outcome_and_the_problem() {
     several attempts (b and c by the same person could also co)
     nothing to grade (the folder is empty)
     time unclear (the platform says that the submission is)
-    another attempt counts (the folder is empty)
-    several attempts (the folder is empty)
+    another attempt counts (submission b by the same person counts i)
+    several attempts (b and c by the same person could also co)
     not graded (the disk is full)
     not graded (the disk is full)
     another attempt counts (the disk is full)

@@ -78,7 +78,7 @@ Ann Lee,camera,0,see me,Tess
     let output = class.grade(&exam, &lists.iter().map(String::as_str).collect::<Vec<_>>());
     successful_stdout(&output);
     let error = String::from_utf8(output.stderr).unwrap();
-    assert_contains(&error, &["an extension for \"zoe\""]);
+    assert_contains(&error, &["an extension for \"zoe\", who is not in this class: use a name"]);
     let of = |submission, name| {
         ["counts", "points", "manual", "late_days"]
             .map(|column| cell(&class, submission, name, column))

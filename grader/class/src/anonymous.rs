@@ -6,11 +6,7 @@ use std::hash::{BuildHasher, RandomState};
 
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
-use crate::graded_class::GradeProblem::{
-    self, OtherAttempt, SeveralAttempts, UnclearPerson, UnclearTime,
-};
-use crate::graded_class::{ClassRow, GradedClass};
-use crate::late;
+use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
 use crate::store::{Store, json};
 
 /// The name of the key in the output folder.
@@ -36,14 +32,11 @@ impl Pseudonyms {
         let mut hidden = class.clone();
         hidden.missing.clear();
         hidden.rows.retain(is_shown);
-        for row in &hidden.rows {
+        for row in &mut hidden.rows {
             // Each `RandomState` has random keys from the operating system.
             let random = || format!("anon-{:010x}", RandomState::new().hash_one(()) >> 24);
             let pseudonym = self.0.entry(row.result.id.clone());
-            pseudonym.or_insert_with(random);
-        }
-        for row in &mut hidden.rows {
-            self.hide_row(row);
+            hide_row(row, pseudonym.or_insert_with(random));
         }
         // Sorting by name would give the names away.
         let rows = &mut hidden.rows;
@@ -51,41 +44,37 @@ impl Pseudonyms {
         store.write(KEY, json(&self.0))?;
         Ok(hidden)
     }
+}
 
-    fn hide_row(&self, row: &mut ClassRow) {
-        let pseudonym = self.of(&row.result.id);
-        let person = |number: usize| match row.grades.len() {
-            1 => Person::named(&pseudonym),
-            _ => Person::named(format!("{pseudonym}, member {number}")),
-        };
-        row.result.info = EntryInfo {
-            people: (1..=row.grades.len()).map(person).collect(),
-            late: row.result.info.is_late(),
-            is_corrected: row.result.info.is_corrected,
-            from: pseudonym.clone(),
-            ..EntryInfo::default()
-        };
-        for grade in &mut row.grades {
-            grade.problem = grade.problem.take().map(|problem| self.hide_problem(problem));
-            for points in &mut grade.manual {
-                points.student.clone_from(&pseudonym);
-            }
+fn hide_row(row: &mut ClassRow, pseudonym: &str) {
+    let person = |number: usize| match row.grades.len() {
+        1 => Person::named(pseudonym),
+        _ => Person::named(format!("{pseudonym}, member {number}")),
+    };
+    row.result.info = EntryInfo {
+        people: (1..=row.grades.len()).map(person).collect(),
+        late: row.result.info.is_late(),
+        is_corrected: row.result.info.is_corrected,
+        from: pseudonym.to_owned(),
+        ..EntryInfo::default()
+    };
+    pseudonym.clone_into(&mut row.result.id);
+    for grade in &mut row.grades {
+        grade.problem.iter_mut().for_each(hide_problem);
+        for points in &mut grade.manual {
+            pseudonym.clone_into(&mut points.student);
         }
-        row.result.id = pseudonym;
     }
+}
 
-    /// Returns the problem without the names of people and submissions, and without times.
-    fn hide_problem(&self, problem: GradeProblem) -> GradeProblem {
-        let of = |id: String| match self.of(&id) {
-            unknown if unknown.is_empty() => "without a score".to_owned(),
-            pseudonym => pseudonym,
-        };
-        let why = "the person with the key can resolve this".to_owned();
-        match problem {
-            UnclearTime(time) => UnclearTime(late::UnclearTime { why, ..time }),
-            UnclearPerson(_) => UnclearPerson(why),
-            OtherAttempt(id) => OtherAttempt(of(id)),
-            SeveralAttempts(ids, _) => SeveralAttempts(ids.into_iter().map(of).collect(), why),
+/// Removes the names of people and submissions, and times.
+fn hide_problem(problem: &mut GradeProblem) {
+    let hidden = "(hidden)".to_owned();
+    match problem {
+        GradeProblem::UnclearTime(time) => time.why = hidden,
+        GradeProblem::UnclearPerson(text) | GradeProblem::OtherAttempt(text) => *text = hidden,
+        GradeProblem::SeveralAttempts(ids, remedy) => {
+            (*ids, *remedy) = (vec!["another submission".to_owned()], hidden);
         }
     }
 }

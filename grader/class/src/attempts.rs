@@ -49,15 +49,14 @@ fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
         }
         let id = |row: &usize| rows[*row].result.id.clone();
         let chosen = choose(policy, rows, &attempts, &submissions);
-        let problem = |row: &usize| match &chosen {
-            Ok(chosen) => OtherAttempt(id(chosen)),
-            Err(remedy) => {
+        let problem = |row: &usize| match chosen {
+            Some(chosen) => OtherAttempt(id(&chosen)),
+            None => {
                 let others = submissions.iter().filter(|other| *other != row);
-                SeveralAttempts(others.map(id).collect(), remedy.clone())
+                SeveralAttempts(others.map(id).collect(), remedy(policy, rows, &submissions))
             }
         };
-        let set_aside = attempts.iter();
-        let set_aside = set_aside.filter(|(row, _)| chosen.as_ref() != Ok(row));
+        let set_aside = attempts.iter().filter(|(row, _)| chosen != Some(*row));
         let problems = set_aside.map(|attempt| (*attempt, problem(&attempt.0)));
         let problems: Vec<(Attempt, GradeProblem)> = problems.collect();
         for ((row, person), problem) in problems {
@@ -68,76 +67,71 @@ fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
     }
 }
 
-/// Returns the submission to use, or what to do if the policy cannot choose.
+/// Returns the submission to use, or `None` if a person has to choose.
 fn choose(
     policy: &Policy,
     rows: &[ClassRow],
     attempts: &[Attempt],
     submissions: &BTreeSet<usize>,
-) -> Result<usize, String> {
-    let choose_one = |why: &str| Err(format!("{why}remove all but one"));
+) -> Option<usize> {
     let outcome = |row: &usize| &rows[*row].result.outcome;
     // A submission that could not be graded is graded in the next run and may then be the one to
     // use.
     let mut outcomes = submissions.iter().map(outcome);
     if outcomes.any(|outcome| matches!(outcome, EntryOutcome::Fault(_))) {
-        return Err("one of them is not graded yet: run this command again".to_owned());
+        return None;
     }
     let mut candidates = Vec::from_iter(submissions.iter().copied());
     match policy.attempts.counts {
-        AttemptRule::Ask => Err(
-            "remove all but one, or set `counts` under [attempts] in the policy".to_owned(),
-        ),
+        AttemptRule::Ask => None,
         // If the latest attempt can't be graded, the student is asked for its files. Silently using
         // an older attempt could cost the student points.
         AttemptRule::Latest => {
             let info = |row: &usize| &rows[*row].result.info;
             // Attempt numbers from different groups say nothing about the order.
-            let people = &info(&candidates[0]).people;
+            let people = &info(candidates.first()?).people;
             let number = |row: &usize| info(row).attempt.filter(|_| info(row).people == *people);
             if let Some(numbers) = candidates.iter().map(number).collect::<Option<Vec<u32>>>() {
-                let last = only_last(&candidates, &numbers);
-                return last.map_or_else(|| choose_one("two have the same number: "), Ok);
+                return only_last(&candidates, &numbers);
             }
-            let mut times = Vec::new();
-            for row in &candidates {
-                match submission_time(policy, info(row)) {
-                    Ok(Some(time)) => times.push(time),
-                    Ok(None) => return choose_one("`latest` needs the times of all attempts: "),
-                    Err(unclear) => return Err(unclear.why),
-                }
+            let time = |row: &usize| submission_time(policy, info(row)).ok()?;
+            let times: Option<Vec<_>> = candidates.iter().map(time).collect();
+            let times = times?;
+            let (earliest, latest) = (times.iter().min()?, times.iter().max()?);
+            if are_far_apart(*earliest, *latest) {
+                return None;
             }
-            if let (Some(first), Some(last)) = (times.iter().min(), times.iter().max())
-                && are_far_apart(*first, *last)
-            {
-                return choose_one("their times are too far apart: correct the wrong one, or ");
-            }
-            let last = only_last(&candidates, &times);
-            last.map_or_else(|| choose_one("the last two have the same time: "), Ok)
+            only_last(&candidates, &times)
         }
         AttemptRule::Best => {
             candidates.retain(|row| matches!(outcome(row), EntryOutcome::Graded(_)));
             if let [only] = candidates.as_slice() {
-                return Ok(*only);
+                return Some(*only);
             }
             let mut best: Option<(u32, usize)> = None;
             for (row, person) in attempts.iter().filter(|(row, _)| candidates.contains(row)) {
-                let grade = &rows[*row].grades[*person];
-                let Some(counted) = &grade.counted else {
-                    let why = grade.problem.as_ref().map(ToString::to_string);
-                    return Err(why.unwrap_or_default());
-                };
-                let points = counted.points;
+                let points = rows[*row].grades[*person].counted.as_ref()?.points;
                 if best.is_none_or(|(most, _)| points > most) {
                     best = Some((points, *row));
                 }
             }
-            match best {
-                Some((_, row)) => Ok(row),
-                None => choose_one("none of them can be graded: "),
-            }
+            Some(best?.1)
         }
     }
+}
+
+/// Returns what to do if the policy cannot choose between these submissions.
+fn remedy(policy: &Policy, rows: &[ClassRow], submissions: &BTreeSet<usize>) -> String {
+    let rule = policy.attempts.counts;
+    let needing_time = submissions.iter().filter(|_| rule != AttemptRule::Ask);
+    let mut times = needing_time.map(|row| submission_time(policy, &rows[*row].result.info));
+    let remedy = match rule {
+        AttemptRule::Ask => "remove one, or set `counts` under [attempts] in the policy",
+        AttemptRule::Latest => "`latest` needs a time or number that only the last has: remove one",
+        AttemptRule::Best => "`best` needs the points of one or more attempts: remove one",
+    };
+    let unclear = times.find_map(Result::err);
+    unclear.map_or(remedy.to_owned(), |unclear| unclear.why)
 }
 
 /// Returns the candidate with the latest time or the highest number. If two candidates are tied,
@@ -269,25 +263,24 @@ mod tests {
     }
 
     #[test]
-    fn the_message_says_what_the_rule_lacks() {
+    fn the_message_says_what_the_rule_needs() {
         let latest = policy("[attempts]\ncounts = 'latest'");
-        let why = |first: Option<&'static str>, second: Option<&'static str>| {
-            let attempts = [("a", graded(80), first), ("b", graded(60), second)];
-            let mut rows = rows(&latest, &attempts);
+        let why = |second: Option<&'static str>| {
+            let first = ("a", graded(80), Some("2026-11-20T10:00:00Z"));
+            let mut rows = rows(&latest, &[first, ("b", graded(60), second)]);
             apply_rule(&latest, &mut rows);
             rows[0].why(&rows[0].grades[0])
         };
-        let time = Some("2026-11-20T10:00:00Z");
-        for (second, expected) in [
-            (Some("2026-11-21 10:00"), "it has no time zone: set `timezone`"),
-            (None, "`latest` needs the times of all attempts: remove all but one"),
-            (time, "the last two have the same time: remove all but one"),
-            (Some("2027-11-21T10:00:00Z"), "their times are too far apart: correct"),
-        ] {
-            let why = why(time, second);
-            assert!(why.starts_with("b by the same person could also count: "), "{why}");
-            assert!(why.contains(expected), "{why}");
-        }
+        let local = why(Some("2026-11-21 10:00"));
+        assert!(
+            local.contains("it has no time zone: set `timezone`"),
+            "{local}"
+        );
+        let unknown = why(None);
+        assert!(
+            unknown.ends_with("that only the last has: remove one"),
+            "{unknown}"
+        );
     }
 
     #[test]
@@ -322,8 +315,11 @@ mod tests {
         apply_rule(&policy, &mut rows);
         let others = |ids: &[&str]| {
             let ids = ids.iter().map(|id| (*id).to_owned());
-            let remedy = "remove all but one, or set `counts` under [attempts] in the policy";
-            Some(GradeProblem::SeveralAttempts(ids.collect(), remedy.to_owned()))
+            let remedy = "remove one, or set `counts` under [attempts] in the policy";
+            Some(GradeProblem::SeveralAttempts(
+                ids.collect(),
+                remedy.to_owned(),
+            ))
         };
         for grade in &rows[0].grades {
             assert_eq!(grade.problem, others(&["b"]));

@@ -242,7 +242,11 @@ impl Person {
             // A roster may contain `Doe, Jane` for a folder named `Jane Doe`.
             let turned = given_name_first(&other.name);
             let is_turned = are_same_name(&turned, &self.name);
-            self.name = if is_turned { turned } else { other.name.clone() };
+            self.name = if is_turned {
+                turned
+            } else {
+                other.name.clone()
+            };
             self.is_named_by_file = false;
         }
         self.is_listed |= other.is_listed;

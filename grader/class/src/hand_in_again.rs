@@ -14,7 +14,7 @@ use crate::identity::{Attempt, attempts_by_person};
 use crate::layout::unique_name;
 use crate::names::joined;
 use crate::outcome::EntryOutcome;
-use crate::store::Store;
+use crate::store::{Store, is_temporary};
 
 /// The subfolder of the output folder for the messages.
 pub const FOLDER: &str = "hand-in-again";
@@ -30,7 +30,8 @@ pub fn write_messages(
     handed_out: &HandedOut,
 ) -> Result<Vec<BTreeSet<usize>>, Error> {
     for path in store.list(FOLDER)? {
-        if path.extension().is_some_and(|extension| extension == "txt") {
+        let is_message = path.extension().is_some_and(|extension| extension == "txt");
+        if is_message || is_temporary(path.file_name().unwrap_or_default()) {
             files::remove_if_exists(path)?;
         }
     }

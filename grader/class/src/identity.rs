@@ -38,37 +38,38 @@ pub fn find_submission(
     if let Some(index) = by_id.or_else(|| all.iter().position(|(_, info)| info.from == who)) {
         return Ok(index);
     }
-    let is_theirs = |person: &Person| person.identifiers().any(|name| are_equal(name, who));
-    let is_called = |person: &Person| are_same_name(&person.name, who);
-    let are_called = |index: &usize| are_same_name(&all[*index].1.display_names(), who);
-    let of = |is_meant: &dyn Fn(&str, &Person) -> bool| {
-        let is_meant = |index: &usize| {
-            let (id, info) = all[*index];
-            info.people.iter().any(|person| is_meant(id, person))
-        };
-        Vec::from_iter((0..all.len()).filter(is_meant))
+    let is_theirs =
+        |_: &EntryInfo, own: &Person| own.identifiers().any(|name| are_equal(name, who));
+    let is_called = |info: &EntryInfo, own: &Person| {
+        are_same_name(&own.name, who) || are_same_name(&info.display_names(), who)
     };
-    let mut found = of(&|_, person| is_theirs(person));
+    let find = |is_meant: &dyn Fn(&EntryInfo, &Person) -> bool| {
+        let (mut found, mut counting, mut people) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
+        for (index, (id, info)) in all.iter().enumerate() {
+            for own in info.people.iter().filter(|own| is_meant(info, own)) {
+                found.insert(index);
+                counting.extend(counts(id, own).then_some(index));
+                people.push(own);
+            }
+        }
+        let is_one_person = BTreeSet::from_iter(person_ids(&people)).len() == 1;
+        let is_known = is_one_person && counting.len() == 1;
+        Vec::from_iter(if is_known { counting } else { found })
+    };
+    let mut found = find(&is_theirs);
     if found.is_empty() {
-        found = of(&|_, person| is_called(person));
-        found.extend((0..all.len()).filter(are_called));
-        found.dedup();
+        found = find(&is_called);
     }
-    let counting = of(&|id, person| (is_theirs(person) || is_called(person)) && counts(id, person));
-    let is_counting = |index: &&usize| counting.contains(index);
     Err(match found.as_slice() {
         [only] => return Ok(*only),
-        [_, ..] => match Vec::from_iter(found.iter().filter(is_counting)).as_slice() {
-            [only] => return Ok(**only),
-            _ => format!(
-                "{who:?} could be {}: use one of these names instead",
-                joined(found.iter().map(|index| all[*index].0), " or ")
-            ),
-        },
         [] => format!(
             "no submission is called {who:?}, and none belongs to a person with this name or \
              identifier{}; --dry-run and grades.csv list all submissions and people",
             suggestion(who, all.iter().map(|(id, _)| *id))
+        ),
+        several => format!(
+            "{who:?} could be {}: use one of these names instead",
+            joined(several.iter().map(|index| all[*index].0), " or ")
         ),
     })
 }

@@ -168,14 +168,11 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
             "it no longer exists".to_owned()
         }
         SubmissionError::NoTaskFiles { found, advice, .. } => {
-            let handed_in = found.iter().cloned();
-            let handed_in = handed_in.filter(|name| !layout::is_written_into_folders(name));
-            match Vec::from_iter(handed_in) {
-                none if none.is_empty() => "nothing was handed in".to_owned(),
-                found => {
-                    let found = sanitize(&listed(&found), 200);
-                    format!("none of the task files was handed in, only {found}{advice}")
-                }
+            let mut found = found.clone();
+            found.retain(|name| !layout::is_written_into_folders(name));
+            match sanitize(&listed(&found), 200) {
+                _ if found.is_empty() => "nothing was handed in".to_owned(),
+                found => format!("none of the task files was handed in, only {found}{advice}"),
             }
         }
         SubmissionError::Ambiguous { .. }

@@ -122,9 +122,9 @@ fn write_results(
         let id = &row.result.id;
         let names = row.result.info.display_names();
         let names = (names != *id).then_some(names);
-        let with_names = |texts: Vec<String>| Vec::from_iter(names.iter().cloned().chain(texts));
-        let for_students = with_names(row.texts_for_everyone());
-        store.write_counted(id, &with_names(row.counted_texts()), &for_students)?;
+        let texts = [row.counted_texts(), row.texts_for_everyone()];
+        let texts = texts.map(|texts| names.iter().cloned().chain(texts).collect());
+        store.write_counted(id, &texts)?;
     }
     store.write("class.json", json(&summary))?;
     let page = page::render_page(class, &summary, changes, similar);

@@ -7,7 +7,7 @@ use std::iter;
 use serde::Serialize;
 
 use crate::distribution::Distribution;
-use crate::graded_class::{ClassRow, GradeProblem, GradedClass, PersonGrade};
+use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::manual_points::ManualPoints;
 use crate::names::with_detail;
 use crate::outcome::{EntryOutcome, ItemScore, ScoreSummary, TaskScore, id_and_names};
@@ -16,6 +16,9 @@ use crate::outcome::{EntryOutcome, ItemScore, ScoreSummary, TaskScore, id_and_na
 const SCHEMA: u32 = 1;
 /// The maximum number of root causes to list.
 const MAX_CAUSES: usize = 20;
+
+/// The advice if a file is missing and there is a message to the student.
+const ASK_FOR_FILE: &str = "; ask for it, using the message in hand-in-again, or correct its name";
 
 /// The contents of `class.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -186,9 +189,12 @@ impl ClassSummary {
         let max_points = scores.first().map_or(0, |score| score.max_points);
         let points: Vec<u32> = scores.iter().map(|score| score.points).collect();
         let points = Distribution::new(points, max_points);
-        let count = |is_one: fn(&ClassRow) -> bool| {
-            let rows = class.rows.iter();
-            rows.filter(|row| is_one(row)).count()
+        let rows = || class.rows.iter().filter(|row| !row.is_of_test_student());
+        let count = |is_one: fn(&ClassRow) -> bool| rows().filter(|row| is_one(row)).count();
+        let with_status = |status: &str| {
+            let has_status =
+                |row: &&ClassRow| row.grades.iter().any(|own| row.status(own) == status);
+            rows().filter(has_status).count()
         };
         let grades = class.rows.iter().flat_map(|row| &row.grades);
         let (sections, failed) = failure_rates(class);
@@ -201,18 +207,14 @@ impl ClassSummary {
             nothing_to_grade: count(has_nothing),
             not_graded: class.fault_count(),
             missing: class.missing.len(),
-            unclear_times: count(|row| unsubmitted(row) == Some(false)),
-            drafts: count(|row| unsubmitted(row) == Some(true)),
-            unclear_people: count(|row| {
-                matches!(row.problem(), Some(GradeProblem::UnclearPerson(_)))
-            }),
+            unclear_times: with_status("time unclear"),
+            drafts: with_status("draft"),
+            unclear_people: with_status("person unclear"),
             unlisted: count(|row| row.result.info.is_unlisted && !row.is_superseded()),
             superseded: count(ClassRow::is_superseded),
-            by_test_student: count(is_left_out),
-            undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(..)))),
-            undated: count(|row| {
-                !row.is_of_test_student() && row.grades.iter().any(PersonGrade::is_undated)
-            }),
+            by_test_student: class.rows.len() - rows().count(),
+            undecided: with_status("several attempts"),
+            undated: count(|row| row.grades.iter().any(PersonGrade::is_undated)),
             counts_max: class.counts_max(),
             tasks: tasks(&scores),
             sections,
@@ -226,23 +228,7 @@ impl ClassSummary {
 }
 
 fn has_nothing(row: &ClassRow) -> bool {
-    let is_counted = !row.is_superseded() && !row.is_of_test_student();
-    matches!(row.result.outcome, EntryOutcome::NothingToGrade(_)) && is_counted
-}
-
-/// Returns whether the numbers of graded submissions and of those with nothing to grade leave this
-/// row out because the test student handed it in.
-fn is_left_out(row: &ClassRow) -> bool {
-    let is_fault = matches!(row.result.outcome, EntryOutcome::Fault(_));
-    row.is_of_test_student() && !row.is_superseded() && !is_fault
-}
-
-/// If the submission time is unclear, returns whether that is because the submission is a draft.
-fn unsubmitted(row: &ClassRow) -> Option<bool> {
-    match row.problem()? {
-        GradeProblem::UnclearTime(unclear) => Some(unclear.is_draft),
-        _ => None,
-    }
+    matches!(row.result.outcome, EntryOutcome::NothingToGrade(_)) && !row.is_superseded()
 }
 
 fn tasks(scores: &[&ScoreSummary]) -> Vec<TaskDistribution> {
@@ -368,7 +354,7 @@ fn outliers(
         });
         let problem = match row.result.score().filter(|_| row.problem().is_none()) {
             Some(score) => low_score(score, fence),
-            None => missing_grade(row, has_message),
+            None => missing_grade(row),
         };
         let unlisted = row.result.info.is_unlisted.then(|| Reason {
             cause: "nobody on the lists has this name or identifier".to_owned(),
@@ -378,11 +364,8 @@ fn outliers(
         let missing = row.result.missing_files().map(|file| Reason {
             cause: "a file is missing".to_owned(),
             detail: file.to_owned(),
-            remedy: if has_message {
-                "; ask for it, using the message in hand-in-again, or correct its name"
-            } else {
-                ""
-            },
+            // Without a message, staff have decided, or this is the graders' copy.
+            remedy: if has_message { ASK_FOR_FILE } else { "" },
         });
         let problem = problem.into_iter().chain(unlisted).chain(missing);
         let problem: Vec<Reason> = problem.collect();
@@ -400,18 +383,16 @@ fn outliers(
     rows.filter_map(outlier).collect()
 }
 
-/// If one of the people has no final points, returns the reason. `has_message` is true if there is
-/// a message to a student about the submission.
-fn missing_grade(row: &ClassRow, has_message: bool) -> Option<Reason> {
+/// If one of the people has no final points, returns the reason.
+fn missing_grade(row: &ClassRow) -> Option<Reason> {
     let grade = row.grades.iter().find(|grade| grade.counted.is_none())?;
     let remedy = match (&row.result.outcome, &grade.problem) {
         (EntryOutcome::NothingToGrade(_), None) if row.result.info.needs_staff => {
             "; correct this in the input, or give manual points"
         }
-        (EntryOutcome::NothingToGrade(_), None) if has_message => {
+        (EntryOutcome::NothingToGrade(_), None) => {
             "; ask for the files, using the message in hand-in-again, or give manual points"
         }
-        (EntryOutcome::NothingToGrade(_), None) => "; ask for the files, or give manual points",
         (EntryOutcome::Fault(_), _) => "; run this command again",
         (_, _) => "",
     };

@@ -126,7 +126,7 @@ pub fn grade_class_with(
     let settings = grader.settings()?;
     let run = start_or_resume(&store, settings, arguments.regrade)?;
     store.remove_temporary_files()?;
-    let warnings = render_warnings(&recognised, grader.policy().attempts.counts);
+    let warnings = render_warnings(&recognised);
     let all = recognised.entries.iter();
     let all: Vec<&str> = all.map(|entry| entry.id.as_str()).collect();
     let removed = find_removed(&[&store], &all)?;

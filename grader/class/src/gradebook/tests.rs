@@ -165,7 +165,10 @@ Participant 6,Finn,,100.00,Yes
         row.grades[0].counted = None;
     }
     class.rows[4].result.outcome = EntryOutcome::NothingToGrade("empty".to_owned());
-    class.rows[5].grades[0].problem = Some(GradeProblem::SeveralAttempts(vec!["b".to_owned()], "remove one".to_owned()));
+    class.rows[5].grades[0].problem = Some(GradeProblem::SeveralAttempts(
+        vec!["b".to_owned()],
+        "remove one".to_owned(),
+    ));
     let filled = moodle(moodles, &class);
     let change = CellChange {
         who: "Ann".to_owned(),

@@ -1,5 +1,7 @@
 //! The data of a graded class. All files of the class are written from it.
 
+use std::iter;
+
 use grader::policy::{FinalPoints, Policy, TaskPoints};
 
 use crate::entry::Person;
@@ -56,24 +58,6 @@ pub enum GradeProblem {
     /// person: the ids of the other submissions, and what to do.
     #[error("{ids} by the same person could also count: {1}", ids = .0.join(" and "))]
     SeveralAttempts(Vec<String>, String),
-}
-
-impl GradeProblem {
-    /// Returns the problem without advice for staff and without other people's data.
-    fn for_student(&self) -> String {
-        let text = match self {
-            GradeProblem::UnclearTime(unclear) if unclear.is_draft => {
-                "it is a draft that was not submitted"
-            }
-            GradeProblem::UnclearTime(_) => "it is unclear when it was submitted",
-            GradeProblem::UnclearPerson(_) => "it is unclear who handed it in",
-            GradeProblem::OtherAttempt(_) => return self.to_string(),
-            GradeProblem::SeveralAttempts(..) => {
-                "there are several submissions, and it is not decided yet which one counts"
-            }
-        };
-        text.to_owned()
-    }
 }
 
 impl GradedClass {
@@ -163,19 +147,18 @@ impl ClassRow {
         texts
     }
 
-    /// Returns these sentences for a page that every member of a group can see. If they differ, the
-    /// page must not reveal one member's points to another.
+    /// Returns these sentences for a page that all members of a group can see. If they differ, the
+    /// page must not show one member's points to another.
     pub fn texts_for_everyone(&self) -> Vec<String> {
         let mut all = self.grades.iter().map(PersonGrade::explanation);
-        let first = all.next().unwrap_or_default();
-        let mut texts = if all.all(|texts| texts == first) {
-            first
-        } else {
-            vec!["The members of this group have different final points, which this page doesn't show."
-                .to_owned()]
-        };
-        texts.extend(self.correction().map(str::to_owned));
-        texts
+        let first = all.next();
+        if all.all(|texts| Some(texts) == first) {
+            return self.counted_texts();
+        }
+        let note =
+            "The members of this group have different final points, which this page doesn't show.";
+        let texts = iter::once(note).chain(self.correction());
+        texts.map(str::to_owned).collect()
     }
 
     /// Returns a sentence about the files of a submission that was handed in again.
@@ -253,13 +236,11 @@ impl ClassRow {
     /// neither is missing.
     pub fn why(&self, grade: &PersonGrade) -> String {
         match (&self.result.outcome, &grade.problem) {
-            (
-                EntryOutcome::NothingToGrade(why),
-                Some(problem @ GradeProblem::SeveralAttempts(..)),
-            ) => format!("{problem}; this one cannot be graded: {why}"),
-            (EntryOutcome::Graded(_) | EntryOutcome::NothingToGrade(_), Some(problem)) => {
-                problem.to_string()
-            }
+            (EntryOutcome::Graded(_), Some(problem))
+            | (
+                EntryOutcome::NothingToGrade(_),
+                Some(problem @ (GradeProblem::UnclearTime(_) | GradeProblem::OtherAttempt(_))),
+            ) => problem.to_string(),
             (outcome, _) => outcome.why().to_owned(),
         }
     }
@@ -280,10 +261,11 @@ impl PersonGrade {
     /// staff's comments. No explanation is needed if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {
         let counts = match (&self.problem, &self.counted) {
-            (Some(problem), _) => {
-                let problem = problem.for_student();
+            (Some(problem @ GradeProblem::OtherAttempt(_)), _) => {
                 Some(format!("No points count towards the grade: {problem}."))
             }
+            // The other problems are for staff, and may name other people.
+            (Some(_), _) => Some("No points count yet: the staff still have to decide.".to_owned()),
             (None, Some(counted)) => counted.explanation_if_changed(),
             (None, None) => None,
         };

@@ -104,7 +104,10 @@ fn problems() -> [GradeProblem; 3] {
     [
         GradeProblem::UnclearTime(UnclearTime::new(ONLY_A_FLAG)),
         GradeProblem::OtherAttempt("b".to_owned()),
-        GradeProblem::SeveralAttempts(vec!["b".to_owned(), "c".to_owned()], "remove one".to_owned()),
+        GradeProblem::SeveralAttempts(
+            vec!["b".to_owned(), "c".to_owned()],
+            "remove one".to_owned(),
+        ),
     ]
 }
 
@@ -138,7 +141,7 @@ fn the_status_and_the_reason_follow_from_the_outcome_and_the_problem() {
     nothing to grade (the folder is empty)
     time unclear (the platform says that the submission is)
     another attempt counts (submission b by the same person counts i)
-    several attempts (b and c by the same person could also co)
+    several attempts (the folder is empty)
     not graded (the disk is full)
     not graded (the disk is full)
     another attempt counts (the disk is full)
@@ -219,9 +222,9 @@ fn notes_give_the_reason_why_there_are_no_points() {
 fn a_problem_is_explained_instead_of_points() {
     let texts = problems().map(|problem| with_problem(problem).explanation().join("\n"));
     insta::assert_snapshot!(texts.join("\n"), @"
-    No points count towards the grade: it is unclear when it was submitted.
+    No points count yet: the staff still have to decide.
     No points count towards the grade: submission b by the same person counts instead.
-    No points count towards the grade: there are several submissions, and it is not decided yet which one counts.
+    No points count yet: the staff still have to decide.
     ");
     assert_eq!(PersonGrade::default().explanation(), Vec::<String>::new());
 }

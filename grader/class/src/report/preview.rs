@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use grader::handed_out::HandedOut;
-use grader::policy::AttemptRule;
 
 use crate::entry::{Entry, Person};
 use crate::identity::attempts_by_person;
@@ -31,7 +30,14 @@ pub fn render_preview(
         let (files, from) = (sentence(&files), sentence(&entry.info.from));
         text += &format!("  {who}{late}: {files}\n      {from}\n");
     }
-    text += &render_warnings(class, AttemptRule::Ask);
+    for ids in several_of_one_person(&class.entries) {
+        let ids = joined(ids.into_iter().map(sentence), " and ");
+        text += &format!(
+            "\n  {ids} belong to the same person: remove all but one, unless the policy chooses with \
+             [attempts]\n"
+        );
+    }
+    text += &render_warnings(class);
     if !missing.is_empty() {
         text += "\n  on a roster, but without a submission:\n";
     }
@@ -43,19 +49,11 @@ pub fn render_preview(
 }
 
 /// Renders the problems that the teacher has to resolve. They are part of the preview and are also
-/// printed after grading, since the grades don't show them. `rule` chooses between several attempts.
-pub fn render_warnings(class: &RecognisedClass, rule: AttemptRule) -> String {
+/// printed after grading, since the grades don't show them.
+pub fn render_warnings(class: &RecognisedClass) -> String {
     let mut text = String::new();
     for note in &class.notes {
         text += &format!("\n  {}\n", sentence(note));
-    }
-    let several = several_of_one_person(&class.entries).into_iter();
-    for ids in several.filter(|_| rule == AttemptRule::Ask) {
-        let ids = joined(ids.into_iter().map(sentence), " and ");
-        text += &format!(
-            "\n  {ids} belong to the same person: remove all but one, unless the policy chooses with \
-             [attempts]\n"
-        );
     }
     if !class.unmatched.is_empty() {
         text += "\n  not part of any submission:\n";

@@ -42,7 +42,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         ),
         (
             summary.drafts,
-            "without final points, because of drafts that were not submitted: see class.html",
+            "only saved as a draft, no final points: see class.html",
         ),
         (
             summary.unclear_people,
@@ -61,10 +61,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
             summary.superseded,
             "not counted, because another submission by the same person counts",
         ),
-        (
-            summary.by_test_student,
-            "by Canvas's test student, not in the statistics",
-        ),
+        (summary.by_test_student, "by Canvas's test student"),
         (
             summary.undated,
             "counted as on time or 1 day late, because their submission time is unknown",

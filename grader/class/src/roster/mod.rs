@@ -87,9 +87,8 @@ impl Member {
 
 /// Returns whether two names are the same. Either can be written as `Doe, Jane`.
 fn are_same_in_any_order(one: &str, other: &str) -> bool {
-    let is_turned = |one: &str, other: &str| {
-        one.contains(',') && are_same_name(&given_name_first(one), other)
-    };
+    let is_turned =
+        |one: &str, other: &str| one.contains(',') && are_same_name(&given_name_first(one), other);
     are_same_name(one, other) || is_turned(one, other) || is_turned(other, one)
 }
 

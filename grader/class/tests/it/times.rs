@@ -176,7 +176,7 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
     let expected = [
         "Draft: the status in Moodle's worksheet",
         "2 without final points, because it is unclear when they were submitted",
-        "1 without final points, because of drafts that were not submitted",
+        "1 only saved as a draft, no final points",
     ];
     assert_contains(&text, &expected);
 }
@@ -192,13 +192,13 @@ fn the_test_student_is_counted_separately() {
     let text = grade(&class, "canvas", gradebook);
     let expected = [
         "2 graded, small exam",
-        "1 by Canvas's test student, not in the statistics",
+        "1 by Canvas's test student",
         "2 counted as on time or 1 day late",
     ];
     assert_contains(&text, &expected);
     let page = class.read("class.html");
-    let expected = "2 graded, 0 with nothing to grade, 0 not graded, 1 by Canvas's test student \
-                    (not in the statistics), 0 without a submission.";
+    let expected = "2 graded, 0 with nothing to grade, 0 not graded, 1 by Canvas's test student, \
+                    0 without a submission.";
     assert_contains(&page, &[expected]);
     let times = "Submission times\nHanded in | Students\non time | 1\n1 day late | 1\n";
     assert_contains(&section(&page, "times"), &[times]);

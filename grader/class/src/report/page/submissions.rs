@@ -8,14 +8,9 @@ use crate::report::grades::LATE;
 
 pub(super) fn submissions(class: &GradedClass) -> Markup {
     let tasks = class.tasks();
-    let score = class.rows.iter().find_map(|row| row.result.score());
-    let with_maximum = |title: &str, most: Option<u32>| match most {
-        Some(most) => format!("{title} (of {most})"),
-        None => title.to_owned(),
-    };
-    let counts = with_maximum("Counts", class.counts_max());
-    let points = with_maximum("Points", score.map(|score| score.max_points));
-    let numbers = [counts.as_str(), &points].into_iter();
+    let of = class.counts_max().map(|most| format!(" (of {most})"));
+    let counts = format!("Counts{}", of.unwrap_or_default());
+    let numbers = [counts.as_str(), "Points"].into_iter();
     let numbers = numbers.chain(tasks.iter().map(|task| task.title.as_str()));
     let table = html! { table .sortable {
         (header(&["Who"], numbers.map(sanitized), "Notes"))

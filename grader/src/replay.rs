@@ -47,7 +47,8 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let is_missing = missing.any(|file| needed.contains(*file));
     let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
         let question = &reference.item;
-        text += &format!("{question} needs this file: fix it, then run the same command again\n");
+        text +=
+            &format!("{question} needs this file, so it can only be run with a corrected one\n");
         return Ok(paths.in_text(&text).into_owned());
     };
     let launcher = build.launcher(program);
@@ -84,9 +85,10 @@ fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'s
 fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
     item.element(number).ok_or_else(|| {
         Error::User(format!(
-            "{} has {} questions, so there is no question {number}",
+            "{} has {count} questions, so there is no question {number}: use a number up to \
+             {count}, or leave it out to run the first question that was answered wrongly",
             item.id,
-            item.count(),
+            count = item.count(),
         ))
     })
 }

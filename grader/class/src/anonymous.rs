@@ -6,7 +6,7 @@ use std::hash::{BuildHasher, RandomState};
 
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
-use crate::graded_class::{ClassRow, GradedClass};
+use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
 use crate::store::{Store, json};
 
 /// The name of the key in the output folder.
@@ -27,13 +27,11 @@ impl Pseudonyms {
     }
 
     /// Returns the graded submissions under pseudonyms, without times or the names of people and
-    /// files. Adds missing pseudonyms to the key.
+    /// files. Superseded attempts are left out. Adds missing pseudonyms to the key.
     pub fn hide(&mut self, class: &GradedClass, store: &Store) -> Result<GradedClass, Error> {
         let mut hidden = class.clone();
         hidden.missing.clear();
-        hidden
-            .rows
-            .retain(|row| row.result.score().is_some() && !row.is_of_test_student());
+        hidden.rows.retain(is_shown);
         for row in &mut hidden.rows {
             // Each `RandomState` has random keys from the operating system.
             let random = || format!("anon-{:010x}", RandomState::new().hash_one(()) >> 24);
@@ -62,10 +60,26 @@ fn hide_row(row: &mut ClassRow, pseudonym: &str) {
     };
     pseudonym.clone_into(&mut row.result.id);
     for grade in &mut row.grades {
-        // The problem may name other submissions.
-        grade.problem = None;
+        grade.problem.iter_mut().for_each(hide_problem);
         for points in &mut grade.manual {
             pseudonym.clone_into(&mut points.student);
         }
     }
+}
+
+/// Removes the names of people and submissions, and times.
+fn hide_problem(problem: &mut GradeProblem) {
+    let hidden = "(hidden)".to_owned();
+    match problem {
+        GradeProblem::UnclearTime(time) => time.why = hidden,
+        GradeProblem::UnclearPerson(text) | GradeProblem::OtherAttempt(text) => *text = hidden,
+        GradeProblem::SeveralAttempts(ids, remedy) => {
+            (*ids, *remedy) = (vec!["another submission".to_owned()], hidden);
+        }
+    }
+}
+
+/// Returns whether the copy contains this submission.
+pub fn is_shown(row: &ClassRow) -> bool {
+    row.result.score().is_some() && !row.is_of_test_student() && !row.is_superseded()
 }

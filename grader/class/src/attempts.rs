@@ -28,7 +28,7 @@ pub fn count_points(
         rows.push(ClassRow::new(result, policy, own, exam));
     }
     apply_rule(policy, &mut rows);
-    let is_set_aside = |own: &GradeProblem| matches!(own, OtherAttempt(_) | SeveralAttempts(_));
+    let is_set_aside = |own: &GradeProblem| matches!(own, OtherAttempt(_) | SeveralAttempts(..));
     for row in &rows {
         let grades = row.grades.iter();
         for grade in grades.filter(|grade| !grade.problem.iter().any(is_set_aside)) {
@@ -53,7 +53,7 @@ fn apply_rule(policy: &Policy, rows: &mut [ClassRow]) {
             Some(chosen) => OtherAttempt(id(&chosen)),
             None => {
                 let others = submissions.iter().filter(|other| *other != row);
-                SeveralAttempts(others.map(id).collect())
+                SeveralAttempts(others.map(id).collect(), remedy(policy, rows, &submissions))
             }
         };
         let set_aside = attempts.iter().filter(|(row, _)| chosen != Some(*row));
@@ -124,6 +124,20 @@ fn choose(
     }
 }
 
+/// Returns what to do if the policy cannot choose between these submissions.
+fn remedy(policy: &Policy, rows: &[ClassRow], submissions: &BTreeSet<usize>) -> String {
+    let rule = policy.attempts.counts;
+    let needing_time = submissions.iter().filter(|_| rule != AttemptRule::Ask);
+    let mut times = needing_time.map(|row| submission_time(policy, &rows[*row].result.info));
+    let remedy = match rule {
+        AttemptRule::Ask => "remove one, or set `counts` under [attempts] in the policy",
+        AttemptRule::Latest => "`latest` needs a time or number that only the last has: remove one",
+        AttemptRule::Best => "`best` needs the points of one or more attempts: remove one",
+    };
+    let unclear = times.find_map(Result::err);
+    unclear.map_or(remedy.to_owned(), |unclear| unclear.why)
+}
+
 /// Returns the candidate with the latest time or the highest number. If two candidates are tied,
 /// returns `None`.
 fn only_last<T: Ord>(candidates: &[usize], keys: &[T]) -> Option<usize> {
@@ -160,7 +174,7 @@ mod tests {
         let text = |row: &ClassRow| match (&row.grades[0].counted, &row.grades[0].problem) {
             (Some(counted), None) => counted.points.to_string(),
             (None, Some(GradeProblem::OtherAttempt(id))) => format!("see {id}"),
-            (None, Some(GradeProblem::SeveralAttempts(ids))) => format!("or {}", ids.join(", ")),
+            (None, Some(GradeProblem::SeveralAttempts(ids, _))) => format!("or {}", ids.join(", ")),
             other => format!("{other:?}"),
         };
         rows.iter().map(text).collect()
@@ -253,6 +267,27 @@ mod tests {
     }
 
     #[test]
+    fn the_message_says_what_the_rule_needs() {
+        let latest = policy("[attempts]\ncounts = 'latest'");
+        let why = |second: Option<&'static str>| {
+            let first = ("a", graded(80), Some("2026-11-20T10:00:00Z"));
+            let mut rows = rows(&latest, &[first, ("b", graded(60), second)]);
+            apply_rule(&latest, &mut rows);
+            rows[0].why(&rows[0].grades[0])
+        };
+        let local = why(Some("2026-11-21 10:00"));
+        assert!(
+            local.contains("it has no time zone: set `timezone`"),
+            "{local}"
+        );
+        let unknown = why(None);
+        assert!(
+            unknown.ends_with("that only the last has: remove one"),
+            "{unknown}"
+        );
+    }
+
+    #[test]
     fn attempts_of_different_people_do_not_compete() {
         let policy = Policy::default();
         let mut rows = rows(&policy, &three()[..2]);
@@ -284,7 +319,11 @@ mod tests {
         apply_rule(&policy, &mut rows);
         let others = |ids: &[&str]| {
             let ids = ids.iter().map(|id| (*id).to_owned());
-            Some(GradeProblem::SeveralAttempts(ids.collect()))
+            let remedy = "remove one, or set `counts` under [attempts] in the policy";
+            Some(GradeProblem::SeveralAttempts(
+                ids.collect(),
+                remedy.to_owned(),
+            ))
         };
         for grade in &rows[0].grades {
             assert_eq!(grade.problem, others(&["b"]));

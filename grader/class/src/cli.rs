@@ -86,7 +86,7 @@ pub struct ClassArguments {
 
     /// Run one question of a graded submission again, such as `ann sphere.from_inside#7`, and show
     /// the whole answer; ID is the submission's folder, or anything that identifies one of its
-    /// students
+    /// students. If they have several attempts, the one that counts is used
     #[arg(long, value_names = ["ID", "ITEM[#N]"], num_args = 2, requires = "out")]
     #[arg(conflicts_with_all = ["input", "dry_run", "estimate", "regrade", "shard", "similarity_input"])]
     pub replay: Option<Vec<String>>,

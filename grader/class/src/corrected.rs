@@ -7,7 +7,7 @@ use std::path::Path;
 use grader::handed_out::HandedOut;
 use judging::sanitize::sanitize_line;
 
-use crate::entry::Entry;
+use crate::entry::{Entry, Person};
 use crate::error::Error;
 use crate::file_tree::list_folder;
 use crate::identity::find_submission;
@@ -19,13 +19,14 @@ use crate::store::Store;
 const MAX_CHARS: usize = 200;
 
 /// Replaces the files of each submission that has a corrected hand-in in `folder`. A corrected
-/// hand-in is named after the submission or after one of its students. `input` is the path of the
-/// class.
+/// hand-in is named after the submission or after one of its students. `counts` returns whether a
+/// submission counts for a student. `input` is the path of the class.
 pub fn replace_files(
     class: &mut RecognisedClass,
     folder: &Path,
     input: &Path,
     handed_out: &HandedOut,
+    counts: impl Fn(&str, &Person) -> bool,
 ) -> Result<(), Error> {
     let shown = folder.display();
     if contains(input, folder) {
@@ -46,7 +47,7 @@ pub fn replace_files(
         let path = sanitize_line(&info.from, MAX_CHARS);
         let all = class.entries.iter();
         let all = all.map(|entry| (entry.id.as_str(), &entry.info));
-        let index = find_submission(&info.display_names(), &all.collect::<Vec<_>>())
+        let index = find_submission(&info.display_names(), &all.collect::<Vec<_>>(), &counts)
             .map_err(|why| Error::user(format!("{shown}: {path}: {why}")))?;
         let entry = &mut class.entries[index];
         if let Some(other) = used.insert(index, path.clone()) {

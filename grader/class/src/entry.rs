@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::names::{are_alike, are_equal, joined};
+use crate::names::{are_alike, are_equal, are_same_name, given_name_first, joined};
 
 /// The placeholder in [`EntryInfo::hand_back_as`] that stands for people's names.
 pub const WHO: &str = "{who}";
@@ -239,7 +239,14 @@ impl Person {
     /// Fills in unknown fields from another record of the same person.
     pub fn fill_missing_from(&mut self, other: &Person) {
         if self.is_named_by_file && !other.name.is_empty() {
-            self.name.clear();
+            // A roster may contain `Doe, Jane` for a folder named `Jane Doe`.
+            let turned = given_name_first(&other.name);
+            let is_turned = are_same_name(&turned, &self.name);
+            self.name = if is_turned {
+                turned
+            } else {
+                other.name.clone()
+            };
             self.is_named_by_file = false;
         }
         self.is_listed |= other.is_listed;

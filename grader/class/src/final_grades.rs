@@ -83,6 +83,12 @@ impl GradeChanges {
 }
 
 impl GradeHistory {
+    /// Returns whether a submission counts for a person, unless the person hasn't been graded.
+    pub fn counts(&self, submission: &str, person: &Person) -> bool {
+        let mut grades = self.now.of(submission);
+        grades.any(|grade| grade.person.is_same(person))
+    }
+
     /// Returns the history after a run.
     pub fn after(earlier: Option<GradeHistory>, run: &Run, class: &GradedClass) -> Self {
         let last = earlier.as_ref().map(|earlier| &earlier.now);

@@ -91,13 +91,16 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
 
 /// Returns a person's name, followed by an identifier if somebody else in the class has the same
 /// name.
-fn unique_name(class: &GradedClass, person: &Person) -> String {
+fn unique_name<'a>(class: &'a GradedClass, person: &'a Person) -> String {
     let name = person.display_name();
     let people = class.rows.iter().flat_map(|row| &row.result.info.people);
     let mut namesakes = people.filter(|other| are_equal(other.display_name(), name));
-    let mut own = person.own_identifiers().into_iter();
-    let identifier = own.find(|own| !own.is_empty() && *own != name);
-    let is_shared = namesakes.any(|other| other.own_identifiers() != person.own_identifiers());
+    let identifiers = |person: &'a Person| {
+        let own = person.own_identifiers().into_iter();
+        own.chain([person.number.as_str()])
+    };
+    let identifier = identifiers(person).find(|own| !own.is_empty() && *own != name);
+    let is_shared = namesakes.any(|other| !identifiers(other).eq(identifiers(person)));
     match identifier.filter(|_| is_shared) {
         Some(identifier) => format!("{name} {identifier}"),
         None => name.to_owned(),

@@ -14,7 +14,7 @@ use crate::identity::{Attempt, attempts_by_person};
 use crate::layout::unique_name;
 use crate::names::joined;
 use crate::outcome::EntryOutcome;
-use crate::store::Store;
+use crate::store::{Store, is_temporary};
 
 /// The subfolder of the output folder for the messages.
 pub const FOLDER: &str = "hand-in-again";
@@ -22,18 +22,21 @@ pub const FOLDER: &str = "hand-in-again";
 const MAX_CHARS: usize = 1_000;
 
 /// Writes a message for each person who has submitted something, but nothing that can be graded or
-/// not all files. Removes the messages from the last run. Returns the number of messages written.
+/// not all files. Removes the messages from the last run. For each message, returns the indices of
+/// the submissions that it is about.
 pub fn write_messages(
     class: &GradedClass,
     store: &Store,
     handed_out: &HandedOut,
-) -> Result<usize, Error> {
+) -> Result<Vec<BTreeSet<usize>>, Error> {
     for path in store.list(FOLDER)? {
-        if path.extension().is_some_and(|extension| extension == "txt") {
+        let is_message = path.extension().is_some_and(|extension| extension == "txt");
+        if is_message || is_temporary(path.file_name().unwrap_or_default()) {
             files::remove_if_exists(path)?;
         }
     }
     let mut used = BTreeSet::new();
+    let mut messages = Vec::new();
     let people = class.rows.iter();
     let people = people.map(|row| row.result.info.people.as_slice());
     for mut attempts in attempts_by_person(people) {
@@ -63,9 +66,10 @@ pub fn write_messages(
             let name = unique_name(&safe_folder_name(person.display_name()), &mut used);
             let text = render(person, &reasons, handed_out);
             store.write(format!("{FOLDER}/{name}.txt"), text)?;
+            messages.push(attempts.iter().map(|(row, _)| *row).collect());
         }
     }
-    Ok(used.len())
+    Ok(messages)
 }
 
 /// Renders the message that tells a person what could not be graded and how to hand in again.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use grader::nearest_name::suggestion;
 
 use crate::entry::{EntryInfo, Person};
-use crate::names::{are_equal, are_same_name, fold};
+use crate::names::{are_equal, are_same_name, fold, joined};
 
 /// One person's part in a submission: the index of the row, and the person's index in that row.
 pub type Attempt = (usize, usize);
@@ -26,36 +26,50 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
 }
 
 /// Returns the index of the submission that `who` refers to: by the submission's id, by its file or
-/// folder, or by the name or an identifier of somebody who has only one submission. `all` contains
-/// each submission's id and information.
-pub fn find_submission(who: &str, all: &[(&str, &EntryInfo)]) -> Result<usize, String> {
+/// folder, or by the name or an identifier of somebody who handed it in. If somebody has several
+/// submissions, `counts` returns whether the one with this id counts for them. `all` contains each
+/// submission's id and information.
+pub fn find_submission(
+    who: &str,
+    all: &[(&str, &EntryInfo)],
+    counts: impl Fn(&str, &Person) -> bool,
+) -> Result<usize, String> {
     let by_id = all.iter().position(|(id, _)| are_equal(id, who));
     if let Some(index) = by_id.or_else(|| all.iter().position(|(_, info)| info.from == who)) {
         return Ok(index);
     }
-    let is_theirs = |index: &usize| {
-        let mut names = all[*index].1.people.iter().flat_map(Person::identifiers);
-        names.any(|name| are_equal(name, who))
+    let is_theirs =
+        |_: &EntryInfo, own: &Person| own.identifiers().any(|name| are_equal(name, who));
+    let is_called = |info: &EntryInfo, own: &Person| {
+        are_same_name(&own.name, who) || are_same_name(&info.display_names(), who)
     };
-    let is_called = |index: &usize| {
-        let info = all[*index].1;
-        let mut people = info.people.iter();
-        are_same_name(&info.display_names(), who)
-            || people.any(|person| are_same_name(&person.name, who))
+    let find = |is_meant: &dyn Fn(&EntryInfo, &Person) -> bool| {
+        let (mut found, mut counting, mut people) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
+        for (index, (id, info)) in all.iter().enumerate() {
+            for own in info.people.iter().filter(|own| is_meant(info, own)) {
+                found.insert(index);
+                counting.extend(counts(id, own).then_some(index));
+                people.push(own);
+            }
+        }
+        let is_one_person = BTreeSet::from_iter(person_ids(&people)).len() == 1;
+        let is_known = is_one_person && counting.len() == 1;
+        Vec::from_iter(if is_known { counting } else { found })
     };
-    let mut theirs: Vec<usize> = (0..all.len()).filter(is_theirs).collect();
-    if theirs.is_empty() {
-        theirs = (0..all.len()).filter(is_called).collect();
+    let mut found = find(&is_theirs);
+    if found.is_empty() {
+        found = find(&is_called);
     }
-    Err(match theirs.as_slice() {
+    Err(match found.as_slice() {
         [only] => return Ok(*only),
-        [one, other, ..] => format!(
-            "{who:?} could be {} or {}: use the name of the submission's folder",
-            all[*one].0, all[*other].0
-        ),
         [] => format!(
-            "no submission is called {who:?}, and none belongs to a person with this name or identifier{}",
+            "no submission is called {who:?}, and none belongs to a person with this name or \
+             identifier{}; --dry-run and grades.csv list all submissions and people",
             suggestion(who, all.iter().map(|(id, _)| *id))
+        ),
+        several => format!(
+            "{who:?} could be {}: use one of these names instead",
+            joined(several.iter().map(|index| all[*index].0), " or ")
         ),
     })
 }
@@ -135,13 +149,16 @@ mod tests {
             ..EntryInfo::default()
         };
         let [one, two] = [info("pt-owls", &["Ann", "Bob"]), info("pt-ann", &["Ann"])];
-        let find = |who: &str| find_submission(who, &[("owls", &one), ("ann2", &two)]);
+        let all = [("owls", &one), ("ann2", &two)];
+        let find = |who: &str| find_submission(who, &all, |_, _| true);
         for who in ["owls", "pt-owls", "Ann + Bob", "bob"] {
             assert_eq!(find(who), Ok(0), "{who}");
         }
         assert_eq!(find("pt-ann"), Ok(1));
         assert!(find("Ann").unwrap_err().contains("owls or ann2"));
         assert!(find("Eve").is_err());
+        let counting = |id: &str, person: &Person| id == "ann2" || person.name == "Bob";
+        assert_eq!(find_submission("Ann", &all, counting), Ok(1));
     }
 
     #[test]

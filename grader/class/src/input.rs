@@ -167,10 +167,14 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
         SubmissionError::NotFound(_) | SubmissionError::NotFileOrFolder(_) => {
             "it no longer exists".to_owned()
         }
-        SubmissionError::NoTaskFiles { found, advice, .. } => match sanitize(&listed(found), 200) {
-            _ if found.is_empty() => "nothing was handed in".to_owned(),
-            found => format!("none of the task files was handed in, only {found}{advice}"),
-        },
+        SubmissionError::NoTaskFiles { found, advice, .. } => {
+            let mut found = found.clone();
+            found.retain(|name| !layout::is_written_into_folders(name));
+            match sanitize(&listed(&found), 200) {
+                _ if found.is_empty() => "nothing was handed in".to_owned(),
+                found => format!("none of the task files was handed in, only {found}{advice}"),
+            }
+        }
         SubmissionError::Ambiguous { .. }
         | SubmissionError::StarterBesideCopies { .. }
         | SubmissionError::TooMany(_, _)

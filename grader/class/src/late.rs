@@ -32,7 +32,8 @@ pub const ONLY_A_FLAG: &str = "the platform says that the submission is late, bu
     be applied only if the submission time and the due time are known: add a `datetime` column to \
     the roster, and `due` to the policy";
 
-const NOT_IN_CLASS: &str = "who is not in this class";
+const NOT_IN_CLASS: &str = "who is not in this class: use a name, email address, account or student \
+    id from grades.csv, or the name of a group";
 const SHARED_NAME: &str = "but several people have this name, so all of them get the extension: \
     use an email address or a student number instead";
 

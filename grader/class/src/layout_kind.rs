@@ -24,7 +24,8 @@ pub enum Layout {
     /// Clones of repositories from GitHub Classroom or classroom50
     #[value(name = "github", alias = "classroom50")]
     GitHub,
-    /// Clones of a GitLab group, or a folder for each tutorial with a folder for each student
+    /// Clones of a GitLab group, or a folder for each tutorial with a folder for each student (can
+    /// also be written as `tutorials`)
     #[value(name = "gitlab", alias = "tutorials")]
     GitLab,
     /// A folder or archive for each student

@@ -1,12 +1,13 @@
 //! Writes the files of a graded class and prints the summary.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use grader::handed_out::HandedOut;
 use grader::policy::Policy;
 use grader::printing::{counted, print, print_line};
 
-use crate::anonymous::Pseudonyms;
+use crate::anonymous::{Pseudonyms, is_shown};
 use crate::attempts::count_points;
 use crate::cli::Lists;
 use crate::entry_completion::ListFindings;
@@ -81,7 +82,9 @@ impl ClassContext<'_> {
             removed,
             grades: history.changes(),
         };
-        let summary = write_results(class, store, &changes, &similar)?;
+        let messages = write_messages(class, store, self.handed_out)?;
+        let with_message = messages.iter().flatten().copied().collect();
+        let summary = write_results(class, store, &changes, &similar, &with_message)?;
         print(text::render_summary(&summary));
         print(text::render_changes(&changes));
         write_for_platforms(class, store, lists)?;
@@ -92,9 +95,9 @@ impl ClassContext<'_> {
         for name in ["grades.csv", "class.html"] {
             print_path(store, name);
         }
-        if let messages @ 1.. = write_messages(class, store, self.handed_out)? {
+        if !messages.is_empty() {
             print_path(store, FOLDER);
-            let messages = counted(messages, "message");
+            let messages = counted(messages.len(), "message");
             print_line(format!("    {messages} for students who need to resubmit"));
         }
         print_line("");
@@ -105,19 +108,22 @@ impl ClassContext<'_> {
     }
 }
 
-/// Writes the files with the class's results.
+/// Writes the files with the class's results. `with_message` contains the indices of the
+/// submissions that there are messages about.
 fn write_results(
     class: &GradedClass,
     store: &Store,
     changes: &Changes,
     similar: &[SimilarPair],
+    with_message: &BTreeSet<usize>,
 ) -> Result<ClassSummary, Error> {
-    let summary = ClassSummary::new(class);
+    let summary = ClassSummary::new(class, with_message);
     for row in &class.rows {
         let id = &row.result.id;
         let names = row.result.info.display_names();
         let names = (names != *id).then_some(names);
-        let texts: Vec<String> = names.into_iter().chain(row.counted_texts()).collect();
+        let texts = [row.counted_texts(), row.texts_for_everyone()];
+        let texts = texts.map(|texts| names.iter().cloned().chain(texts).collect());
         store.write_counted(id, &texts)?;
     }
     store.write("class.json", json(&summary))?;
@@ -140,11 +146,9 @@ fn write_for_graders(
     let copy = Store::new(folder);
     let mut pseudonyms = Pseudonyms::read(store)?;
     let hidden = pseudonyms.hide(class, store)?;
-    for row in &class.rows {
-        if row.result.score().is_some() {
-            let id = &row.result.id;
-            copy.copy_files(&pseudonyms.of(id), store, id)?;
-        }
+    for row in class.rows.iter().filter(|row| is_shown(row)) {
+        let id = &row.result.id;
+        copy.copy_files(&pseudonyms.of(id), store, id)?;
     }
     for row in &hidden.rows {
         copy.save_result(&row.result, "", run.round)?;
@@ -155,7 +159,8 @@ fn write_for_graders(
         entries: ids.collect(),
         ..run.clone()
     })?;
-    write_results(&hidden, &copy, &Changes::default(), &[])?;
+    // Graders don't send messages.
+    write_results(&hidden, &copy, &Changes::default(), &[], &BTreeSet::new())?;
     print_path(&copy, "class.html");
     Ok(())
 }

@@ -7,7 +7,9 @@ use grader::question_ref::QuestionRef;
 use grader::replay::replay;
 use judging::sanitize::sanitize;
 
+use crate::entry::Person;
 use crate::error::Error;
+use crate::final_grades::{self, GradeHistory};
 use crate::identity::find_submission;
 use crate::outcome::{EntryResult, id_and_names};
 use crate::store::Store;
@@ -65,6 +67,8 @@ fn find_result(store: &Store, who: &str) -> Result<EntryResult, Error> {
     let mut results = store.results()?;
     let all = results.iter();
     let all = all.map(|result| (result.id.as_str(), &result.info));
-    let index = find_submission(who, &all.collect::<Vec<_>>()).map_err(Error::user)?;
+    let history: Option<GradeHistory> = store.read(final_grades::FILE)?;
+    let counts = |id: &str, own: &Person| history.iter().any(|history| history.counts(id, own));
+    let index = find_submission(who, &all.collect::<Vec<_>>(), counts).map_err(Error::user)?;
     Ok(results.swap_remove(index))
 }

@@ -7,7 +7,7 @@ use std::iter;
 use serde::Serialize;
 
 use crate::distribution::Distribution;
-use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
+use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::manual_points::ManualPoints;
 use crate::names::with_detail;
 use crate::outcome::{EntryOutcome, ItemScore, ScoreSummary, TaskScore, id_and_names};
@@ -16,6 +16,9 @@ use crate::outcome::{EntryOutcome, ItemScore, ScoreSummary, TaskScore, id_and_na
 const SCHEMA: u32 = 1;
 /// The maximum number of root causes to list.
 const MAX_CAUSES: usize = 20;
+
+/// The advice if a file is missing and there is a message to the student.
+const ASK_FOR_FILE: &str = "; ask for it, using the message in hand-in-again, or correct its name";
 
 /// The contents of `class.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,6 +44,8 @@ pub struct ClassSummary {
     pub undated: usize,
     /// The number of submissions without final points because their submission time is unclear.
     pub unclear_times: usize,
+    /// The number of submissions without final points because they are drafts.
+    pub drafts: usize,
     /// The number of submissions without final points because it is unclear who handed them in.
     pub unclear_people: usize,
     /// The number of submissions by people who aren't on the lists.
@@ -48,8 +53,12 @@ pub struct ClassSummary {
     /// The number of submissions that aren't used because another submission by the same person
     /// counts.
     pub superseded: usize,
+    /// The number of submissions by Canvas's test student that the other numbers leave out.
+    pub by_test_student: usize,
     /// The number of submissions that the teacher has yet to choose or reject.
     pub undecided: usize,
+    /// The maximum of the final points, which the policy may change, or `None` if there are none.
+    pub counts_max: Option<u32>,
     /// The distribution of the total points, or `None` if there are no scores.
     pub points: Option<Distribution>,
     /// The distribution of each task's points, in lecture order.
@@ -173,15 +182,19 @@ impl Outlier {
 }
 
 impl ClassSummary {
-    /// Summarises a class.
-    pub fn new(class: &GradedClass) -> Self {
+    /// Summarises a class. `with_message` contains the indices of the submissions that there are
+    /// messages to students about.
+    pub fn new(class: &GradedClass, with_message: &BTreeSet<usize>) -> Self {
         let scores: Vec<&ScoreSummary> = class.scores().map(|(_, score)| score).collect();
         let max_points = scores.first().map_or(0, |score| score.max_points);
         let points: Vec<u32> = scores.iter().map(|score| score.points).collect();
         let points = Distribution::new(points, max_points);
-        let count = |is_one: fn(&ClassRow) -> bool| {
-            let rows = class.rows.iter();
-            rows.filter(|row| is_one(row)).count()
+        let rows = || class.rows.iter().filter(|row| !row.is_of_test_student());
+        let count = |is_one: fn(&ClassRow) -> bool| rows().filter(|row| is_one(row)).count();
+        let with_status = |status: &str| {
+            let has_status =
+                |row: &&ClassRow| row.grades.iter().any(|own| row.status(own) == status);
+            rows().filter(has_status).count()
         };
         let grades = class.rows.iter().flat_map(|row| &row.grades);
         let mut decisions = Vec::new();
@@ -201,19 +214,20 @@ impl ClassSummary {
             nothing_to_grade: count(has_nothing),
             not_graded: class.fault_count(),
             missing: class.missing.len(),
-            unclear_times: count(|row| matches!(row.problem(), Some(GradeProblem::UnclearTime(_)))),
-            unclear_people: count(|row| {
-                matches!(row.problem(), Some(GradeProblem::UnclearPerson(_)))
-            }),
-            unlisted: count(|row| row.result.info.is_unlisted),
+            unclear_times: with_status("time unclear"),
+            drafts: with_status("draft"),
+            unclear_people: with_status("person unclear"),
+            unlisted: count(|row| row.result.info.is_unlisted && !row.is_superseded()),
             superseded: count(ClassRow::is_superseded),
-            undecided: count(|row| matches!(row.problem(), Some(GradeProblem::SeveralAttempts(_)))),
-            undated: count(|row| row.grades.iter().any(|grade| grade.is_undated())),
+            by_test_student: class.rows.len() - rows().count(),
+            undecided: with_status("several attempts"),
+            undated: count(|row| row.grades.iter().any(PersonGrade::is_undated)),
+            counts_max: class.counts_max(),
             tasks: tasks(&scores),
             sections,
             failed,
             causes: causes(&scores),
-            outliers: outliers(class, points.as_ref()),
+            outliers: outliers(class, points.as_ref(), with_message),
             decisions,
             points,
         }
@@ -329,12 +343,17 @@ fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
 
 /// Returns the submissions that have no score or no points, are far below the others (by Tukey's
 /// fence), lack a file, or contain files that look like task files but were not graded.
-fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> {
+fn outliers(
+    class: &GradedClass,
+    points: Option<&Distribution>,
+    with_message: &BTreeSet<usize>,
+) -> Vec<Outlier> {
     let fence = points.map_or(0.0, |points| {
         let [lower, upper] = [points.lower_quartile, points.upper_quartile].map(f64::from);
         lower - 1.5 * (upper - lower)
     });
-    let outlier = |row: &ClassRow| {
+    let outlier = |(index, row): (usize, &ClassRow)| {
+        let has_message = with_message.contains(&index);
         let copies = row.result.ignored_copies().iter().map(|note| Reason {
             cause: "some files are copies or have unexpected names".to_owned(),
             detail: note.clone(),
@@ -352,7 +371,8 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
         let missing = row.result.missing_files().map(|file| Reason {
             cause: "a file is missing".to_owned(),
             detail: file.to_owned(),
-            remedy: "; ask for it, using the message in hand-in-again, or correct its name",
+            // Without a message, staff have decided, or this is the graders' copy.
+            remedy: if has_message { ASK_FOR_FILE } else { "" },
         });
         let problem = problem.into_iter().chain(unlisted).chain(missing);
         let problem: Vec<Reason> = problem.collect();
@@ -366,7 +386,8 @@ fn outliers(class: &GradedClass, points: Option<&Distribution>) -> Vec<Outlier> 
             reasons: problem.into_iter().chain(copies).collect(),
         })
     };
-    class.rows.iter().filter_map(outlier).collect()
+    let rows = class.rows.iter().enumerate();
+    rows.filter_map(outlier).collect()
 }
 
 /// If one of the people has no final points, returns the reason.

@@ -175,7 +175,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             "sphere.near_side",
             &[
                 "protocols",
-                "sphere.near_side needs this file: fix it, then run the same command again\n",
+                "sphere.near_side needs this file, so it can only be run with a corrected one\n",
             ],
         ),
         // An error in a different task's file doesn't matter.

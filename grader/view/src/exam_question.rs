@@ -38,10 +38,9 @@ pub fn subject_of_question(
     let number = reference.number.unwrap_or(1);
     let (question, element) = item.element(number).ok_or_else(|| {
         ViewError::Usage(format!(
-            "{} has {} questions, so there is no question {}",
+            "{} has {count} questions, so there is no question {number}: use a number up to {count}",
             item.id,
-            item.count(),
-            number
+            count = item.count(),
         ))
     })?;
     let name = format!("{}#{number}", item.id);

@@ -13,10 +13,11 @@ use judging::content_hash::file_hash;
 use crate::anonymous::Pseudonyms;
 use crate::cli::{ClassArguments, Lists};
 use crate::corrected;
-use crate::entry::{Entry, EntryInfo};
+use crate::entry::{Entry, EntryInfo, Person};
 use crate::entry_completion;
 use crate::entry_grader::EntryGrader;
 use crate::error::Error;
+use crate::final_grades::{self, GradeHistory};
 use crate::input::Input;
 use crate::list_memory::UsedLists;
 use crate::outcome::EntryResult;
@@ -96,7 +97,10 @@ pub fn grade_class_with(
     recognised.notes.extend_from_slice(&findings.warnings);
     match (&arguments.corrected, out) {
         (Some(folder), _) => {
-            corrected::replace_files(&mut recognised, folder, path, handed_out)?;
+            let history = out.map(|out| Store::new(out).read(final_grades::FILE));
+            let history: Option<GradeHistory> = history.transpose()?.flatten();
+            let counts = |id: &str, own: &Person| history.iter().any(|all| all.counts(id, own));
+            corrected::replace_files(&mut recognised, folder, path, handed_out, counts)?;
         }
         (None, Some(out)) => corrected::check_none_lost(&Store::new(out))?,
         (None, None) => {}

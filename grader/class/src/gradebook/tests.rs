@@ -165,7 +165,10 @@ Participant 6,Finn,,100.00,Yes
         row.grades[0].counted = None;
     }
     class.rows[4].result.outcome = EntryOutcome::NothingToGrade("empty".to_owned());
-    class.rows[5].grades[0].problem = Some(GradeProblem::SeveralAttempts(vec!["b".to_owned()]));
+    class.rows[5].grades[0].problem = Some(GradeProblem::SeveralAttempts(
+        vec!["b".to_owned()],
+        "remove one".to_owned(),
+    ));
     let filled = moodle(moodles, &class);
     let change = CellChange {
         who: "Ann".to_owned(),
@@ -186,7 +189,7 @@ Participant 6,Finn,,100.00,Yes
     Bob: the platform does not allow changes; left unchanged, so the gradebook still contains 12.50: change it by hand unless that is right
     Carl is excused; left unchanged
     Eve: nothing to grade; left unchanged
-    Finn: b by the same person could also count: remove one, or set `counts` under [attempts] in the policy; `latest` needs the times of all attempts; left unchanged
+    Finn: b by the same person could also count: remove one; left unchanged
     ");
 }
 

@@ -1,5 +1,7 @@
 //! The data of a graded class. All files of the class are written from it.
 
+use std::iter;
+
 use grader::policy::{FinalPoints, Policy, TaskPoints};
 
 use crate::entry::Person;
@@ -52,13 +54,10 @@ pub enum GradeProblem {
     /// Another submission by the same person is used.
     #[error("submission {0} by the same person counts instead")]
     OtherAttempt(String),
-    /// The teacher hasn't chosen between several submissions by the same person.
-    #[error(
-        "{} by the same person could also count: remove one, or set `counts` under [attempts] \
-         in the policy; `latest` needs the times of all attempts",
-        .0.join(" and ")
-    )]
-    SeveralAttempts(Vec<String>),
+    /// Neither the policy nor the teacher has chosen between several submissions by the same
+    /// person: the ids of the other submissions, and what to do.
+    #[error("{ids} by the same person could also count: {1}", ids = .0.join(" and "))]
+    SeveralAttempts(Vec<String>, String),
 }
 
 impl GradedClass {
@@ -76,6 +75,13 @@ impl GradedClass {
     pub fn tasks(&self) -> &[TaskScore] {
         let first = self.rows.iter().find_map(|row| row.result.score());
         first.map_or(&[], |score| score.tasks.as_slice())
+    }
+
+    /// Returns the maximum of the final points. It is `None` if nobody has any.
+    pub fn counts_max(&self) -> Option<u32> {
+        let grades = self.rows.iter().flat_map(|row| &row.grades);
+        let counted = grades.filter_map(|grade| grade.counted.as_ref());
+        counted.map(|counted| counted.max_points).max()
     }
 
     /// Returns the number of submissions that could not be graded because of a fault and have to be
@@ -133,12 +139,26 @@ impl ClassRow {
         self.result.info.people.iter().zip(&self.grades)
     }
 
-    /// Returns sentences that explain how the score contributes to each person's grade. A sentence
-    /// that applies to everyone doesn't contain names.
+    /// Returns sentences that explain how the score contributes to each person's grade, for staff.
+    /// A sentence that applies to everyone doesn't contain names.
     pub fn counted_texts(&self) -> Vec<String> {
         let mut texts = self.merge(PersonGrade::explanation);
         texts.extend(self.correction().map(str::to_owned));
         texts
+    }
+
+    /// Returns these sentences for a page that all members of a group can see. If they differ, the
+    /// page must not show one member's points to another.
+    pub fn texts_for_everyone(&self) -> Vec<String> {
+        let mut all = self.grades.iter().map(PersonGrade::explanation);
+        let first = all.next();
+        if all.all(|texts| Some(texts) == first) {
+            return self.counted_texts();
+        }
+        let note =
+            "The members of this group have different final points, which this page doesn't show.";
+        let texts = iter::once(note).chain(self.correction());
+        texts.map(str::to_owned).collect()
     }
 
     /// Returns a sentence about the files of a submission that was handed in again.
@@ -206,7 +226,7 @@ impl ClassRow {
             (_, Some(GradeProblem::UnclearTime(_))) => "time unclear",
             (_, Some(GradeProblem::UnclearPerson(_))) => "person unclear",
             (_, Some(GradeProblem::OtherAttempt(_))) => "another attempt counts",
-            (_, Some(GradeProblem::SeveralAttempts(_))) => "several attempts",
+            (_, Some(GradeProblem::SeveralAttempts(..))) => "several attempts",
             (EntryOutcome::NothingToGrade(_), None) if grade.counted.is_some() => "points by hand",
             (EntryOutcome::NothingToGrade(_), None) => "nothing to grade",
         }
@@ -217,9 +237,10 @@ impl ClassRow {
     pub fn why(&self, grade: &PersonGrade) -> String {
         match (&self.result.outcome, &grade.problem) {
             (EntryOutcome::Graded(_), Some(problem))
-            | (EntryOutcome::NothingToGrade(_), Some(problem @ GradeProblem::UnclearTime(_))) => {
-                problem.to_string()
-            }
+            | (
+                EntryOutcome::NothingToGrade(_),
+                Some(problem @ (GradeProblem::UnclearTime(_) | GradeProblem::OtherAttempt(_))),
+            ) => problem.to_string(),
             (outcome, _) => outcome.why().to_owned(),
         }
     }
@@ -240,7 +261,11 @@ impl PersonGrade {
     /// staff's comments. No explanation is needed if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {
         let counts = match (&self.problem, &self.counted) {
-            (Some(problem), _) => Some(format!("No points count towards the grade: {problem}.")),
+            (Some(problem @ GradeProblem::OtherAttempt(_)), _) => {
+                Some(format!("No points count towards the grade: {problem}."))
+            }
+            // The other problems are for staff, and may name other people.
+            (Some(_), _) => Some("No points count yet: the staff still have to decide.".to_owned()),
             (None, Some(counted)) => counted.explanation_if_changed(),
             (None, None) => None,
         };

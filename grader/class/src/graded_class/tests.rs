@@ -104,7 +104,10 @@ fn problems() -> [GradeProblem; 3] {
     [
         GradeProblem::UnclearTime(UnclearTime::new(ONLY_A_FLAG)),
         GradeProblem::OtherAttempt("b".to_owned()),
-        GradeProblem::SeveralAttempts(vec!["b".to_owned(), "c".to_owned()]),
+        GradeProblem::SeveralAttempts(
+            vec!["b".to_owned(), "c".to_owned()],
+            "remove one".to_owned(),
+        ),
     ]
 }
 
@@ -137,7 +140,7 @@ fn the_status_and_the_reason_follow_from_the_outcome_and_the_problem() {
     several attempts (b and c by the same person could also co)
     nothing to grade (the folder is empty)
     time unclear (the platform says that the submission is)
-    another attempt counts (the folder is empty)
+    another attempt counts (submission b by the same person counts i)
     several attempts (the folder is empty)
     not graded (the disk is full)
     not graded (the disk is full)
@@ -219,9 +222,9 @@ fn notes_give_the_reason_why_there_are_no_points() {
 fn a_problem_is_explained_instead_of_points() {
     let texts = problems().map(|problem| with_problem(problem).explanation().join("\n"));
     insta::assert_snapshot!(texts.join("\n"), @"
-    No points count towards the grade: the platform says that the submission is late, but an extension can be applied only if the submission time and the due time are known: add a `datetime` column to the roster, and `due` to the policy.
+    No points count yet: the staff still have to decide.
     No points count towards the grade: submission b by the same person counts instead.
-    No points count towards the grade: b and c by the same person could also count: remove one, or set `counts` under [attempts] in the policy; `latest` needs the times of all attempts.
+    No points count yet: the staff still have to decide.
     ");
     assert_eq!(PersonGrade::default().explanation(), Vec::<String>::new());
 }

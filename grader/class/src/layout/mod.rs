@@ -90,6 +90,11 @@ impl Layout {
     }
 }
 
+/// Returns whether a platform writes a file with this name into a submission's folder.
+pub fn is_written_into_folders(name: &str) -> bool {
+    [SAKAI_TIME, SAKAI_MEMBERS, CLASSROOM50_RESULT].contains(&name)
+}
+
 /// Returns whether a file with this name was written by a platform and should be read.
 pub fn is_record(name: &str) -> bool {
     let mut own = Platform::all().iter().flat_map(|own| &own.own_files);

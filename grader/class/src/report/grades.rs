@@ -9,7 +9,7 @@ use crate::table::{Table, safe_cell};
 const COLUMNS_BEFORE_TASKS: &str =
     "submission,name,email,sid,username,status,counts,points,max_points";
 const COLUMNS_AFTER_TASKS: &str =
-    "manual,late_days,submitted,from,why,comments,report,late_flag,ignored_copies";
+    "manual,late_days,submitted,from,why,comments,report,late_flag,ignored_copies,counts_max";
 
 /// The text for a submission that the platform marks as late.
 pub const LATE: &str = "LATE";
@@ -66,6 +66,7 @@ fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize)
         safe_cell(&report.unwrap_or_default()),
         if info.is_late() { LATE } else { "" }.to_owned(),
         safe_cell(&class_row.result.ignored_copies().join("; ")),
+        counted.map_or(String::new(), |counted| counted.max_points.to_string()),
     ]);
     row
 }

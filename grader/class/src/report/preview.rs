@@ -30,6 +30,13 @@ pub fn render_preview(
         let (files, from) = (sentence(&files), sentence(&entry.info.from));
         text += &format!("  {who}{late}: {files}\n      {from}\n");
     }
+    for ids in several_of_one_person(&class.entries) {
+        let ids = joined(ids.into_iter().map(sentence), " and ");
+        text += &format!(
+            "\n  {ids} belong to the same person: remove all but one, unless the policy chooses with \
+             [attempts]\n"
+        );
+    }
     text += &render_warnings(class);
     if !missing.is_empty() {
         text += "\n  on a roster, but without a submission:\n";
@@ -47,13 +54,6 @@ pub fn render_warnings(class: &RecognisedClass) -> String {
     let mut text = String::new();
     for note in &class.notes {
         text += &format!("\n  {}\n", sentence(note));
-    }
-    for ids in several_of_one_person(&class.entries) {
-        let ids = joined(ids.into_iter().map(sentence), " and ");
-        text += &format!(
-            "\n  {ids} belong to the same person: remove all but one, unless the policy chooses with \
-             [attempts]\n"
-        );
     }
     if !class.unmatched.is_empty() {
         text += "\n  not part of any submission:\n";

@@ -41,6 +41,10 @@ pub fn render_summary(summary: &ClassSummary) -> String {
             "without final points, because it is unclear when they were submitted: see class.html",
         ),
         (
+            summary.drafts,
+            "only saved as a draft, no final points: see class.html",
+        ),
+        (
             summary.unclear_people,
             "without final points, because it is unclear who handed them in: see class.html",
         ),
@@ -57,6 +61,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
             summary.superseded,
             "not counted, because another submission by the same person counts",
         ),
+        (summary.by_test_student, "by Canvas's test student"),
         (
             summary.undated,
             "counted as on time or 1 day late, because their submission time is unknown",

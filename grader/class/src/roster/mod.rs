@@ -70,8 +70,7 @@ impl Member {
     /// Returns whether this row has the person's name.
     fn is_called(&self, person: &Person) -> bool {
         let known = &self.person.name;
-        let names = [&person.name, &given_name_first(&person.name)];
-        !known.is_empty() && names.iter().any(|name| are_same_name(known, name))
+        !known.is_empty() && are_same_in_any_order(known, &person.name)
     }
 
     /// Returns whether the person is known only by a name that several people in this row's list
@@ -82,8 +81,15 @@ impl Member {
 
     fn is_namesake_of(&self, other: &Member) -> bool {
         let (one, other) = (&self.person, &other.person);
-        are_same_name(&one.name, &other.name) && !one.matches(other) && one != other
+        are_same_in_any_order(&one.name, &other.name) && !one.matches(other) && one != other
     }
+}
+
+/// Returns whether two names are the same. Either can be written as `Doe, Jane`.
+fn are_same_in_any_order(one: &str, other: &str) -> bool {
+    let is_turned =
+        |one: &str, other: &str| one.contains(',') && are_same_name(&given_name_first(one), other);
+    are_same_name(one, other) || is_turned(one, other) || is_turned(other, one)
 }
 
 /// Reads the people in a roster or in a platform's gradebook.

@@ -172,11 +172,14 @@ impl Store {
         Ok(files::read_to_string(self.entry_folder(id).join(FEEDBACK))?)
     }
 
-    /// Adds sentences to the entry's pages, explaining how the score contributes to the grade.
-    pub fn write_counted(&self, id: &str, texts: &[String]) -> Result<(), Error> {
-        // Older results from a shard may lack a page.
-        write_counted(&self.entry_folder(id).join(REPORT), texts)?;
-        Ok(write_counted(&self.entry_folder(id).join(FEEDBACK), texts)?)
+    /// Adds sentences to the entry's pages, first for staff and then for students. They explain how
+    /// the score contributes to the grade.
+    pub fn write_counted(&self, id: &str, texts: &[Vec<String>; 2]) -> Result<(), Error> {
+        for (page, texts) in [REPORT, FEEDBACK].into_iter().zip(texts) {
+            // Older results from a shard may lack a page.
+            write_counted(&self.entry_folder(id).join(page), texts)?;
+        }
+        Ok(())
     }
 
     /// Saves the score of an entry whose submission has changed, before the entry is graded again.
@@ -349,7 +352,8 @@ fn parse_score(path: &Path, text: &str) -> Result<ScoreSummary, Error> {
     ScoreSummary::parse(text).map_err(|error| damaged(path, &error))
 }
 
-fn is_temporary(name: &OsStr) -> bool {
+/// Returns whether a killed run left a file with this name.
+pub fn is_temporary(name: &OsStr) -> bool {
     name.to_string_lossy().starts_with(TEMPORARY_PREFIX)
 }
 

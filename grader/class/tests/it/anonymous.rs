@@ -157,3 +157,45 @@ fn a_merged_class_has_pseudonyms_and_a_policy_that_fits_the_exam() {
     let unknown = "line 2: the exam has no item `camera.ofset` (did you mean camera.offset?)";
     assert_contains(&error, &[unknown]);
 }
+
+/// Ann's second attempt counts, and Bob's attempts have no times. The test student isn't graded by
+/// anybody.
+#[test]
+fn only_attempts_that_may_count_are_in_the_copy() {
+    let class = TestClass::named("class")
+        .with_offset_mistake("ann1")
+        .with_reference("ann2")
+        .with_starter("bob1")
+        .with_reference("bob2")
+        .with_reference("Test Student");
+    let exam = class.small_exam(&["camera.offset"]);
+    let roster = "name,username,sid,datetime\n\
+        Ann Lee,ann1,a,2026-11-20T10:00:00Z\nAnn Lee,ann2,b,2026-11-21T10:00:00Z\n\
+        Bob Kim,bob1,c,\nBob Kim,bob2,d,\n";
+    let emails = "First Name,Last Name,SID,Email,Total Score,Max Points\n\
+        Ann,Lee,a,ann@x.edu,,\nAnn,Lee,b,ann@x.edu,,\n\
+        Bob,Kim,c,bob@x.edu,,\nBob,Kim,d,bob@x.edu,,\n";
+    let blind = class.path_beside("blind").display().to_string();
+    let lists = [
+        ("roster", roster),
+        ("gradescope", emails),
+        ("policy", "[attempts]\ncounts = 'latest'\n"),
+    ];
+    class.graded_with(&exam, &lists, &["--anonymous", &blind]);
+    let key = key(&class);
+    let ids: Vec<&str> = key.keys().map(String::as_str).collect();
+    assert_eq!(ids, ["ann2", "bob1", "bob2"]);
+    let students = class.path_beside("blind/students");
+    assert_eq!(fs::read_dir(students).unwrap().count(), 3);
+    let grades = fs::read_to_string(class.path_beside("blind/grades.csv")).unwrap();
+    let rows = table(&grades);
+    let row = |id: &str| {
+        rows.iter()
+            .find(|row| row["submission"] == key[id])
+            .unwrap()
+    };
+    assert_eq!(row("ann2")["counts"], "2");
+    assert_eq!(row("bob1")["status"], "several attempts");
+    let why = "another submission by the same person could also count";
+    assert_contains(&row("bob1")["why"], &[why]);
+}

@@ -2,6 +2,8 @@
 //! Nothing a student chooses may cause such characters to appear in the teacher's terminal, tables
 //! or pages.
 
+use std::collections::BTreeSet;
+
 use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
 use class::final_grades::GradeChanges;
 use class::gradebook::{CellChange, FilledGradebook};
@@ -151,7 +153,7 @@ fn preview_with(text: &str) -> String {
 /// Returns everything that a teacher reads: the name and the text of each output.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let class = class_with(text);
-    let summary = ClassSummary::new(&class);
+    let summary = ClassSummary::new(&class, &BTreeSet::new());
     let changes = vec![ScoreChange {
         id: text.to_owned(),
         was: 1,

@@ -111,3 +111,18 @@ fn elsewhere_each_person_gets_a_page_with_a_safe_name() {
     let page = |index: usize| String::from_utf8(files[index].1.clone()).unwrap();
     assert!(page(4).contains("by Tess: late") && !page(3).contains("Tess"));
 }
+
+#[test]
+fn namesakes_in_brightspace_are_told_apart_by_their_numbers() {
+    let class = TestClass::named("class")
+        .with_reference("104-17 - Ann Lee - Nov 20, 2026 1134 PM")
+        .with_reference("108-17 - Ann Lee - Nov 20, 2026 1135 PM")
+        .with_reference("109-17 - Bob Kim - Nov 20, 2026 1136 PM");
+    let (files, _) = hand_back(&class, &[]);
+    let expected = [
+        "Ann_Lee_104_feedback.html",
+        "Ann_Lee_108_feedback.html",
+        "Bob_Kim_feedback.html",
+    ];
+    assert_eq!(names(&files), expected);
+}

@@ -131,9 +131,19 @@ fn a_missing_file_costs_its_tasks_points_and_can_be_handed_in_later() {
     let page = class.read("students/fay/feedback.html");
     assert_contains(&page, &["camera.rs is missing"]);
 
+    let remedy = "a file is missing: camera.rs; ask for it, using the message in hand-in-again";
+    assert_contains(&printed, &[remedy]);
+
     let manual = "student,task,delta,comment,author\nfay,camera,1,shown in class,Tess\n";
-    class.graded_with(&exam, &[("manual-points", manual)], &[]);
+    let blind = class.path_beside("blind");
+    let options = ["--anonymous", blind.to_str().unwrap()];
+    let printed = class.graded_with(&exam, &[("manual-points", manual)], &options);
     assert!(texts(&class).is_empty(), "staff have decided");
+    let page = fs::read_to_string(blind.join("class.html")).unwrap();
+    for text in [printed, class.read("class.html"), page] {
+        assert_contains(&text, &["a file is missing: camera.rs"]);
+        assert!(!text.contains("using the message"), "{text}");
+    }
 }
 
 #[test]

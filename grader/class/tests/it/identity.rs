@@ -295,3 +295,16 @@ fn a_namesakes_folder_that_was_renamed_is_confirmed_by_its_number() {
         &["the number 400306 was not used, because a list assigns it to Ann Lee"],
     );
 }
+
+#[test]
+fn a_roster_may_write_the_family_name_first() {
+    let class = TestClass::named("class")
+        .with_minimal_submission("Zoë Müller")
+        .with_minimal_submission("Jane Doe Jr");
+    let text = "name,email\n\"Müller, Zoë\",z@x.edu\n\"Jane Doe, Jr.\",j@x.edu\n";
+    let roster = class.write_beside("roster.csv", text);
+    let preview = class.preview_of(&class.input(), &["--roster", &roster]);
+    let people = ["Zoë Müller", "Jane Doe, Jr."].map(all_files);
+    assert_contains(&preview, &people);
+    assert!(!preview.contains("without a submission"), "{preview}");
+}

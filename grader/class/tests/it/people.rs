@@ -32,6 +32,12 @@ fn the_policy_says_which_of_several_attempts_counts() {
     for submission in ["ann", "u1"] {
         assert_eq!(ann(submission, "status"), "several attempts");
         assert_eq!(ann(submission, "counts"), "");
+        let page = class.read(&format!("students/{submission}/feedback.html"));
+        assert_contains(
+            &page,
+            &["No points count yet: the staff still have to decide."],
+        );
+        assert!(!page.contains("[attempts]"), "this is for staff: {page}");
     }
     assert_eq!(cell(&class, "bob", "Bob", "counts"), "100");
 
@@ -75,7 +81,10 @@ Ann Lee,camera,0,see me,Tess
     let output = class.grade(&exam, &lists.iter().map(String::as_str).collect::<Vec<_>>());
     successful_stdout(&output);
     let error = String::from_utf8(output.stderr).unwrap();
-    assert_contains(&error, &["an extension for \"zoe\""]);
+    assert_contains(
+        &error,
+        &["an extension for \"zoe\", who is not in this class: use a name"],
+    );
     let of = |submission, name| {
         ["counts", "points", "manual", "late_days"]
             .map(|column| cell(&class, submission, name, column))
@@ -91,6 +100,9 @@ Ann Lee,camera,0,see me,Tess
     );
     assert_eq!(of("ann", "Bea Berg"), format!("90 {most}  1"));
     assert_eq!(of("carl", "Carl C"), format!("{} 0 1 0", counts(1.0)));
+    assert_eq!(cell(&class, "carl", "Carl C", "counts_max"), "100");
+    assert_contains(&class.read("class.html"), &["Counts (of 100)"]);
+    assert_contains(&class.read("class.json"), &["\"counts_max\": 100"]);
     let comment = cell(&class, "carl", "Carl C", "comments");
     assert_eq!(
         comment,
@@ -101,12 +113,19 @@ Ann Lee,camera,0,see me,Tess
     let line = "camera: +1 point by Tess: =HYPERLINK(&quot;x&quot;) &lt;b&gt;good&lt;/b&gt; sketch";
     assert!(page.contains(line), "{page}");
     assert!(page.contains("1 point added by hand"));
-    let page = class.read("students/ann/feedback.html");
     let expected = [
         "Ann Lee: sphere: -1 point by Tess: copied",
         "Bea Berg: 90 of 100 points count",
     ];
-    assert_contains(&page, &expected);
+    assert_contains(&class.read("students/ann/report.html"), &expected);
+    // The page is for both, and neither may see the other's points.
+    let page = class.read("students/ann/feedback.html");
+    let expected = "The members of this group have different final points";
+    assert_contains(&page, &[expected]);
+    assert!(
+        !page.contains("Tess") && !page.contains("points count"),
+        "{page}"
+    );
     // The graded files stay unchanged.
     let score = class.read("students/carl/score.json");
     assert!(score.contains("\"points\": 0"), "{score}");

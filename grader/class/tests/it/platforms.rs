@@ -271,7 +271,10 @@ fn the_last_version_in_teams_counts_if_the_policy_says_so() {
         .with_starter(&version(9));
     let exam = class.small_exam(&["camera.offset"]);
     let policy = ("policy", "[attempts]\ncounts = 'latest'\n");
-    class.graded_with(&exam, &[policy], &[]);
+    let roster = ("roster", "name\nBob Kim\n");
+    let text = class.graded_with(&exam, &[policy, roster], &["--accept-unlisted"]);
+    assert_contains(&text, &["1 handed in by people who aren't on the lists"]);
+    assert!(!text.contains("belong to the same person"), "{text}");
     let status = |id: &str| cell(&class, id, "Ann Lee", "status");
     let all = ["Ann_Lee_2", "Ann_Lee_9", "Ann_Lee_10"].map(status);
     let other = "another attempt counts";

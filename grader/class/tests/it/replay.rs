@@ -3,9 +3,12 @@
 
 use std::fs;
 
+use grader::handed_out::RAYS;
 use serde_json::Value;
 
-use crate::harness::{TestClass, assert_contains, refusal, successful_stdout};
+use crate::harness::{
+    TestClass, assert_contains, cell, refusal, source, successful_stdout, table, zip,
+};
 
 const MANUAL: &str = "student,task,delta,comment,author,date\n\
     bob@x.edu,camera,1,the idea is right,Tess,2026-11-30\n\
@@ -70,4 +73,49 @@ fn a_decision_stays_visible_to_staff_and_the_student() {
         &page,
         &["camera: +0 points by Tess: asked about the offset"],
     );
+}
+
+/// Each name stands for the attempt that counts. Blackboard's attempts don't have folders.
+#[test]
+fn a_person_with_several_attempts_is_found_by_the_one_that_counts() {
+    let attempt = |class: TestClass, day: u32, from: &str| {
+        let name = format!("CG26_ann_attempt_2026-11-{day}-10-00-00");
+        let class = class.with(&format!("{name}.txt"), "Name: Ann Lee (ann)\n");
+        RAYS.file_names().fold(class, |class, file| {
+            let text = source(&format!("{from}/{file}"));
+            class.with(&format!("{name}_{file}"), text)
+        })
+    };
+    let class = attempt(TestClass::named("class"), 19, "grader/starter");
+    let class = attempt(class, 21, "grader/starter");
+    let class = attempt(class, 20, "reference/src");
+    let exam = class.small_exam(&["camera.offset"]);
+    let roster = "name,username,email\nAnn Lee,ann,ann@x.edu\n";
+    let graded = |rule: &str, more: &[&str]| {
+        let policy = format!("[late]\ntimezone = 'UTC'\n[attempts]\ncounts = '{rule}'\n");
+        class.graded_with(&exam, &[("roster", roster), ("policy", &policy)], more)
+    };
+    let replay = |who: &str| class.replay(&class.out(), &[who, "camera.offset", "--exam", &exam]);
+    graded("ask", &[]);
+    let ids = table(&class.read("grades.csv")).into_iter();
+    let ids = Vec::from_iter(ids.map(|row| row["submission"].clone()));
+    let error = refusal(&replay("ann@x.edu"));
+    let expected = format!("could be {}: use one of these names", ids.join(" or "));
+    assert_contains(&error, &[expected]);
+    for (rule, id) in [("best", &ids[1]), ("latest", &ids[2])] {
+        graded(rule, &[]);
+        for who in ["ann@x.edu", "Ann Lee"] {
+            let title = format!("{id} (Ann Lee)\n");
+            assert_contains(&successful_stdout(&replay(who)), &[title]);
+        }
+    }
+    let again = class.path_beside("again");
+    fs::create_dir(&again).unwrap();
+    let files = RAYS.file_names();
+    let files = files.map(|file| (file, source(&format!("reference/src/{file}"))));
+    fs::write(again.join("Ann Lee.zip"), zip(files)).unwrap();
+    for _ in 0..2 {
+        graded("latest", &["--corrected", again.to_str().unwrap()]);
+        assert_eq!(cell(&class, &ids[2], "Ann Lee", "counts"), "2");
+    }
 }

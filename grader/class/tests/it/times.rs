@@ -1,6 +1,7 @@
 //! Submission times, extensions and late flags, in the formats of rosters and platforms.
 
 use crate::harness::{TestClass, assert_contains, cell, source};
+use crate::page::section;
 
 const POLICY: &str = "[late]\ndue = 2026-10-20T23:59:00+02:00\ntimezone = 'Europe/Berlin'\n\
                       percent_per_day = 10\n";
@@ -172,5 +173,33 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
         "the extension \"lundi 26 octobre 2026, 23:59\"",
     );
     is_open("German_5", "German", "set Moodle's language to English");
-    assert_contains(&text, &["Draft: the status in Moodle's worksheet"]);
+    let expected = [
+        "Draft: the status in Moodle's worksheet",
+        "2 without final points, because it is unclear when they were submitted",
+        "1 only saved as a draft, no final points",
+    ];
+    assert_contains(&text, &expected);
+}
+
+#[test]
+fn the_test_student_is_counted_separately() {
+    let class = TestClass::named("class")
+        .with("leeann_7001_9001_camera.rs", camera())
+        .with("kimbob_LATE_7002_9002_camera.rs", camera())
+        .with("studenttest_7009_9009_camera.rs", camera());
+    let gradebook = "Student,ID,SIS Login ID,Section,Path (7)\n\
+                     \"Lee, Ann\",7001,ann,A,\n\"Kim, Bob\",7002,bob,A,\n";
+    let text = grade(&class, "canvas", gradebook);
+    let expected = [
+        "2 graded, small exam",
+        "1 by Canvas's test student",
+        "2 counted as on time or 1 day late",
+    ];
+    assert_contains(&text, &expected);
+    let page = class.read("class.html");
+    let expected = "2 graded, 0 with nothing to grade, 0 not graded, 1 by Canvas's test student, \
+                    0 without a submission.";
+    assert_contains(&page, &[expected]);
+    let times = "Submission times\nHanded in | Students\non time | 1\n1 day late | 1\n";
+    assert_contains(&section(&page, "times"), &[times]);
 }

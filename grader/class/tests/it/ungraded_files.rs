@@ -227,3 +227,20 @@ fn a_submission_that_is_too_large_affects_no_other() {
         assert!(line.contains(&format!("nothing to grade: {why}")), "{line}");
     }
 }
+
+#[test]
+fn files_that_a_platform_writes_into_a_folder_are_not_handed_in() {
+    let class = TestClass::named("Path tracer")
+        .with_minimal_submission("Lee, Ann(ann)/Submission attachment(s)")
+        .with("Kim, Bob(bob)/timestamp.txt", "20261120173000000");
+    assert_contains(
+        &class.preview(),
+        &["Bob Kim: nothing to grade: nothing was handed in\n"],
+    );
+    let class = TestClass::named("pt-submissions")
+        .with_minimal_submission("pt-ann")
+        .with("pt-bob/README.md", "# Path tracer")
+        .with("pt-bob/result.json", "{}");
+    let expected = "bob: nothing to grade: none of the task files was handed in, only README.md\n";
+    assert_contains(&class.preview(), &[expected]);
+}

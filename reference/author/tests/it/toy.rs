@@ -138,6 +138,7 @@ fn the_generated_files_of_the_toy_are_in_sync_and_its_exam_is_proven() {
     let mistakes = MistakesArgs {
         seeds: None,
         table: false,
+        task: None,
         check,
         record,
     };

@@ -52,6 +52,8 @@ pub fn render_page(
                     p {
                         (summary.graded) " graded, " (summary.nothing_to_grade)
                         " with nothing to grade, " (summary.not_graded) " not graded, "
+                        @if summary.superseded > 0 { (summary.superseded) " replaced by another attempt, " }
+                        @if summary.by_test_student > 0 { (summary.by_test_student) " by Canvas's test student, " }
                         (summary.missing) " without a submission."
                     }
                 }

@@ -8,7 +8,9 @@ use crate::report::grades::LATE;
 
 pub(super) fn submissions(class: &GradedClass) -> Markup {
     let tasks = class.tasks();
-    let numbers = ["Counts", "Points"].into_iter();
+    let of = class.counts_max().map(|most| format!(" (of {most})"));
+    let counts = format!("Counts{}", of.unwrap_or_default());
+    let numbers = [counts.as_str(), "Points"].into_iter();
     let numbers = numbers.chain(tasks.iter().map(|task| task.title.as_str()));
     let table = html! { table .sortable {
         (header(&["Who"], numbers.map(sanitized), "Notes"))

@@ -1,6 +1,8 @@
 //! Score files that `cargo class` reads back. They may come from other machines or from a killed
 //! run.
 
+use std::collections::BTreeSet;
+
 use class::entry::EntryInfo;
 use class::graded_class::{ClassRow, GradedClass};
 use class::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
@@ -37,7 +39,7 @@ pub fn read(bytes: &[u8]) {
             .into(),
         missing: Vec::new(),
     };
-    let class_summary = ClassSummary::new(&class);
+    let class_summary = ClassSummary::new(&class, &BTreeSet::new());
     assert!(
         page::render_page(&class, &class_summary, &Changes::default(), &[]).ends_with("</html>")
     );

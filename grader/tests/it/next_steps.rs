@@ -5,7 +5,7 @@ use std::process::Command;
 
 use grader::handed_out::RAYS;
 
-use crate::cases::{REFERENCE, STARTER};
+use crate::cases::REFERENCE;
 use crate::harness::{GradeRun, Submission, grade_into, linked_workspace, shell_line, workspace};
 
 /// Returns the starter with these files replaced by the reference's.

@@ -12,7 +12,8 @@ use glam::{UVec2, Vec2};
 use protocol::{Panic, Trace};
 
 use crate::messages::{
-    Draw, DrawnPixels, Follow, MAX_PANICS, MarkedTests, Quantity, RecordedRays, Target, Values,
+    Draw, DrawnPixels, Follow, MAX_PANICS, MAX_STEP_BYTES, MAX_STEPS, MarkedTests, Quantity,
+    RecordedRays, Target, Values,
 };
 use crate::open_scene::OpenScene;
 use crate::record;

@@ -50,6 +50,20 @@ fn every_ray_of_a_path_is_listed() {
     }
     assert!(rays.iter().all(|ray| ray["boxes"].as_u64() > Some(0)));
     assert_eq!(explanation["radiance"].as_array().unwrap().len(), 3);
+    let steps = explanation["steps"].as_array().unwrap();
+    let begin_with = |word: &str| {
+        steps
+            .iter()
+            .any(|step| step.as_str().unwrap().starts_with(word))
+    };
+    assert!(
+        ["hit: ", "light: ", "light pdf: ", "scatter: "]
+            .into_iter()
+            .all(begin_with),
+        "{steps:?}"
+    );
+    let no_path = viewer.explain([16, 8], None);
+    assert_eq!(no_path["steps"].as_array().unwrap().len(), 0);
 }
 
 /// Returns the rules that a submission's traversal breaks in a sample of a scene's pixels.

@@ -14,6 +14,7 @@ use crate::scene_data::{Aim, SceneData};
 use limits::{at_most, fixed_width};
 
 pub use limits::{MAX_PANICS, MAX_VALUES};
+pub(crate) use limits::{MAX_STEP_BYTES, MAX_STEPS};
 pub use recorded::{RecordedRay, RecordedRays, Test};
 
 /// A request from the viewer.

@@ -8,7 +8,7 @@ use glam::Vec3;
 use judging::assignment::RAYS;
 use judging::exam::{ExpectedRows, Item, Key, TreeCheck};
 use judging::scene::{self, QuestionScene};
-use judging::symptom::Symptom;
+use judging::symptom::{Side, Symptom};
 use protocol::{Question, Ray, Shape};
 
 use crate::harness::{SEEDS, exam_of};
@@ -80,8 +80,15 @@ fn possible_symptoms(key: &Key) -> Vec<Symptom> {
                 ExpectedRows::Hits(_) | ExpectedRows::Spans(_) => vec![Symptom::MISS, Symptom::HIT],
                 ExpectedRows::Rays(_) | ExpectedRows::Directions(_) => Vec::new(),
             };
+            let directions = judged
+                .iter()
+                .filter(|judged| ["normal", "direction"].contains(&judged.as_str()));
+            let reversed = directions.map(|direction| Symptom {
+                side: Some(Side::Reversed),
+                ..any(direction)
+            });
             let judged = judged.iter().map(|judged| any(&quantity(judged)));
-            presence.into_iter().chain(judged).collect()
+            presence.into_iter().chain(judged).chain(reversed).collect()
         }
         Key::FirstHits { .. } => vec![
             Symptom::MISS,

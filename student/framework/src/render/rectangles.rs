@@ -72,8 +72,8 @@ impl Rectangle {
         if !ray.range.contains(distance) {
             return None;
         }
-        let position = ray.at(distance);
-        let from_corner = position - self.corner.position;
+        let point = ray.at(distance);
+        let from_corner = point - self.corner.position;
         // Each coordinate is the part of the area on that side of the point.
         let along = |side: Vec3, other: Vec3| {
             from_corner.cross(other).dot(normal) / side.cross(other).dot(normal)
@@ -82,7 +82,7 @@ impl Rectangle {
         let is_inside = (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y);
         is_inside.then(|| Trace {
             distance,
-            position,
+            position: point,
             normal: self.corner.normal,
             uv: self.corner.uv + x * self.uv[0] + y * self.uv[1],
             origin: ray.origin,
@@ -123,8 +123,8 @@ impl Submission for GivenRectangles<'_> {
 
 impl Aggregate for Rectangles {
     fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
-        let hits = self.0.iter().filter_map(|rectangle| rectangle.hit(ray));
-        hits.min_by(|a, b| a.distance.total_cmp(&b.distance))
+        let hits = self.0.iter().map(|rectangle| rectangle.hit(ray));
+        hits.fold(None, Trace::nearer)
     }
 }
 

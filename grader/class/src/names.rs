@@ -12,7 +12,7 @@ pub fn fold(text: &str) -> String {
     lower.nfc().collect()
 }
 
-/// Returns whether two texts are the same name or identifier.
+/// Returns whether two strings stand for the same name or identifier.
 pub fn are_equal(one: &str, other: &str) -> bool {
     if one.is_ascii() && other.is_ascii() {
         one.trim().eq_ignore_ascii_case(other.trim())

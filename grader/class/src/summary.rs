@@ -57,7 +57,8 @@ pub struct ClassSummary {
     pub by_test_student: usize,
     /// The number of submissions that the teacher has yet to choose or reject.
     pub undecided: usize,
-    /// The maximum of the final points, which the policy may change, or `None` if there are none.
+    /// The maximum possible final points, which the policy may change. `None` if nobody has final
+    /// points.
     pub counts_max: Option<u32>,
     /// The distribution of the total points, or `None` if there are no scores.
     pub points: Option<Distribution>,

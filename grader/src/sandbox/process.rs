@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::machine::system::{self, ExitReason, Limits, ProcessTime};
 use crate::sandbox::launch_request::READY;
 
-/// The maximum number of bytes to read of a launcher's error message.
+/// The maximum number of bytes of a launcher's error message to read.
 const MAX_REASON_BYTES: u64 = 4 << 10;
 
 /// A running program, with pipes to its three standard streams. The program is killed when this

@@ -146,7 +146,7 @@ fn read_finished_run(shard: Store) -> Result<(Store, Run), Error> {
     match run {
         Some(run) if run.state == RoundState::Finished => Ok((shard, run)),
         Some(_) => Err(Error::user(format!(
-            "{path} is not finished: run its `cargo class --shard` again"
+            "{path} is not finished: run the same `cargo class --shard` command again"
         ))),
         None => Err(Error::user(format!(
             "{path} contains no results from `cargo class --shard`"
@@ -166,7 +166,7 @@ fn check_compatible(one: &(Store, Run), other: &(Store, Run)) -> Result<(), Erro
     what.retain(|what| !local.contains(what));
     let why = if one.1.class != other.1.class {
         " because submissions were added or removed between the two runs, so somebody could be missing: run \
-         each `cargo class --shard` again, which keeps existing results"
+         every `cargo class --shard` command again (existing results are kept)"
             .to_owned()
     } else if !what.is_empty() {
         format!(": they differ in {}", what.join(", "))

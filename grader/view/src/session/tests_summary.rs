@@ -12,8 +12,8 @@ use crate::model::tiles::LayerKind;
 pub(super) struct TestsSummary {
     #[serde(flatten)]
     averages: TestAverages,
-    /// The averages for the most recent earlier version of the code that was fully drawn with this
-    /// camera.
+    /// The averages for the previous version of the code, if its picture from this camera was
+    /// finished.
     before: Option<TestAverages>,
     /// The reason steps cannot be judged.
     problem: Option<&'static str>,

@@ -8,7 +8,7 @@ use protocol::{Trace, Tree};
 pub enum ViewMode {
     /// The scene with its lighting.
     Shaded,
-    /// The shapes in clay, without materials and lights: dark where they are close to each other.
+    /// The shapes rendered in clay, without materials or lights: dark where they are close together.
     Clay,
     /// `Trace::normal`: x, y and z from −1 to 1 as red, green and blue.
     Normals,

@@ -363,8 +363,7 @@ const WAY: Aspect<BoxCall> = Aspect {
 /// half the diagonal.
 const CORNER: f64 = 0.953;
 
-/// The part of the ray's path through a distant box that is within the times, if that part is
-/// short.
+/// The part of a ray's path through a distant box that falls within `times`, if that part is short.
 const SHORT_TIMES: Aspect<BoxCall> = Aspect {
     name: "part of the way through",
     classes: &[

@@ -215,7 +215,7 @@ pub(super) const COST_SHEETS: Declaration = Declaration {
 
 pub(super) const COST_TOWN: Declaration = Declaration {
     id: "build.cost_town",
-    title: "for dense clusters in empty space, areas and counts decide together",
+    title: "for dense clusters in empty space, both areas and counts determine the split",
     look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
            together with its cost.",
     look_fits: &[Symptom::of("SAH cost")],

@@ -133,8 +133,8 @@ pub(super) const PICTURE: Declaration = Declaration {
     id: "traverse.picture",
     title: "a picture of the contents of a tree's leaves is correct in every quantity",
     look: "Follow the ray of one wrong pixel from the root: which nodes should it enter, and which \
-           primitives should it test? If a piece is missing there, see whether your code skips it \
-           or loses it to a farther hit.",
+           primitives should it test? If your traversal leaves one out, see whether it skips the \
+           node or loses the hit to a farther one.",
     section: "grading.md#reading-a-wrong-picture",
     tests: &["Returns the ray's…"],
     questions: picture,

@@ -113,9 +113,9 @@ impl ExamRun {
         Ok(ExamRun { answers, culprit })
     }
 
-    /// Returns the indices of the first question that was answered wrongly and of the wrong element
-    /// in it. If the program crashed or hung, returns the indices of the question and the element
-    /// that caused this, or zeros if they aren't known.
+    /// Returns the indices of the first question with a wrong answer and of the wrong element in
+    /// it. If the program crashed or hung, returns the indices of the question and the element that
+    /// caused this, or zeros if they aren't known.
     fn first_wrong(&self, item: &Item) -> Option<(usize, usize)> {
         let Ok(answers) = &self.answers else {
             return Some(self.culprit.unwrap_or((0, 0)));

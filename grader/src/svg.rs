@@ -1,6 +1,6 @@
 //! Formats numbers, paths and text for SVG images.
 //!
-//! The elements are written as `maud` markup, which escapes text. The markup has no equivalent of
+//! The elements are written as `maud` markup, which escapes text. The markup doesn't support
 //! `<path/>`, so an element without contents is written `path d=(…) {}`. With a `;` instead of the
 //! braces, the element wouldn't be closed, which is invalid XML.
 

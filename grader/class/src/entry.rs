@@ -16,7 +16,7 @@ pub const NUMBER: &str = "{number}";
 /// One submission of a class, before its files are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The id, which is unique in the class. The folder with the entry's results has the same name.
+    /// The id, which is unique in the class. It is also the name of the folder with the results.
     pub id: String,
     /// Information about the submission, such as who handed it in.
     pub info: EntryInfo,
@@ -270,7 +270,7 @@ impl Person {
 
     /// Returns whether both records describe the same person. They must share a unique identifier,
     /// or they must have the same number and, if both names are known, similar names. A name on its
-    /// own is never enough, since two people may have the same name.
+    /// own is never enough, since two people may share it.
     pub fn matches(&self, other: &Person) -> bool {
         let pairs = self.own_identifiers().into_iter();
         let mut pairs = pairs.zip(other.own_identifiers());

@@ -75,8 +75,7 @@ pub struct GradeChanges {
 }
 
 impl GradeChanges {
-    /// Returns whether nothing changed: neither a final grade nor anything that final grades depend
-    /// on.
+    /// Returns whether nothing changed: no final grade, and nothing that final grades depend on.
     pub fn is_empty(&self) -> bool {
         self.causes.is_empty() && self.changes.is_empty()
     }

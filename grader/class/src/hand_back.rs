@@ -1,5 +1,5 @@
-//! One archive with the pages to hand back. Its files have the names that Canvas and Moodle expect
-//! for an upload. For other platforms, they are named after the people.
+//! One archive with the pages to hand back. Its files are named as Canvas and Moodle expect for an
+//! upload. For other platforms, they are named after the people.
 //!
 //! Canvas reads the first two numbers between underscores as the IDs of the user and the
 //! attachment, and shows the page under the attachment's name. The page for a submitted zip is

@@ -139,8 +139,8 @@ pub struct Reason {
 }
 
 /// A sentence about submissions that need attention for the same reason, and a map of these
-/// submissions, keyed by detail. If all submissions have the same detail, it is part of the
-/// sentence instead, and the key is empty.
+/// submissions, keyed by detail. If all submissions share a detail, it is part of the sentence
+/// instead, and the key is empty.
 pub type AttentionGroup<'a> = (String, BTreeMap<&'a str, Vec<&'a Outlier>>);
 
 /// Groups the submissions that need attention by cause and remedy.

@@ -137,7 +137,7 @@ pub(super) fn because_of(
     submission: &Submission,
     errors: &[Diagnostic],
 ) -> NotCompiled {
-    /// The maximum number of errors to show. Many have the same cause.
+    /// The maximum number of errors to show. Many share a cause.
     const MAX_ERRORS: usize = 3;
     let task_files = submission.handed_out.files;
     let about_source = errors.iter().filter(|error| error.is_about_source());

@@ -16,7 +16,7 @@ const CRATES: &str = "cpp.md#crates";
 const BORROWS: &str = "cpp.md#recursion-that-fills-a-vector";
 
 /// Triples of an error code, words in the compiler's text, and the section that explains errors
-/// that match both. Syntax errors have no code. The first match is used.
+/// that match both. For syntax errors, the code is empty. The first match is used.
 const SECTIONS: [(&str, &str, &str); 51] = [
     ("", "expected `;`", BLOCKS),
     ("", "expected one of `.`, `;`", BLOCKS),

@@ -339,7 +339,7 @@ impl Rustc {
     }
 }
 
-/// Returns the result of an attempt that has no time left.
+/// Returns the result of an attempt that ran out of time.
 fn stopped() -> CompileAttempt {
     CompileAttempt::Certain(CompileOutcome::Failed(used_up_message()))
 }

@@ -19,7 +19,7 @@ pub struct Crate<'a> {
     /// every submission may import.
     pub links: &'a [(&'a str, &'a Path)],
     /// Folder that contains the dependencies of `links`, apart from the crates that every
-    /// submission may import. `None` if `links` has no other dependencies.
+    /// submission may import. `None` if `links` doesn't need other crates.
     pub dependency_folder: Option<&'a Path>,
 }
 

@@ -41,8 +41,8 @@ pub struct ReferenceParts {
     root: String,
     /// The root of the crate that answers questions, compiled separately from the submission.
     probe: String,
-    /// The module that wraps the submission's file in the crate that answers questions. It has the
-    /// same name as the file.
+    /// The module that wraps the submission's file in the crate that answers questions. It is named
+    /// like the file.
     wrapper: String,
 }
 

@@ -25,7 +25,7 @@ const LINUX_ONLY_CRATE: &str = "/landlock-";
 /// Options and commands that are followed by the name of a Rust toolchain.
 const INSTALLERS: [&str; 2] = ["--default-toolchain ", "toolchain install "];
 
-/// Returns whether a script installs a toolchain that has no fixed version, such as `stable`.
+/// Returns whether a script installs a toolchain without a fixed version, such as `stable`.
 fn installs_floating(script: &[u8], installer: &str) -> bool {
     let script = String::from_utf8_lossy(script);
     let mut toolchains = script.split(installer).skip(1);

@@ -18,7 +18,7 @@ pub struct FormatSpec {
     pub file: &'static str,
     /// The environment variables whose values are copied into the file. All of them must be set.
     pub variables: &'static [&'static str],
-    /// The environment variable that holds the path of a file to which several commands on the
+    /// The environment variable that contains the path of a file to which several commands on the
     /// platform append. If the variable is set, the text is appended to that file unless a
     /// different path is requested.
     pub shared_file: Option<&'static str>,

@@ -39,8 +39,8 @@ pub trait Disk: Send + Sync {
 
 static INSTALLED: OnceLock<&'static dyn Disk> = OnceLock::new();
 
-/// Installs a disk for the rest of this process. Returns `false` if a disk has already been
-/// installed. In that case, the new disk has no effect.
+/// Installs a disk for the rest of this process. If a disk has already been installed, ignores the
+/// new one and returns `false`.
 pub fn install(disk: &'static dyn Disk) -> bool {
     INSTALLED.set(disk).is_ok()
 }

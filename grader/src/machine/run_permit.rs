@@ -11,7 +11,7 @@ static RUNNING: RwLock<()> = RwLock::new(());
 /// Attempts an operation while other programs may run. If the machine may be to blame for the
 /// outcome, tries once more while nothing else runs. If the machine may still be to blame, calls
 /// `control`, which attempts the same operation with the grader's own code and returns an error if
-/// that fails too. Otherwise, the outcome stands. Neither `attempt` nor `control` may call this
+/// that fails too. Otherwise, the outcome stands. `attempt` and `control` must not call this
 /// function.
 pub fn decide<T>(
     mut attempt: impl FnMut() -> io::Result<T>,

@@ -51,7 +51,7 @@ impl Policy {
         }
     }
 
-    /// Returns the lateness of a submission that was handed in at `submitted` and has these
+    /// Returns the lateness of a submission that was handed in at `submitted`, given these
     /// extensions. Returns `None` if the policy doesn't set a due time.
     pub fn lateness(&self, submitted: Timestamp, extensions: &[Extension]) -> Option<Lateness> {
         let due = self.extended_due(extensions)?;

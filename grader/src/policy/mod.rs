@@ -119,7 +119,7 @@ pub struct LatePolicy {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttemptsPolicy {
-    /// The rule for choosing the submission that counts.
+    /// The rule that decides which submission counts.
     pub counts: AttemptRule,
 }
 

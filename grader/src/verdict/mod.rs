@@ -401,7 +401,7 @@ pub fn add_clue(line: &mut ItemScore, clue: Option<&str>) {
 }
 
 /// Returns the score of an item that was graded with substituted parts. This is the score that
-/// counts: in it, mistakes in other files neither cost points nor hide a mistake in this file.
+/// counts: in it, mistakes in other files don't cost points or hide a mistake in this file.
 pub fn substituted_score(by: &str, own: &ItemScore, substituted: ItemScore) -> ItemScore {
     let message = match (own.verdict == Verdict::Pass, substituted.message.as_str()) {
         (true, "") => String::new(),

@@ -22,7 +22,7 @@ const SKIPPED: [&str; 9] = [
     "Cargo.lock",
 ];
 
-/// Returns the files below a path that have one of these extensions.
+/// Returns the files with these extensions below a path.
 fn files(path: &str, extensions: &[&str]) -> Vec<Source> {
     let absolute = workspace().join(path);
     if SKIPPED.contains(&path) {

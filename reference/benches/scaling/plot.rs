@@ -1,6 +1,6 @@
 //! Draws the plot. The left panel compares the number of tests per ray with the number that brute
-//! force needs. The right panel has a linear vertical axis, so that counts that grow
-//! logarithmically with the number of triangles are straight lines.
+//! force needs. The right panel has a linear vertical axis, which turns counts that grow
+//! logarithmically with the number of triangles into straight lines.
 
 use maud::{Markup, html};
 

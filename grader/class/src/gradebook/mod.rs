@@ -83,7 +83,7 @@ enum KeyKind {
     Login,
     /// An email address. A person may have several.
     Email,
-    /// A name. Two people may have the same name.
+    /// A name. Several people may share it.
     Name,
 }
 

@@ -77,8 +77,8 @@ impl Layout {
         &Platform::of(self).description
     }
 
-    /// Returns the path of the list of people in a platform's download. `root` is the class's
-    /// folder.
+    /// Finds the list of people in a platform's download and returns its path. `root` is the
+    /// class's folder.
     pub fn find_list(self, root: &Node) -> Option<PathBuf> {
         let list = root.find(Platform::of(self).list.as_ref()?)?;
         Some(list.path.clone())

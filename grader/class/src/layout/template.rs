@@ -179,7 +179,7 @@ fn fits(field: &str, text: &str) -> bool {
 }
 
 /// Returns whether a string can be a student's name as Canvas writes it. Unlike a date, the name
-/// contains a letter. It has no number in the middle, because Canvas removes numbers there. `LATE`
+/// contains a letter. Its middle parts aren't numbers, because Canvas removes numbers there. `LATE`
 /// after the name is not part of it.
 fn is_canvas_name(name: &str) -> bool {
     let parts: Vec<&str> = name.split('_').collect();

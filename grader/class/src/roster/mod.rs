@@ -67,7 +67,7 @@ impl Member {
         is_identified || is_named
     }
 
-    /// Returns whether this row has the person's name.
+    /// Returns whether the name in this row matches the person's.
     fn is_called(&self, person: &Person) -> bool {
         let known = &self.person.name;
         !known.is_empty() && are_same_in_any_order(known, &person.name)

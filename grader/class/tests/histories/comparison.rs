@@ -12,7 +12,7 @@ use crate::world::{Target, World};
 
 /// The options for writing all files derived from the grades.
 pub const EXPORT: [&str; 2] = ["--hand-back", "--canvas=ROOT/gradebook.csv"];
-/// The files that record a folder's history. A new folder has no history, so these files are
+/// The files that record a folder's history. A new folder starts without one, so these files are
 /// compared with the model instead.
 const HISTORY: [&str; 5] = [
     "run.json",

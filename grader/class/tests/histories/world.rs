@@ -75,7 +75,7 @@ pub struct Ended {
 }
 
 impl World {
-    /// Creates a course in a folder. It has no submissions yet.
+    /// Creates a course in a folder, with no submissions yet.
     pub fn new(root: &Path) -> Self {
         let world = World {
             root: root.to_owned(),

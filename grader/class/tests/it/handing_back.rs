@@ -1,4 +1,4 @@
-//! The archive with the pages to hand back. The pages have the names that each platform expects.
+//! The archive with the pages to hand back. The pages are named as each platform expects.
 
 use grader::handed_out::RAYS;
 

@@ -143,8 +143,8 @@ fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     ");
 }
 
-/// Adds an attempt to a Blackboard export, given the account, the day and an archive. An attempt
-/// with an empty archive has no files.
+/// Adds an attempt to a Blackboard export, given the account, the day and an archive. If the
+/// archive is empty, adds only the receipt.
 fn with_attempt(class: TestClass, attempt: &(&str, u32, &[u8])) -> TestClass {
     let (login, day, archive) = attempt;
     let file = format!("gradebook_CG26_Path_{login}_attempt_2026-11-{day}-10-00-00");

@@ -84,7 +84,7 @@ pub struct TaskClues {
 }
 
 /// The clue for answers with an error in one quantity, or in one of several quantities whose errors
-/// have the same cause.
+/// share a cause.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SymptomClue {
     /// The quantities. If the clue only applies when a quantity is too small, too large or

@@ -14,7 +14,7 @@ pub enum Key {
     /// Key for a table.
     Table {
         /// The quantities to compare, in addition to whether the function returns anything. Each is
-        /// the name of a field of the result or, for the length of a direction, `unit_` followed by
+        /// the name of a field in the result or, for the length of a direction, `unit_` followed by
         /// the direction's name.
         judged: Vec<String>,
         /// The expected row for each call.

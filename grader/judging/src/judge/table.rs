@@ -290,8 +290,8 @@ mod tests {
         ExamQuestion::new(question, Key::share_of_rows(&judged, directions))
     }
 
-    /// Returns an answer whose rays all have these errors in origin, direction and range, given as
-    /// multiples of the tolerances.
+    /// Returns an answer whose rays are all off by this many tolerances in origin, direction and
+    /// range.
     fn rays(origin: f32, direction: f32, range: f32) -> Answer {
         let ray = Ray {
             origin: Vec3::X * (origin * length::TOLERANCE),

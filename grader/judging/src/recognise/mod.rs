@@ -99,7 +99,7 @@ impl Observations {
 }
 
 /// Returns whether at least one of an item's rays should hit something. Pictures are ignored,
-/// because they also depend on other tasks, and a mistake there can be why a picture has no answer.
+/// because they also depend on other tasks, where a mistake can leave a picture without an answer.
 fn can_be_hit(item: &Item) -> bool {
     item.questions.iter().any(|question| match &question.key {
         Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),

@@ -1,5 +1,5 @@
 //! Draws a tree built by the submission: its flaw and its upper levels. Below these, draws the
-//! upper levels of the tree stored in the exam, which has the best split at every node.
+//! upper levels of the tree stored in the exam, which uses the best split at every node.
 
 mod flaw;
 mod geometry;

@@ -41,7 +41,7 @@ pub fn resources(limits: Limits) -> impl Iterator<Item = (Resource, u64)> {
 }
 
 /// Returns the soft and the hard limit. They differ only for CPU time. A process that exceeds the
-/// hard limit is sent SIGKILL, but so is a process that runs out of memory. At the soft limit,
+/// hard limit is sent SIGKILL, just like a process that runs out of memory. At the soft limit,
 /// which is lower, the process is first sent SIGXCPU, so that the two causes can be distinguished.
 pub fn rlimit(resource: Resource, most: u64) -> Rlimit {
     let is_cpu = resource == Resource::Cpu;

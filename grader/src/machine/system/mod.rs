@@ -1,6 +1,6 @@
 //! Functions whose implementations differ between operating systems.
 //!
-//! The functions have the same names and types on every system. A function that a system doesn't
+//! The functions' names and types are the same on every system. A function that a system doesn't
 //! support does nothing or returns `None` there, as documented.
 
 use std::ffi::OsStr;

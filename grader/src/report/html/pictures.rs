@@ -60,7 +60,7 @@ pub(super) fn passed(item: &Item, answers: &ReportAnswers) -> Markup {
 }
 
 /// Renders the submission's last rendered picture next to the reference's, or nothing if the exam
-/// has no rendered pictures.
+/// doesn't contain rendered pictures.
 pub(super) fn beside_the_references(exam: &Exam, answers: &ReportAnswers) -> Markup {
     let mut pictures = exam.items.iter().rev().flat_map(|item| {
         let questions = item.questions.iter().enumerate();

@@ -230,8 +230,8 @@ fn hints(score: &ItemScore) -> Markup {
     }
 }
 
-/// Renders a drawing of the question that was answered wrongly, if it can be drawn. If the code
-/// isn't written yet, draws the first question.
+/// Renders a drawing of the question with the wrong answer, if it can be drawn. If the code isn't
+/// written yet, draws the first question.
 fn figure(score: &ItemScore, item: Option<&Item>, answers: &ReportAnswers) -> Markup {
     let number = match (&score.evidence, &score.verdict) {
         (Some(evidence), _) => Some(evidence.number),

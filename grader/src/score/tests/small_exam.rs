@@ -34,7 +34,7 @@ pub fn item(id: &str, questions: Vec<ExamQuestion>) -> Item {
     }
 }
 
-/// Returns an exam whose items have these ids and are worth 4 points each.
+/// Returns an exam of items with these ids, each worth 4 points.
 pub fn exam(ids: &[&str]) -> Exam {
     let items = ids.iter().map(|id| item(id, vec![boxes(1)]));
     Exam::new(RAYS.assignment, "small", items.collect())

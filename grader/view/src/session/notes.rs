@@ -235,7 +235,7 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
     )
 }
 
-/// Returns the task with this id, or `None` if the assignment has no such task because the part's
+/// Returns the task with this id, or `None` if the assignment doesn't include it because the part's
 /// code is given to the students.
 fn task(submission: &Submission, id: &str) -> Option<&'static TaskInfo> {
     submission.handed_out.assignment.find(id)

@@ -1,5 +1,4 @@
-//! Checks that the viewer's pictures have the same pixels as those from `cargo render`, for any
-//! camera.
+//! Checks that the viewer and `cargo render` produce the same pixels for any camera.
 
 use framework::render::film::{Film, Tone};
 use framework::render::renderer::{Lighting, PathSettings, render};

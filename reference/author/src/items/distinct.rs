@@ -23,10 +23,10 @@ pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> 
 /// Returns whether the correct answer to a question of one item would earn points for a question of
 /// the other item.
 ///
-/// Some questions are skipped. If all rows have the same answer, e.g. the length of a direction, or
-/// if no ray hits anything, only one answer is possible. A tree answers only questions about its
-/// own primitives, which depend on the seed. A picture that hasn't been recorded yet depends on a
-/// random number, which also depends on the seed.
+/// Some questions are skipped. If the answer is the same for all rows, e.g. the length of a
+/// direction, or if no ray hits anything, only one answer is possible. A tree answers only
+/// questions about its own primitives, which depend on the seed. A picture that hasn't been
+/// recorded yet depends on a random number, which also depends on the seed.
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     let answers = other.questions.iter();
     let answers: Vec<Answer> = answers.filter_map(|asked| asked.key.answer()).collect();

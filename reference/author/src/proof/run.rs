@@ -68,7 +68,7 @@ pub(super) fn exam_of(solutions: &Solutions, seed: u64) -> Result<Exam> {
     exams::generate("proof", Seed(seed), solutions)
 }
 
-/// Returns a progress bar that counts up to `count`. `unit` names the things that are counted, e.g.
+/// Returns a progress bar from 0 to `count`. `unit` names the things that are counted, e.g.
 /// "seeds".
 fn progress_bar(count: u64, unit: &'static str) -> ProgressBar {
     let style = ProgressStyle::with_template("{wide_bar} {pos} of {len} {msg}, {eta} left");

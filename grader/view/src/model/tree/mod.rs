@@ -46,8 +46,8 @@ pub struct NodeInfo {
     pub leaf: bool,
     /// The number of primitives below it.
     pub primitives: u32,
-    /// The area of its box as a fraction of the area of the root's box, i.e. the probability that a
-    /// ray that hits the root's box also hits this box.
+    /// The area of its box divided by that of the root's box, i.e. the probability that a ray that
+    /// hits the root's box also hits this box.
     pub area: f32,
     /// The node's own contribution to the expected number of tests for a ray that hits the root's
     /// box.

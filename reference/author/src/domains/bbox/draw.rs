@@ -303,7 +303,7 @@ fn from_the_origin(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     Some(with_times(rng, DVec3::ZERO, dir, furthest))
 }
 
-/// Picks a random ray whose origin has one or two zero coordinates.
+/// Picks a random ray from an origin with one or two zero coordinates.
 fn from_a_plane_of_axes(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let (dir, size) = (fields::direction(rng), bounds.half_side());
     let target = target(rng, bounds);

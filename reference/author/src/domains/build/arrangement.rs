@@ -128,7 +128,7 @@ fn has_equal(shapes: &[Shape]) -> bool {
     !without_repetition(shapes.iter().map(text))
 }
 
-/// Returns whether any two of the shapes have the same box.
+/// Returns whether the boxes of any two shapes are equal.
 fn has_equal_boxes(shapes: &[Shape]) -> bool {
     let text = |shape: &Shape| format!("{:?}", scan::bounds(shape));
     !without_repetition(shapes.iter().map(text))

@@ -386,9 +386,9 @@ const COMMON_FILM: Aspect<CameraCall> = Aspect {
     },
 };
 
-/// The previous sample on the same camera. A sample "in the same column" also has the same offset
-/// in x, and one "in the same row" has the same offset in y. All classes but the first two contain
-/// only calls with clearly different answers.
+/// The previous sample on the same camera. A sample "in the same column" also shares its offset in
+/// x, and one "in the same row" shares its offset in y. All classes but the first two contain only
+/// calls with clearly different answers.
 const HISTORY: Aspect<CameraCall> = Aspect {
     name: "sample before",
     classes: &[

@@ -13,7 +13,7 @@ impl ShapeCall {
         self.scaled(0.75)
     }
 
-    /// Returns the call with a shape that has the same centre and is less than 1% larger.
+    /// Returns the call with a shape that is less than 1% larger, around the same centre.
     pub fn slightly_larger(&self, random: DVec3) -> Self {
         self.scaled(1.0 + (0.005 + 0.004 * random.x) as f32)
     }

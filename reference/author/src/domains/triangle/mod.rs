@@ -313,7 +313,7 @@ const FLAT: Aspect<ShapeCall> = Aspect {
     },
 };
 
-/// The largest angle that counts as narrow, in radians.
+/// The largest narrow angle, in radians.
 const NARROW: f64 = 0.045;
 
 /// The corner whose angle is a right angle or close to one. Most triangles have none.
@@ -454,7 +454,7 @@ fn equal_two<T: PartialEq>([a, b, c]: [T; 3]) -> Option<usize> {
     }
 }
 
-/// The names of the classes. Each names the two corners that have the same value.
+/// The names of the classes. Each names the two corners with the same value.
 const EQUAL: &[&str] = &["at p0 and p1", "at p1 and p2", "at p2 and p0"];
 
 /// The two corners with the same texture coordinates.

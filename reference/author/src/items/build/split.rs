@@ -493,8 +493,8 @@ fn strips(rng: &mut Rng, heights: &[f64], (extent, width): (f64, f64), axis: usi
 }
 
 /// Returns two layers of strips that are much longer than the space between the layers. `ratio` is
-/// that space as a multiple of the extent of the centres along the strips. If the layers are wide,
-/// the centres extend farther along both other axes than along `axis`.
+/// that space divided by the extent of the centres along the strips. If the layers are wide, the
+/// centres extend farther along both other axes than along `axis`.
 fn stack(
     rng: &mut Rng,
     (count, are_wide): (usize, bool),

@@ -123,7 +123,7 @@ fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> Vec<ExamQuestion> {
     questions
 }
 
-/// Creates a question about several hundred spheres, where a leaf may hold all but one of them.
+/// Creates a question about several hundred spheres, where a leaf may contain all but one of them.
 fn large_leaves(rng: &mut Rng, checks: &[TreeCheck]) -> ExamQuestion {
     let count = rng.integer(600, 760) as usize;
     let spheres = meshes::many_spheres(rng, count);

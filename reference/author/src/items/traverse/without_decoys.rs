@@ -57,8 +57,8 @@ pub(super) const CLOSEST_HIT: Declaration = Declaration {
 };
 
 /// Creates questions about three trees with the same rays. The last ray in each question is also
-/// the first ray in the next question, but its answer is different there. The trees have the same
-/// boxes down to the third level, and the last two have the same nodes.
+/// the first ray in the next question, but its answer is different there. The boxes down to the
+/// third level are the same in all trees, and all nodes are the same in the last two.
 fn same_rays_in_three_trees(rng: &mut Rng) -> [ExamQuestion; 3] {
     let first = soup_tree(rng, 48, 1.2, 1);
     let second = with_other_contents(rng, &first);

@@ -93,8 +93,8 @@ fn picture_shapes(rng: &mut Rng) -> Vec<Shape> {
     shapes
 }
 
-/// Returns a triangle that is neither small nor thin, with different normals and texture
-/// coordinates at its corners.
+/// Returns a triangle that isn't small or thin, with different normals and texture coordinates at
+/// its corners.
 fn random_triangle(rng: &mut Rng) -> [Vertex; 3] {
     rng.retry(|rng| {
         let corners = [rng.point(2.0), rng.point(2.0), rng.point(2.0)];

@@ -8,7 +8,7 @@ use glam::{UVec2, Vec2, Vec3};
 use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, TreeNode};
 
 use crate::scene::Scene;
-use crate::submission::{Aggregate, CameraRays, Hierarchy, Submission};
+use crate::submission::{Aggregate, CameraRays, Hierarchy, List, Submission};
 
 /// Returns a scene with a camera at the origin that looks down −z.
 pub(crate) fn scene(environment: f32, materials: &str, shapes: &str) -> Scene {
@@ -85,14 +85,14 @@ impl Submission for SphereSubmission {
     }
 
     fn build(&self, shapes: &[Shape], _: usize) -> Box<dyn Hierarchy> {
+        Box::new(List(self.primitive_list(shapes)))
+    }
+
+    fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
         Box::new(SphereList {
             shapes: shapes.to_vec(),
             alter: self.alter,
         })
-    }
-
-    fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
-        self.build(shapes, 1)
     }
 
     fn prebuilt_tree(&self, shapes: &[Shape], _: &[TreeNode], _: usize) -> Box<dyn Hierarchy> {
@@ -118,29 +118,6 @@ impl Aggregate for SphereList {
             (self.alter)(&mut trace);
             trace
         })
-    }
-}
-
-/// A hierarchy without a tree: each ray is tested against all shapes.
-impl Hierarchy for SphereList {
-    fn root(&self) -> usize {
-        0
-    }
-
-    fn node_count(&self) -> usize {
-        0
-    }
-
-    fn node(&self, index: usize) -> TreeNode {
-        unreachable!("there is no node {index}")
-    }
-
-    fn primitive_count(&self) -> usize {
-        0
-    }
-
-    fn shape(&self, index: usize) -> u32 {
-        unreachable!("there is no primitive {index}")
     }
 }
 

@@ -5,10 +5,10 @@ use std::cell::OnceCell;
 use framework::harness::attempt::attempt;
 use framework::math::sin_cos;
 use framework::scene::Scene;
-use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission, World};
+use framework::submission::{CameraRays, Hierarchy, List, Submission, World};
 use glam::{UVec2, Vec2, Vec3};
 use protocol::{
-    ElementOutcome, ExamCamera, Interval, Panic, PinholeCamera, Ray, Sample, Shape, Trace, TreeNode,
+    ElementOutcome, ExamCamera, Interval, Panic, PinholeCamera, Ray, Sample, Shape, TreeNode,
 };
 
 use crate::indexed_tree::IndexedTree;
@@ -217,36 +217,5 @@ impl CameraRays for ViewerCamera {
     fn ray(&self, pixel: UVec2, offset: Vec2) -> Ray {
         let ViewerCamera(camera) = self;
         camera.ray(Sample { pixel, offset })
-    }
-}
-
-/// A list of primitives as a tree without nodes.
-struct List(Box<dyn Aggregate>);
-
-impl Aggregate for List {
-    fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
-        self.0.closest_hit(ray)
-    }
-}
-
-impl Hierarchy for List {
-    fn root(&self) -> usize {
-        0
-    }
-
-    fn node_count(&self) -> usize {
-        0
-    }
-
-    fn node(&self, index: usize) -> TreeNode {
-        unreachable!("a list has no node {index}")
-    }
-
-    fn primitive_count(&self) -> usize {
-        0
-    }
-
-    fn shape(&self, index: usize) -> u32 {
-        unreachable!("primitive {index} of a list is never read")
     }
 }

@@ -7,6 +7,8 @@ use protocol::{
     TreeNode, Vertex,
 };
 
+use crate::submission::List;
+
 /// How far a rectangle's fourth corner may be from its place, as a fraction of the diagonal.
 const TOLERANCE: f32 = 1e-4;
 
@@ -24,7 +26,7 @@ struct Rectangle {
     triangles: [u32; 2],
 }
 
-/// A list of rectangles.
+/// A list of rectangles. Each ray is tested against all of them.
 struct Rectangles(Vec<Rectangle>);
 
 /// Returns the index of the first shape that isn't half of a rectangle, or `None` if the shapes are
@@ -91,28 +93,22 @@ impl Rectangle {
     }
 }
 
-impl Rectangles {
-    fn new(shapes: &[Shape]) -> Box<Self> {
-        let pairs = shapes.chunks(2);
-        Box::new(Rectangles(pairs.filter_map(Rectangle::of).collect()))
-    }
-}
-
 impl Submission for GivenRectangles<'_> {
     fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays> {
         self.0.camera(pinhole)
     }
 
     fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
-        Rectangles::new(shapes)
+        let pairs = shapes.chunks(2);
+        Box::new(Rectangles(pairs.filter_map(Rectangle::of).collect()))
     }
 
     fn build(&self, shapes: &[Shape], _max_leaf_size: usize) -> Box<dyn Hierarchy> {
-        Rectangles::new(shapes)
+        Box::new(List(self.primitive_list(shapes)))
     }
 
     fn prebuilt_tree(&self, shapes: &[Shape], _: &[TreeNode], _: usize) -> Box<dyn Hierarchy> {
-        Rectangles::new(shapes)
+        self.build(shapes, 1)
     }
 
     fn intersect_box(&self, _: Vec3, _: Vec3, _: &Ray, _: Interval) -> Option<Interval> {
@@ -125,29 +121,6 @@ impl Aggregate for Rectangles {
     fn closest_hit(&self, ray: &Ray) -> Option<Trace> {
         let hits = self.0.iter().map(|rectangle| rectangle.hit(ray));
         hits.fold(None, Trace::nearer)
-    }
-}
-
-/// A hierarchy without nodes: each ray is tested against all rectangles.
-impl Hierarchy for Rectangles {
-    fn root(&self) -> usize {
-        0
-    }
-
-    fn node_count(&self) -> usize {
-        0
-    }
-
-    fn node(&self, index: usize) -> TreeNode {
-        unreachable!("there is no node {index}")
-    }
-
-    fn primitive_count(&self) -> usize {
-        0
-    }
-
-    fn shape(&self, index: usize) -> u32 {
-        unreachable!("there is no primitive {index}")
     }
 }
 

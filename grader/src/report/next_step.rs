@@ -30,14 +30,10 @@ pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignme
     if !selection.is_all() && !selected.clone().any(is_complete) {
         return String::new();
     }
-    if let Some(report) = score
-        .build
-        .not_compiled
-        .first()
-        .filter(|_| selection.is_all())
-    {
-        let what = compile_step(score, report.file.as_str(), &report.message);
-        return row(what.lines().next().unwrap_or_default());
+    let not_compiled = &score.build.not_compiled;
+    if let (true, Some(report)) = (selection.is_all(), not_compiled.first()) {
+        let step = compile_step(score, &report.file, &report.message);
+        return row(step.lines().next().unwrap_or_default());
     }
     match selected.find(|task| !is_complete(task)) {
         Some(task) => row(&title_and_chapter(task)),

@@ -68,7 +68,7 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
              that your code builds for four primitives: which part of it appears more than once?",
         );
     }
-    if message.contains("slice index starts at") || message.contains("but ends at") {
+    if message.starts_with("slice index starts at") {
         return Some(
             "The range ends before it starts. A leaf holds the primitives start..start + size: which \
              two numbers does your range go from and to?",

@@ -156,8 +156,8 @@ impl HandedOut {
         }
     }
 
-    /// Returns the folders in which the assignment expects task files, those with the most files
-    /// first, leaving out folders that contain none. The paths are relative to the submission's
+    /// Returns the folders where the assignment expects task files, without those that contain
+    /// none. The folder with the most files comes first. The paths are relative to the submission's
     /// folder.
     pub fn folders_in(&self, submission: &Path) -> Vec<&'static str> {
         let count = |below: &str| {

@@ -18,8 +18,8 @@ use crate::report::atomic_write;
 use crate::workspace::{Workspace, display_path};
 
 /// Resets the named tasks in a submission's folder, which is the student's own work by default.
-/// Returns a message that says what has changed. If there is an error, nothing has changed, unless the error
-/// occurred while writing.
+/// Returns a message that says what has changed. If there is an error, nothing has changed, unless
+/// the error occurred while writing.
 pub fn reset(
     handed_out: &'static HandedOut,
     folder: Option<&Path>,

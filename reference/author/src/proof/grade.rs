@@ -8,7 +8,7 @@ use judging::exam::{Exam, Item};
 use crate::solutions::solution::Solution;
 use crate::solutions::workbench::{BuiltSolution, Workbench};
 
-/// Returns the items in which a variant loses points that it must not lose.
+/// Returns the items where a variant loses points that it must not lose.
 pub fn variant_losses(
     workbench: &Workbench,
     variant: &Solution,

@@ -127,7 +127,7 @@ impl Plane {
         match quantity {
             "distance" | "position" => self.distance_error() <= PART * 1e-4 * scale,
             "normal" => {
-                /// The minimum length at which a sum of normals has an accurate direction.
+                /// The minimum length of a sum of normals whose direction is accurate.
                 const LEAST: f64 = 0.25;
                 let error = 2.0 * self.weight_error() / self.normal_length;
                 self.normal_length > LEAST && error <= PART * 1e-3

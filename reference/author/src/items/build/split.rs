@@ -322,7 +322,7 @@ fn few(
     row(rng, &layout, axis, is_mirrored)
 }
 
-/// Returns two clusters, the smaller of which is denser. The first cluster along the axis consists
+/// Returns two clusters. The smaller one is denser. The first cluster along the axis consists
 /// of whole chunks.
 fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shape> {
     let chunk = chunk_size(count);

@@ -4,6 +4,7 @@
 pub mod bbox;
 pub mod buckets;
 pub mod camera;
+pub mod light;
 pub mod scan;
 pub mod sphere;
 pub mod sweep;

@@ -1,0 +1,36 @@
+//! Correct answers for part two in double precision.
+//!
+//! Lengths have no unit, angles are in radians, and colours are linear red, green and blue.
+//! Radiance is per unit of projected area and per solid angle, and densities are per solid angle.
+//! Directions have length one and lead away from the surface.
+//!
+//! Some answers depend on a decision, such as whether a ray passes an edge or whether glass
+//! reflects. If a decision is close, a correct answer in single precision can differ completely
+//! from the one computed here. So each function that decides something also returns the margin: how
+//! far the numbers are from changing the decision. Questions with a small margin must be avoided.
+
+pub mod evenness;
+pub mod lambertian;
+pub mod specular;
+
+#[cfg(test)]
+use glam::DVec2;
+use glam::DVec3;
+
+/// A sampled continuation of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scattered64 {
+    /// The direction of the rest of the path, in the surface's frame.
+    pub direction: DVec3,
+    /// The factor, for each colour channel, applied to the light from this direction.
+    pub attenuation: DVec3,
+    /// The probability density of the direction, per solid angle, or `None` for mirrors and glass.
+    pub pdf: Option<f64>,
+}
+
+/// Returns the middles of `side` × `side` equal cells of the unit square.
+#[cfg(test)]
+fn grid(side: u32) -> impl Iterator<Item = DVec2> {
+    let middle = move |n: u32| (f64::from(n) + 0.5) / f64::from(side);
+    (0..side * side).map(move |n| DVec2::new(middle(n % side), middle(n / side)))
+}

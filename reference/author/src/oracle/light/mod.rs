@@ -10,7 +10,9 @@
 //! far the numbers are from changing the decision. Questions with a small margin must be avoided.
 
 pub mod evenness;
+pub mod flat_shape;
 pub mod lambertian;
+pub mod lights;
 pub mod specular;
 
 #[cfg(test)]
@@ -26,6 +28,37 @@ pub struct Scattered64 {
     pub attenuation: DVec3,
     /// The probability density of the direction, per solid angle, or `None` for mirrors and glass.
     pub pdf: Option<f64>,
+}
+
+/// A result and its margin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithMargin<T> {
+    /// The result.
+    pub value: T,
+    /// The smallest relative distance to any decision that the result depends on, or infinity if
+    /// nothing was decided. Rounding to single precision moves a decision by about 1e-6.
+    pub margin: f64,
+}
+
+impl<T> WithMargin<T> {
+    /// Replaces the result, and lowers the margin if `margin` is smaller.
+    fn and<U>(self, value: U, margin: f64) -> WithMargin<U> {
+        WithMargin {
+            value,
+            margin: self.margin.min(margin),
+        }
+    }
+}
+
+/// Returns the luminance of a colour. See ITU-R Recommendation BT.709.
+fn luminance(DVec3 { x, y, z }: DVec3) -> f64 {
+    0.2126 * x + 0.7152 * y + 0.0722 * z
+}
+
+/// Returns the distance from a random number to the nearest of some borders.
+fn nearest_border(number: f64, borders: impl IntoIterator<Item = f64>) -> f64 {
+    let distances = borders.into_iter().map(|border| (number - border).abs());
+    distances.fold(f64::INFINITY, f64::min)
 }
 
 /// Returns the middles of `side` × `side` equal cells of the unit square.

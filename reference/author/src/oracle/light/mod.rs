@@ -9,15 +9,15 @@
 //! from the one computed here. So each function that decides something also returns the margin: how
 //! far the numbers are from changing the decision. Questions with a small margin must be avoided.
 
+pub mod environment;
 pub mod evenness;
 pub mod flat_shape;
 pub mod lambertian;
+pub mod light_sources;
 pub mod lights;
 pub mod specular;
 
-#[cfg(test)]
-use glam::DVec2;
-use glam::DVec3;
+use glam::{DVec2, DVec3, Vec2};
 
 /// A sampled continuation of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +46,44 @@ impl<T> WithMargin<T> {
         WithMargin {
             value,
             margin: self.margin.min(margin),
+        }
+    }
+}
+
+/// The random numbers for one bounce, each in `[0, 1)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numbers64 {
+    /// The light to sample.
+    pub light: f64,
+    /// The point on that light.
+    pub on_light: DVec2,
+    /// The scattered direction in which a matte surface looks for direct light.
+    pub direct: DVec2,
+    /// The direction in which a matte surface scatters the path.
+    pub scatter: DVec2,
+    /// Whether glass reflects or refracts.
+    pub reflect: f64,
+    /// Whether the path goes on.
+    pub survive: f64,
+}
+
+impl Numbers64 {
+    /// Converts the fields of the sampler's `RandomNumbers` to double precision. This is exact.
+    pub fn from_single(
+        light: f32,
+        on_light: Vec2,
+        direct: Vec2,
+        scatter: Vec2,
+        reflect: f32,
+        survive: f32,
+    ) -> Numbers64 {
+        Numbers64 {
+            light: light.into(),
+            on_light: on_light.as_dvec2(),
+            direct: direct.as_dvec2(),
+            scatter: scatter.as_dvec2(),
+            reflect: reflect.into(),
+            survive: survive.into(),
         }
     }
 }

@@ -12,9 +12,12 @@
 pub mod environment;
 pub mod evenness;
 pub mod flat_shape;
+pub mod frame;
 pub mod lambertian;
 pub mod light_sources;
 pub mod lights;
+pub mod quad;
+pub mod room;
 pub mod specular;
 
 use glam::{DVec2, DVec3, Vec2};

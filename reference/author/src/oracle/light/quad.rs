@@ -1,0 +1,133 @@
+//! Parallelograms with a material. Rooms are made of them.
+
+use glam::{DVec2, DVec3};
+
+use super::flat_shape::FlatShape;
+use super::lights::FlatLight64;
+
+/// How a surface scatters or emits light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Material64 {
+    /// A matte surface.
+    Lambertian {
+        /// The fraction of light that is scattered.
+        albedo: DVec3,
+    },
+    /// A perfect mirror.
+    Mirror {
+        /// The fraction of light that is reflected.
+        reflectance: DVec3,
+    },
+    /// Glass.
+    Glass {
+        /// The index of refraction.
+        ior: f64,
+    },
+    /// A light, which scatters nothing.
+    Emitter {
+        /// The radiance that is emitted from the front.
+        radiance: DVec3,
+    },
+}
+
+/// A parallelogram with a material. Its front is the side from which its corners appear in
+/// counterclockwise order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quad {
+    shape: FlatShape,
+    material: Material64,
+}
+
+impl Quad {
+    /// Creates the parallelogram with the corners p, p + a, p + a + b and p + b, where p is `corner`
+    /// and `[a, b]` are the `edges`.
+    ///
+    /// All numbers are rounded, so that they and their sums are exact in single precision:
+    /// coordinates to multiples of 1/256, and all others to single precision. Coordinates must be
+    /// less than 10,000.
+    pub fn new(corner: DVec3, edges: [DVec3; 2], material: Material64) -> Quad {
+        let round = |v: DVec3| (v * 256.0).round() / 256.0;
+        Quad {
+            shape: FlatShape {
+                corner: round(corner),
+                edges: edges.map(round),
+                is_triangle: false,
+            },
+            material: material.rounded(),
+        }
+    }
+
+    /// Returns the shape after rounding.
+    pub fn shape(&self) -> &FlatShape {
+        &self.shape
+    }
+
+    /// Returns the material after rounding.
+    pub fn material(&self) -> &Material64 {
+        &self.material
+    }
+
+    /// Returns the corners in the order in which scene files list them.
+    pub fn corners(&self) -> [DVec3; 4] {
+        [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|position| self.shape.at(position))
+    }
+
+    /// Returns the two lights that an emitting parallelogram is split into, in scene order, or no
+    /// lights for any other material. The diagonal from p to p + a + b separates the triangles.
+    pub fn lights(&self) -> Vec<FlatLight64> {
+        let Material64::Emitter { radiance } = self.material else {
+            return Vec::new();
+        };
+        let [p, q, r, s] = self.corners();
+        let half = |to: [DVec3; 2]| FlatLight64 {
+            shape: FlatShape {
+                corner: p,
+                edges: to.map(|corner| corner - p),
+                is_triangle: true,
+            },
+            radiance,
+        };
+        vec![half([q, r]), half([r, s])]
+    }
+}
+
+impl Material64 {
+    /// Returns the material with all numbers rounded to single precision.
+    fn rounded(self) -> Material64 {
+        match self {
+            Material64::Lambertian { albedo } => Material64::Lambertian {
+                albedo: rounded(albedo),
+            },
+            Material64::Mirror { reflectance } => Material64::Mirror {
+                reflectance: rounded(reflectance),
+            },
+            Material64::Glass { ior } => Material64::Glass {
+                ior: f64::from(ior as f32),
+            },
+            Material64::Emitter { radiance } => Material64::Emitter {
+                radiance: rounded(radiance),
+            },
+        }
+    }
+
+    /// Returns the material's entry in a scene file.
+    pub(super) fn text(&self) -> String {
+        let (kind, key, value) = match *self {
+            Material64::Lambertian { albedo } => ("lambertian", "albedo", numbers(albedo)),
+            Material64::Mirror { reflectance } => ("mirror", "reflectance", numbers(reflectance)),
+            Material64::Glass { ior } => ("glass", "ior", ior.to_string()),
+            Material64::Emitter { radiance } => ("emitter", "radiance", numbers(radiance)),
+        };
+        format!(r#"{{ "{kind}": {{ "{key}": {value} }} }}"#)
+    }
+}
+
+/// Rounds numbers to single precision.
+pub(super) fn rounded(v: DVec3) -> DVec3 {
+    v.as_vec3().as_dvec3()
+}
+
+/// Returns a list of three numbers in JSON.
+pub(super) fn numbers(DVec3 { x, y, z }: DVec3) -> String {
+    format!("[{x}, {y}, {z}]")
+}

@@ -19,6 +19,10 @@ pub mod lights;
 pub mod quad;
 pub mod room;
 pub mod specular;
+pub mod transport;
+
+#[cfg(test)]
+mod tests;
 
 use glam::{DVec2, DVec3, Vec2};
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use glam::UVec2;
-use protocol::Question;
+use protocol::{LightQuestion, Question};
 use serde::{Deserialize, Serialize};
 
 use crate::assignment::Assignment;
@@ -258,6 +258,15 @@ fn match_key(question: &Question, key: &Key) -> (bool, usize) {
             let all = film.x as usize * film.y as usize;
             (pixels.len() == all, 1)
         }
-        (Key::FirstHits { .. } | Key::Tree { .. } | Key::Radiance { .. }, _) => (false, 0),
+        (Key::SpreadEvenly { .. }, Question::Light(LightQuestion::UniformSphere(table))) => {
+            (true, table.rows.count())
+        }
+        (
+            Key::FirstHits { .. }
+            | Key::SpreadEvenly { .. }
+            | Key::Tree { .. }
+            | Key::Radiance { .. },
+            _,
+        ) => (false, 0),
     }
 }

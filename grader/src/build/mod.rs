@@ -41,7 +41,7 @@ use crate::build::source_crate::CompileOutcome;
 use crate::build::substitution::{ReferenceParts, Substitution};
 use crate::build::toolchain::Toolchain;
 use crate::error::Error;
-use crate::handed_out::{HandedOut, TaskFile, TaskMethod};
+use crate::handed_out::{HandedOut, TaskFile, TaskMethods};
 use crate::machine::files::{self, AtPath};
 use crate::probe::Interrupt;
 use crate::sandbox::{Isolation, Sandbox};
@@ -325,13 +325,13 @@ impl Builder {
 }
 
 /// Returns a submission's method for each task. Methods that aren't found are left out.
-fn task_methods(submission: &Submission) -> BTreeMap<Task, TaskMethod> {
+fn task_methods(submission: &Submission) -> BTreeMap<Task, TaskMethods> {
     let handed_out = submission.handed_out;
     let method = |task: Task| {
         let name = handed_out.assignment.info(task).file;
         let mut files = submission.files.iter();
         let (_, text) = files.find(|(file, _)| file.name == name)?;
-        let method = handed_out.task_method(task, text.as_ref().ok()?).ok()?;
+        let method = handed_out.task_methods(task, text.as_ref().ok()?).ok()?;
         Some((task, method))
     };
     handed_out.assignment.tasks().filter_map(method).collect()

@@ -15,7 +15,7 @@ use crate::build::diagnostics::Diagnostic;
 use crate::build::rustc::Rustc;
 use crate::build::substitution::Substitution;
 use crate::build::trial;
-use crate::handed_out::{HandedOut, TaskMethod};
+use crate::handed_out::{HandedOut, TaskMethods};
 use crate::probe::{Interrupt, Launcher, START_LIMITS};
 use crate::sandbox::Isolation;
 
@@ -29,7 +29,7 @@ pub struct Build {
     /// Files whose tasks cannot be graded, with the reasons.
     pub not_compiled: BTreeMap<&'static str, NotCompiled>,
     /// The submission's method for each task. Methods that aren't found are left out.
-    pub methods: BTreeMap<Task, TaskMethod>,
+    pub methods: BTreeMap<Task, TaskMethods>,
     /// The compiler's warnings.
     pub warnings: Vec<Diagnostic>,
     /// How long the build took.

@@ -162,7 +162,7 @@ fn folder_in_checkout(submitted: &Path, checkout: &Path, handed_out: &HandedOut)
 /// Finds the method for each task in the submission's files.
 fn find_methods(submission: &Submission) -> BTreeMap<Task, MethodLocation> {
     let location = |task: &TaskInfo| {
-        let line = submission.task_method(task).map(|method| method.line);
+        let line = submission.task_methods(task).map(|method| method.line);
         let file = task.file;
         (task.task(), MethodLocation { file, line })
     };

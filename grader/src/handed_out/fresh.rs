@@ -2,66 +2,82 @@
 
 use judging::assignment::Task;
 
-use super::method_span::{MethodSpan, find_method, methods};
+use super::method_span::{find_method, methods};
 use super::tokens::tokens;
 use super::{HandedOut, TaskFile, starter_methods};
 
-/// A task's method in a submission's file.
+/// A task's methods in a submission's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TaskMethod {
-    /// The method's name, such as `Sphere::hit`.
-    pub name: String,
-    /// The number of the line with the method's name, counted from 1.
+pub struct TaskMethods {
+    /// The methods' names, such as `Sphere::hit`, separated by commas.
+    pub names: String,
+    /// The number of the line with the name of the first method that hasn't been changed, counted
+    /// from 1. If all methods have been changed, it is the line of the first method.
     pub line: u32,
-    /// Whether the method differs from the starter's in more than formatting and comments.
+    /// Whether any of the methods differs from the starter's in more than formatting and comments.
     pub is_changed: bool,
-    /// The file's text with the method replaced by the starter's version.
+    /// The file's text with the methods replaced by the starter's versions.
     pub fresh_text: String,
 }
 
 impl HandedOut {
-    /// Finds a task's method in the text of the task's file.
+    /// Finds a task's methods in the text of the task's file.
     ///
     /// # Errors
     ///
-    /// A message that says why the method was not found. A function outside an `impl` is never
-    /// found, even if it is the task's method.
+    /// A message that says why a method was not found.
     ///
     /// # Panics
     ///
     /// If the task isn't part of the assignment.
-    pub fn task_method(&self, task: Task, text: &str) -> Result<TaskMethod, String> {
+    pub fn task_methods(&self, task: Task, text: &str) -> Result<TaskMethods, String> {
         let info = self.assignment.info(task);
         let file = self
             .task_file(info.file)
             .expect("every task has a task file");
-        let is_tasks = |span: &MethodSpan| {
-            let is_inherent = !span.implemented.split(' ').any(|word| word == "for");
-            span.name == info.method && is_inherent
-        };
-        let starter = starter_methods(file).into_iter().find(is_tasks);
-        let starter =
-            starter.ok_or_else(|| format!("{} has no method `{}`", file.name, info.method))?;
-        let handed_out = &file.starter[starter.bytes];
-        let name = format!("{}::{}", starter.implemented, info.method);
-        let span = find_method(text, &starter.implemented, info.method)
-            .map_err(|why| format!("cannot find {name} in {}: {why}", file.name))?;
-        let (before, after) = (&text[..span.bytes.start], &text[span.bytes.end..]);
-        let line = 1 + text[..span.name_start].matches('\n').count();
-        let is_changed = tokens(&text[span.bytes.clone()]) != tokens(handed_out);
-        // An editor on Windows may have changed all line endings.
-        let handed_out = if text.contains("\r\n") {
-            handed_out.replace('\n', "\r\n")
-        } else {
-            handed_out.to_owned()
-        };
-        Ok(TaskMethod {
-            name,
-            line: u32::try_from(line).unwrap_or(u32::MAX),
+        let mut fresh_text = text.to_owned();
+        let (mut first_line, mut first_unchanged_line) = (None, None);
+        let mut is_changed = false;
+        for path in info.methods {
+            let handed_out = find_method(file.starter, path);
+            let handed_out = handed_out.map_err(|why| cannot_find(path, file, why))?;
+            let handed_out = &file.starter[handed_out.bytes];
+            let span = find_method(text, path).map_err(|why| cannot_find(path, file, why))?;
+            let before = text[..span.name_start].matches('\n').count();
+            let line = u32::try_from(1 + before).unwrap_or(u32::MAX);
+            first_line.get_or_insert(line);
+            if tokens(&text[span.bytes]) == tokens(handed_out) {
+                first_unchanged_line.get_or_insert(line);
+                continue;
+            }
+            is_changed = true;
+            fresh_text = replaced(&fresh_text, path, handed_out)
+                .map_err(|why| cannot_find(path, file, why))?;
+        }
+        Ok(TaskMethods {
+            names: info.methods.join(", "),
+            line: first_unchanged_line.or(first_line).unwrap_or(1),
             is_changed,
-            fresh_text: format!("{before}{handed_out}{after}"),
+            fresh_text,
         })
     }
+}
+
+fn cannot_find(path: &str, file: &TaskFile, why: &str) -> String {
+    format!("cannot find {path} in {}: {why}", file.name)
+}
+
+/// Returns the text with a method replaced.
+fn replaced(text: &str, path: &str, method: &str) -> Result<String, &'static str> {
+    let bytes = find_method(text, path)?.bytes;
+    let (before, after) = (&text[..bytes.start], &text[bytes.end..]);
+    // An editor on Windows may have changed all line endings.
+    let method = if text.contains("\r\n") {
+        method.replace('\n', "\r\n")
+    } else {
+        method.to_owned()
+    };
+    Ok(format!("{before}{method}{after}"))
 }
 
 /// A method's current and original declarations.
@@ -106,9 +122,10 @@ mod tests {
     fn a_fresh_method_in_the_starter_changes_nothing() {
         for task in RAYS.assignment.tasks {
             let starter = RAYS.task_file(task.file).unwrap().starter;
-            let method = RAYS.task_method(task.task(), starter).unwrap();
+            let method = RAYS.task_methods(task.task(), starter).unwrap();
             assert_eq!((&*method.fresh_text, method.is_changed), (starter, false));
-            let before = starter.split(&format!("pub fn {}(", task.method)).next();
+            let (_, name) = task.methods[0].split_once("::").unwrap();
+            let before = starter.split(&format!("pub fn {name}(")).next();
             assert_eq!(method.line as usize, before.unwrap().lines().count());
         }
     }
@@ -125,18 +142,18 @@ mod tests {
             )
             .replace("traces.fold(None, Trace::nearer)", "traces.last()?")
             .replace('\n', "\r\n");
-        let fresh = RAYS.task_method(task("build"), &solved).unwrap();
-        assert_eq!(fresh.name, "Bvh::build");
+        let fresh = RAYS.task_methods(task("build"), &solved).unwrap();
+        assert_eq!(fresh.names, "Bvh::build");
         assert!(fresh.is_changed);
         let expected = solved.replace("let mine =", "let _ =");
         assert_eq!(fresh.fresh_text, expected);
         let both = RAYS
-            .task_method(task("traverse"), &fresh.fresh_text)
+            .task_methods(task("traverse"), &fresh.fresh_text)
             .unwrap();
         assert!(both.fresh_text.contains("Trace::nearer") && both.fresh_text.contains("fn helper"));
 
         let renamed = solved.replace("fn build(", "fn build2(");
-        let error = RAYS.task_method(task("build"), &renamed).unwrap_err();
+        let error = RAYS.task_methods(task("build"), &renamed).unwrap_err();
         let expected = "cannot find Bvh::build in bvh.rs: it was renamed or removed";
         assert_eq!(error, expected);
     }

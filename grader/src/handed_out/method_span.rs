@@ -12,11 +12,11 @@ use super::tokens::tokens;
 /// missing or superfluous.
 const UNMATCHED_BRACES: &str = "the file's braces do not match";
 
-/// A method in an `impl` block at the top level of a file.
+/// A method in an `impl` block at the top level of a file, or a free function at the top level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MethodSpan<'a> {
     /// The tokens between `impl` and the block's opening brace, separated by spaces, such as
-    /// `Sphere`.
+    /// `Sphere`. Empty for a free function.
     pub implemented: String,
     /// The method's name.
     pub name: &'a str,
@@ -26,15 +26,22 @@ pub struct MethodSpan<'a> {
     pub bytes: Range<usize>,
 }
 
-/// Returns the method with this name in an `impl` block for the type `implemented`, or the reason
-/// why it cannot be found.
-pub fn find_method<'a>(
-    text: &'a str,
-    implemented: &str,
-    name: &str,
-) -> Result<MethodSpan<'a>, &'static str> {
+impl MethodSpan<'_> {
+    /// Returns the method's full name, such as `Sphere::hit`.
+    pub fn path(&self) -> String {
+        if self.implemented.is_empty() {
+            self.name.to_owned()
+        } else {
+            format!("{}::{}", self.implemented, self.name)
+        }
+    }
+}
+
+/// Returns the method with this full name, such as `Sphere::hit`, or the reason why it cannot be
+/// found.
+pub fn find_method<'a>(text: &'a str, path: &str) -> Result<MethodSpan<'a>, &'static str> {
     let mut found = methods(text)?;
-    found.retain(|span| span.implemented == implemented && span.name == name);
+    found.retain(|span| span.path() == path);
     match found.len() {
         0 => Err("it was renamed or removed"),
         1 => Ok(found.remove(0)),
@@ -42,7 +49,7 @@ pub fn find_method<'a>(
     }
 }
 
-/// Returns all methods in the `impl` blocks at the top level of a file.
+/// Returns all free functions at the top level of a file and all methods in its `impl` blocks.
 pub fn methods(text: &str) -> Result<Vec<MethodSpan<'_>>, &'static str> {
     let mut scan = Scan {
         text,
@@ -75,9 +82,9 @@ struct Scan<'a> {
     header: Option<usize>,
     /// The tokens in the header of the current `impl` block.
     block: Option<String>,
-    /// The start of the current item in the block, including its documentation.
+    /// The start of the current item in the block or at the top level, including its documentation.
     item: Option<usize>,
-    /// The name of this item, if it is a method.
+    /// The name of this item, if it is a method or a function.
     name: Option<Range<usize>>,
     /// Whether the last token was `fn`.
     after_fn: bool,
@@ -95,7 +102,9 @@ impl Scan<'_> {
         {
             return Ok(());
         }
-        let in_block = self.block.is_some() && self.open.len() == 1;
+        // The depth of the items to find: inside an `impl` block, or at the top level.
+        let depth = usize::from(self.block.is_some());
+        let in_block = self.open.len() == depth;
         let word = &self.text[bytes.clone()];
         if in_block && word != "}" {
             self.item.get_or_insert(bytes.start);
@@ -104,7 +113,10 @@ impl Scan<'_> {
         // A token's text is enough to recognise it: a brace in a string or a character literal is
         // part of a token that includes the quotation marks.
         match word {
-            "impl" if self.open.is_empty() => self.header = Some(bytes.end),
+            "impl" if self.open.is_empty() => {
+                self.item = None;
+                self.header = Some(bytes.end);
+            }
             "{" => {
                 if self.open.is_empty()
                     && let Some(header) = self.header.take()
@@ -119,17 +131,16 @@ impl Scan<'_> {
                 if self.open.pop() != Some(word) {
                     return Err(UNMATCHED_BRACES);
                 }
+                // The other delimiters don't end an item: an attribute ends with a bracket, and a
+                // signature's arguments end with a parenthesis.
+                if self.open.len() <= depth && word == "}" {
+                    self.end_item(bytes.end);
+                }
                 if self.open.is_empty() && word == "}" {
                     self.block = None;
                 }
-                // The other delimiters don't end an item: an attribute ends with a bracket, and a
-                // signature's arguments end with a parenthesis.
-                if self.open.len() <= 1 && word == "}" {
-                    self.end_item(bytes.end);
-                }
             }
             ";" if in_block => self.end_item(bytes.end),
-            ";" if self.open.is_empty() => self.header = None,
             word if in_block => {
                 if is_after_fn {
                     self.name = Some(bytes);
@@ -144,9 +155,9 @@ impl Scan<'_> {
     /// Ends the current item. Records it if it is a method.
     fn end_item(&mut self, end: usize) {
         let (start, name) = (self.item.take(), self.name.take());
-        if let (Some(start), Some(implemented), Some(name)) = (start, &self.block, name) {
+        if let (Some(start), Some(name)) = (start, name) {
             self.found.push(MethodSpan {
-                implemented: implemented.clone(),
+                implemented: self.block.clone().unwrap_or_default(),
                 name_start: name.start,
                 name: &self.text[name],
                 bytes: start..end,
@@ -160,7 +171,7 @@ mod tests {
     use super::*;
 
     fn found(text: &str) -> Result<&str, &'static str> {
-        find_method(text, "Ball", "hit").map(|span| &text[span.bytes])
+        find_method(text, "Ball::hit").map(|span| &text[span.bytes])
     }
 
     #[test]
@@ -175,11 +186,30 @@ mod tests {
     }
 
     #[test]
+    fn finds_a_free_function_between_other_items() {
+        let function =
+            "/// Says }.\n#[inline]\npub fn hit(f: fn(u8) -> u8) {\n    fn inner() {}\n}";
+        let text = format!(
+            "//! A file.\nuse a::b;\nstruct A {{ x: u8 }}\nstruct B(u8);\nimpl A {{ fn hit() {{}} }}\n\
+             type F = fn(u8);\n{function}\nconst C: [u8; 1] = [1];\nmod tests {{ fn hit() {{}} }}\n"
+        );
+        let span = find_method(&text, "hit").expect("the function is found");
+        assert_eq!(&text[span.bytes], function);
+        let names: Vec<String> = methods(&text)
+            .unwrap()
+            .iter()
+            .map(MethodSpan::path)
+            .collect();
+        assert_eq!(names, ["A::hit", "hit"]);
+    }
+
+    #[test]
     fn says_why_a_method_is_not_found() {
         let [none, several, braces] = ["it was renamed", "several methods", "the file's braces"];
         for (text, error) in [
             ("impl Ball { fn hit_it() {} }", none),
             ("fn hit() {}", none),
+            ("mod ball { impl Ball { fn hit() {} } }", none),
             ("", none),
             ("impl Ball { fn hit() {} fn hit() {} }", several),
             ("impl Ball { fn hit() { }", braces),

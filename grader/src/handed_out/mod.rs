@@ -17,7 +17,7 @@ use judging::assignment::{Assignment, TaskInfo};
 use method_span::{MethodSpan, methods};
 use tokens::{contains, tokens};
 
-pub use fresh::{ChangedDeclaration, TaskMethod, changed_declaration};
+pub use fresh::{ChangedDeclaration, TaskMethods, changed_declaration};
 pub use judging::assignment::TaskFile;
 pub use method_span::find_method;
 pub use own_lines::own_lines;
@@ -178,10 +178,12 @@ impl HandedOut {
     /// the starter's versions. A note in the report lists these methods.
     pub fn changed_methods(&self, file: &TaskFile, text: &str) -> Vec<ChangedMethod> {
         let text = tokens(text);
-        let is_to_write = |task: &TaskInfo, name| task.file == file.name && task.method == name;
+        let is_to_write =
+            |task: &TaskInfo, path: &str| task.file == file.name && task.methods.contains(&path);
         let given = starter_methods(file).into_iter().filter(|method| {
             let mut tasks = self.assignment.tasks.iter();
-            !tasks.any(|task| is_to_write(task, method.name))
+            let path = method.path();
+            !tasks.any(|task| is_to_write(task, &path))
         });
         let changed = given.filter(|method| {
             let method = &file.starter[method.bytes.clone()];

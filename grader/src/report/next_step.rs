@@ -64,13 +64,13 @@ pub fn first_step(
         None => task.method.clone(),
     };
     let step = match item.verdict.kind() {
-        VerdictKind::Unwritten => format!("write `{}` in {method}", info.method),
+        VerdictKind::Unwritten => format!("write {} in {method}", info.method_names("and")),
         VerdictKind::NotCompiled => compile_step(score, info.file, &item.message),
         VerdictKind::Blocked => format!("{} {}", item.id, item.message),
         VerdictKind::Passed
         | VerdictKind::Failed
         | VerdictKind::NoAnswer
-        | VerdictKind::Pending => format!("fix `{}` in {method}", info.method),
+        | VerdictKind::Pending => format!("fix {} in {method}", info.method_names("or")),
     };
     let what = format!("{}: {}", item.id, item.message);
     // What is wrong can be something other than the item's title says, such as a miss instead of a

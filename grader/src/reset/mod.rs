@@ -174,9 +174,9 @@ fn fresh_methods(
     let (mut methods, mut changed) = (Vec::new(), None);
     for task in tasks {
         let current = changed.as_deref().unwrap_or(text);
-        let fresh = handed_out.task_method(*task, current);
+        let fresh = handed_out.task_methods(*task, current);
         let fresh = fresh.map_err(|why| format!("{why}; "))?;
-        methods.push(fresh.name);
+        methods.push(fresh.names);
         if fresh.is_changed {
             changed = Some(fresh.fresh_text);
         }

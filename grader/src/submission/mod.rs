@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use judging::assignment::TaskInfo;
 use judging::sanitize::sanitize_line;
 
-use crate::handed_out::{HandedOut, TaskFile, TaskMethod, is_unwritten};
+use crate::handed_out::{HandedOut, TaskFile, TaskMethods, is_unwritten};
 use crate::machine::files;
 
 use choice::{Candidate, Lookalike};
@@ -246,9 +246,9 @@ impl Submission {
     }
 
     /// Returns a task's method, if it is found.
-    pub fn task_method(&self, task: &TaskInfo) -> Option<TaskMethod> {
+    pub fn task_methods(&self, task: &TaskInfo) -> Option<TaskMethods> {
         let text = self.text(task.file)?;
-        self.handed_out.task_method(task.task(), text).ok()
+        self.handed_out.task_methods(task.task(), text).ok()
     }
 
     /// Returns whether the assignment hasn't been started: every task file is the starter's, token

@@ -17,29 +17,25 @@ pub const UNKNOWN_PANIC: &str = "What does that line require? For the question s
 
 /// Returns the clue for an item without an answer.
 pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
-    let TaskInfo {
-        file,
-        method,
-        clues,
-        ..
-    } = task;
+    let TaskInfo { file, clues, .. } = task;
+    let method = task.method_names("or");
     match fault {
         Fault::TimedOut(TimeLimit::Waiting) => format!(
-            "Find what `{method}` in {file} waits for: a sleep, a lock, a channel, or input. Nothing in \
+            "Find what {method} in {file} waits for: a sleep, a lock, a channel, or input. Nothing in \
              this task needs to wait."
         ),
         Fault::TimedOut(TimeLimit::Cpu | TimeLimit::Wall) => format!(
-            "Find the loop or the recursion in {file} that doesn't end, or takes far too long, when `{method}` \
+            "Find the loop or the recursion in {file} that doesn't end, or takes far too long, when {method} \
              is called for this question: what changes from one iteration to the next, and what should end it?"
         ),
         Fault::OutOfMemory => format!(
-            "Find the list that `{method}` in {file} keeps adding to. What should make it stop?"
+            "Find the list that {method} in {file} keeps adding to. What should make it stop?"
         ),
         Fault::Crashed(Crash::StackOverflow) => match clues.if_stack_overflows {
             Some(clue) => clue.to_owned(),
             None => {
                 format!(
-                    "Does `{method}` in {file} call itself? Find the call that can receive the same \
+                    "Does {method} in {file} call itself? Find the call that can receive the same \
                      arguments as its caller. If no method calls itself, look for a very large array."
                 )
             }
@@ -53,7 +49,7 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
                 .to_owned()
         }
         Fault::Crashed(Crash::Signal(_) | Crash::Killed) | Fault::Protocol(_) => format!(
-            "Run this question in isolation, with `--replay`, and see what `{method}` in {file} \
+            "Run this question in isolation, with `--replay`, and see what {method} in {file} \
              does last."
         ),
     }

@@ -41,7 +41,8 @@ impl RecordedMethod {
     /// Returns the file's text, changed so that calls to the method are recorded, or `None` if the
     /// method doesn't exist.
     pub fn apply(&self, text: &str) -> Option<String> {
-        let name = find_method(text, self.type_name, "hit").ok()?.name_start;
+        let path = format!("{}::hit", self.type_name);
+        let name = find_method(text, &path).ok()?.name_start;
         let (before, after) = (&text[..name], &text[name + "hit".len()..]);
         Some(format!(
             "{before}hit{} fn hit_as_written{after}",

@@ -70,7 +70,7 @@ fn is_table(item: &Item) -> bool {
             }
             (Key::Table { .. }, asked) => asked.film().is_none(),
             (Key::Tree { .. }, _) => true,
-            (Key::FirstHits { .. } | Key::Radiance { .. }, _) => false,
+            (Key::FirstHits { .. } | Key::Radiance { .. } | Key::SpreadEvenly { .. }, _) => false,
         })
 }
 

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use crate::function::{LocalDirection, Output, ResultText};
+use crate::function::{Color, Density, Fraction, LocalDirection, Output, ResultText, Scattered};
 use crate::interval::Interval;
 use crate::ray::{Ray, Trace};
 use crate::tree::Tree;
@@ -19,8 +19,18 @@ pub enum Answer {
     /// The answer to `BBoxHit`: for each query, the part of its `times` interval that the ray
     /// spends inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
-    /// The answer to `Reflect`: a reflected direction for each direction.
+    /// The answer to a function that always returns a direction.
     Directions(Vec<ElementOutcome<LocalDirection>>),
+    /// The answer to a function that may return no direction.
+    OptionalDirections(Vec<ElementOutcome<Option<LocalDirection>>>),
+    /// The answer to a function that samples how a material continues a path.
+    Scattered(Vec<ElementOutcome<Scattered>>),
+    /// The answer to a function that returns a value for each colour channel.
+    Colors(Vec<ElementOutcome<Color>>),
+    /// The answer to a function that returns a probability density.
+    Densities(Vec<ElementOutcome<Density>>),
+    /// The answer to a function that returns a fraction of the light.
+    Fractions(Vec<ElementOutcome<Fraction>>),
     /// The answer to `Build`: the tree.
     Tree(ElementOutcome<Tree>),
     /// The answer to `Radiance`: the pixels in linear red, green and blue, row by row from the
@@ -31,55 +41,80 @@ pub enum Answer {
 /// The outcome of one row: the record that the function returned, or `None`.
 pub type RowOutcome<'a> = ElementOutcome<Option<&'a dyn Record>>;
 
+/// The answer to a table for any function, with one outcome per row.
+pub trait AnyRows {
+    /// Returns the outcome of each row.
+    fn outcomes(&self) -> Vec<RowOutcome<'_>>;
+
+    /// Returns the names of the fields in each row.
+    fn names(&self) -> &'static [&'static str];
+
+    /// Returns the templates for printing rows.
+    fn result_text(&self) -> ResultText;
+
+    /// Returns the answer for one row, or `None` if it is missing.
+    fn single(&self, row: usize) -> Option<Answer>;
+}
+
+impl<T: Output> AnyRows for Vec<ElementOutcome<T>> {
+    fn outcomes(&self) -> Vec<RowOutcome<'_>> {
+        let record = |value| Output::record(value).map(|record| record as &dyn Record);
+        self.iter().map(|row| row.map(record)).collect()
+    }
+
+    fn names(&self) -> &'static [&'static str] {
+        T::NAMES
+    }
+
+    fn result_text(&self) -> ResultText {
+        T::RESULT_TEXT
+    }
+
+    fn single(&self, row: usize) -> Option<Answer> {
+        Some(T::answer(vec![self.get(row)?.clone()]))
+    }
+}
+
 impl Answer {
     /// Returns the rows, if this is the answer to a table.
-    pub fn rows(&self) -> Option<Vec<RowOutcome<'_>>> {
+    pub fn table(&self) -> Option<&dyn AnyRows> {
         match self {
-            Answer::Rays(rows) => Some(returned(rows)),
-            Answer::Hits(rows) => Some(returned(rows)),
-            Answer::Spans(rows) => Some(returned(rows)),
-            Answer::Directions(rows) => Some(returned(rows)),
+            Answer::Rays(rows) => Some(rows),
+            Answer::Hits(rows) => Some(rows),
+            Answer::Spans(rows) => Some(rows),
+            Answer::Directions(rows) => Some(rows),
+            Answer::OptionalDirections(rows) => Some(rows),
+            Answer::Scattered(rows) => Some(rows),
+            Answer::Colors(rows) => Some(rows),
+            Answer::Densities(rows) => Some(rows),
+            Answer::Fractions(rows) => Some(rows),
             Answer::Tree(_) | Answer::Picture(_) => None,
         }
+    }
+
+    /// Returns the outcome of each row, if this is the answer to a table.
+    pub fn rows(&self) -> Option<Vec<RowOutcome<'_>>> {
+        self.table().map(AnyRows::outcomes)
     }
 
     /// Returns the names of the fields in each row, if this is the answer to a table.
     pub fn names(&self) -> Option<&'static [&'static str]> {
-        match self {
-            Answer::Rays(_) => Some(<Ray as Output>::NAMES),
-            Answer::Hits(_) => Some(<Option<Trace> as Output>::NAMES),
-            Answer::Spans(_) => Some(<Option<Interval> as Output>::NAMES),
-            Answer::Directions(_) => Some(<LocalDirection as Output>::NAMES),
-            Answer::Tree(_) | Answer::Picture(_) => None,
-        }
+        self.table().map(AnyRows::names)
     }
 
     /// Returns the templates for printing rows, if this is the answer to a table.
     pub fn result_text(&self) -> Option<ResultText> {
-        match self {
-            Answer::Rays(_) => Some(<Ray as Output>::RESULT_TEXT),
-            Answer::Hits(_) => Some(<Option<Trace> as Output>::RESULT_TEXT),
-            Answer::Spans(_) => Some(<Option<Interval> as Output>::RESULT_TEXT),
-            Answer::Directions(_) => Some(<LocalDirection as Output>::RESULT_TEXT),
-            Answer::Tree(_) | Answer::Picture(_) => None,
-        }
+        self.table().map(AnyRows::result_text)
     }
 
     /// Returns the answer for one row of a table, or `None` if it is missing. Any other answer is
     /// returned unchanged.
     pub fn single(&self, row: usize) -> Option<Answer> {
-        Some(match self {
-            Answer::Rays(rows) => Answer::Rays(vec![rows.get(row)?.clone()]),
-            Answer::Hits(rows) => Answer::Hits(vec![rows.get(row)?.clone()]),
-            Answer::Spans(rows) => Answer::Spans(vec![rows.get(row)?.clone()]),
-            Answer::Directions(rows) => Answer::Directions(vec![rows.get(row)?.clone()]),
-            Answer::Tree(_) | Answer::Picture(_) => self.clone(),
-        })
+        match self.table() {
+            Some(rows) => rows.single(row),
+            None => Some(self.clone()),
+        }
     }
-}
-
-fn returned<T: Output>(rows: &[ElementOutcome<T>]) -> Vec<RowOutcome<'_>> {
-    rows.iter().map(|row| row.map(Output::record)).collect()
 }
 
 /// The outcome of one element of a question.

@@ -11,6 +11,7 @@ mod interval;
 pub mod packed;
 mod question;
 mod ray;
+pub mod sampler;
 mod shape;
 pub mod submission;
 mod tree;

@@ -6,6 +6,8 @@ use std::fmt::Debug;
 
 use glam::{UVec2, Vec2, Vec3};
 
+use crate::function::light::environment::MapImage;
+use crate::function::light::lights::FlatLight;
 use crate::interval::Interval;
 use crate::shape::Shape;
 use crate::tree::TreeNode;
@@ -31,7 +33,7 @@ pub enum Value<'a> {
     Count(u32),
     /// An angle in degrees.
     Angle(f32),
-    /// A ratio of two lengths.
+    /// A ratio, such as that of two lengths.
     Ratio(f32),
     /// The width and height of a film, in pixels.
     Film(UVec2),
@@ -43,6 +45,24 @@ pub enum Value<'a> {
     Shapes(Cow<'a, [Shape]>),
     /// The nodes of a tree.
     Nodes(Cow<'a, [TreeNode]>),
+    /// A value for each of the colour channels red, green and blue.
+    Color(Vec3),
+    /// A probability density, per solid angle.
+    Density(f32),
+    /// A probability density, or `None` if there isn't one.
+    OptionalDensity(Option<f32>),
+    /// A fraction of the light, from 0 to 1.
+    Fraction(f32),
+    /// A random number in `[0, 1)`.
+    Random(f32),
+    /// Two random numbers in `[0, 1)`.
+    RandomPair(Vec2),
+    /// A list of lights.
+    Lights(Cow<'a, [FlatLight]>),
+    /// The text of a scene file.
+    Scene(Cow<'a, str>),
+    /// An environment map.
+    Map(Cow<'a, MapImage>),
 }
 
 /// A subject, an input or an output: a list of fields.

@@ -36,7 +36,7 @@ pub struct Assignment {
     pub challenge: Option<&'static str>,
 }
 
-/// One task: a method to write.
+/// One task: a method, or a few, to write.
 #[derive(Debug, PartialEq, Eq)]
 pub struct TaskInfo {
     /// The id that the command line and files use.
@@ -45,8 +45,8 @@ pub struct TaskInfo {
     pub title: &'static str,
     /// The submitted file that contains the method.
     pub file: &'static str,
-    /// The name of the method to write.
-    pub method: &'static str,
+    /// The methods to write, each as `Type::name`. Free functions have only a name.
+    pub methods: &'static [&'static str],
     /// The total points of the task's items.
     pub points: u32,
     /// The handout's page about the task.
@@ -158,6 +158,21 @@ impl Assignment {
 }
 
 impl TaskInfo {
+    /// Returns the names of the methods as a list for use in a sentence, such as `` `evaluate`, `pdf`
+    /// and `scatter` ``, with `and` as the conjunction.
+    pub fn method_names(&self, conjunction: &str) -> String {
+        let names = self.methods.iter().map(|path| {
+            let (_, name) = path.rsplit_once("::").unwrap_or(("", path));
+            format!("`{name}`")
+        });
+        let names: Vec<String> = names.collect();
+        match names.split_last() {
+            Some((last, [])) => last.clone(),
+            Some((last, others)) => format!("{} {conjunction} {last}", others.join(", ")),
+            None => String::new(),
+        }
+    }
+
     /// Returns the task's id.
     pub fn task(&self) -> Task {
         Task(ArrayString::from(self.id).expect("ids in the table are short"))

@@ -20,10 +20,10 @@ pub fn got(answer: &Answer, element: usize) -> String {
             Some(pixel) => point(*pixel),
             None => format!("{} pixels", pixels.len()),
         }),
-        Answer::Rays(_) | Answer::Hits(_) | Answer::Spans(_) | Answer::Directions(_) => {
-            let rows = answer.rows().unwrap_or_default();
+        table => {
+            let rows = table.rows().unwrap_or_default();
             outcome(rows.get(element), |record| {
-                returned(answer.result_text(), *record)
+                returned(table.result_text(), *record)
             })
         }
     }
@@ -69,6 +69,7 @@ pub fn wanted(question: &ExamQuestion, element: usize) -> Vec<String> {
             vec![format!("a tree in which {}", all.join(", and "))]
         }
         Key::Radiance { pixels, .. } => vec![point(pixels[element])],
+        Key::SpreadEvenly { .. } => vec!["directions that are spread evenly".to_owned()],
     }
 }
 

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 use protocol::{
-    Answer, ElementOutcome, Fields, Interval, LocalDirection, Output, Ray, Record, Trace, Value,
-    packed,
+    Answer, Color, Density, ElementOutcome, Fields, Fraction, Interval, LocalDirection, Output,
+    Ray, Record, Scattered, Trace, Value, packed,
 };
 use serde::{Deserialize, Serialize};
 
@@ -44,6 +44,12 @@ pub enum Key {
         #[serde(with = "packed")]
         alternatives: Vec<(u32, Option<Surface>)>,
     },
+    /// Key for a table of directions that must be spread evenly over the sphere. Every direction
+    /// must have length one, but it doesn't matter which random numbers lead to which direction.
+    SpreadEvenly {
+        /// The maximum χ² of the numbers of directions in cells of equal area.
+        max_chi_squared: f64,
+    },
     /// Key for a `Radiance` question.
     Radiance {
         /// The expected colour of each pixel in linear RGB, row by row from the bottom.
@@ -78,7 +84,8 @@ impl Key {
         Key::table(<Interval as Fields>::NAMES, ExpectedRows::Spans(spans))
     }
 
-    /// Returns a correct answer, or `None` for a tree, since many different trees are correct.
+    /// Returns a correct answer, or `None` if many different answers are correct: for a tree, or for
+    /// directions that must only be spread evenly.
     pub fn answer(&self) -> Option<Answer> {
         Some(match self {
             Key::Table { rows, .. } => rows.answer(),
@@ -94,7 +101,7 @@ impl Key {
                 Answer::Hits(values(hits.iter().map(|hit| hit.as_ref().map(trace))))
             }
             Key::Radiance { pixels, .. } => Answer::Picture(ElementOutcome::Value(pixels.clone())),
-            Key::Tree { .. } => return None,
+            Key::Tree { .. } | Key::SpreadEvenly { .. } => return None,
         })
     }
 }
@@ -126,90 +133,101 @@ pub enum ExpectedRows {
     Hits(#[serde(with = "packed")] Vec<Option<Trace>>),
     /// The intervals the rays spend inside a box.
     Spans(#[serde(with = "packed")] Vec<Option<Interval>>),
-    /// Directions at a point on a surface.
+    /// Directions.
     Directions(#[serde(with = "packed")] Vec<LocalDirection>),
+    /// Directions where there is one.
+    OptionalDirections(#[serde(with = "packed")] Vec<Option<LocalDirection>>),
+    /// How a material continues paths.
+    Scattered(#[serde(with = "packed")] Vec<Scattered>),
+    /// Values of the colour channels.
+    Colors(#[serde(with = "packed")] Vec<Color>),
+    /// Probability densities.
+    Densities(#[serde(with = "packed")] Vec<Density>),
+    /// Fractions of the light.
+    Fractions(#[serde(with = "packed")] Vec<Fraction>),
+}
+
+/// Evaluates an expression with `$list` bound to the list of rows and, optionally, `$wrap` bound to
+/// the variant that contains it. Camera rays are excluded, because only their directions are
+/// stored.
+macro_rules! with_list {
+    ($rows:expr, rays($dirs:ident) => $rays:expr, $wrap:ident($list:ident) => $other:expr) => {
+        with_list!(@ $rows, $dirs, $rays, $wrap, $list, $other,
+            [Hits Spans Directions OptionalDirections Scattered Colors Densities Fractions])
+    };
+    (@ $rows:expr, $dirs:ident, $rays:expr, $wrap:ident, $list:ident, $other:expr,
+        [$($variant:ident)+]) => {
+        match $rows {
+            ExpectedRows::Rays($dirs) => $rays,
+            $(ExpectedRows::$variant($list) => {
+                #[allow(unused_variables, reason = "not every expression needs the variant")]
+                let $wrap = ExpectedRows::$variant;
+                $other
+            })+
+        }
+    };
 }
 
 impl ExpectedRows {
     /// Returns the number of rows.
     pub fn count(&self) -> usize {
-        match self {
-            ExpectedRows::Rays(rows) => rows.len(),
-            ExpectedRows::Hits(rows) => rows.len(),
-            ExpectedRows::Spans(rows) => rows.len(),
-            ExpectedRows::Directions(rows) => rows.len(),
-        }
+        with_list!(self, rays(dirs) => dirs.len(), _wrap(list) => list.len())
     }
 
     /// Returns the names of the fields in each row.
     pub fn names(&self) -> &'static [&'static str] {
-        match self {
-            ExpectedRows::Rays(_) => <Ray as Output>::NAMES,
-            ExpectedRows::Hits(_) => <Option<Trace> as Output>::NAMES,
-            ExpectedRows::Spans(_) => <Option<Interval> as Output>::NAMES,
-            ExpectedRows::Directions(_) => <LocalDirection as Output>::NAMES,
+        fn of<T: Output>(_: &[T]) -> &'static [&'static str] {
+            T::NAMES
         }
+        with_list!(self, rays(_dirs) => <Ray as Output>::NAMES, _wrap(list) => of(list))
     }
 
     /// Returns whether the function should return something for a row.
     pub fn is_present(&self, row: usize) -> bool {
-        match self {
-            ExpectedRows::Rays(rows) => row < rows.len(),
-            ExpectedRows::Hits(rows) => rows.get(row).is_some_and(Option::is_some),
-            ExpectedRows::Spans(rows) => rows.get(row).is_some_and(Option::is_some),
-            ExpectedRows::Directions(rows) => row < rows.len(),
-        }
+        self.record(row).is_some()
     }
 
     /// Returns the expected record for a row, or `None` if the function should return nothing or
     /// the row doesn't exist.
     pub fn record(&self, row: usize) -> Option<Box<dyn Record>> {
-        Some(match self {
-            ExpectedRows::Rays(rows) => Box::new(camera_ray(*rows.get(row)?)),
-            ExpectedRows::Hits(rows) => Box::new((*rows.get(row)?)?),
-            ExpectedRows::Spans(rows) => Box::new((*rows.get(row)?)?),
-            ExpectedRows::Directions(rows) => Box::new(*rows.get(row)?),
-        })
+        fn boxed<T: Output>(rows: &[T], row: usize) -> Option<Box<dyn Record>> {
+            Some(Box::new(rows.get(row)?.record()?.clone()))
+        }
+        with_list!(self,
+            rays(dirs) => Some(Box::new(camera_ray(*dirs.get(row)?))),
+            _wrap(list) => boxed(list, row)
+        )
     }
 
     /// Returns the correct answer to a table with these rows.
     pub fn answer(&self) -> Answer {
-        match self {
-            ExpectedRows::Rays(rows) => {
-                Answer::Rays(values(rows.iter().map(|dir| camera_ray(*dir))))
-            }
-            ExpectedRows::Hits(rows) => Answer::Hits(values(rows.iter().copied())),
-            ExpectedRows::Spans(rows) => Answer::Spans(values(rows.iter().copied())),
-            ExpectedRows::Directions(rows) => Answer::Directions(values(rows.iter().copied())),
+        fn of<T: Output>(rows: &[T]) -> Answer {
+            T::answer(values(rows.iter().cloned()))
         }
+        with_list!(self,
+            rays(dirs) => Answer::Rays(values(dirs.iter().map(|dir| camera_ray(*dir)))),
+            _wrap(list) => of(list)
+        )
     }
 
     /// Returns one of the rows.
     pub(super) fn single(&self, row: usize) -> ExpectedRows {
-        match self {
-            ExpectedRows::Rays(rows) => ExpectedRows::Rays(vec![rows[row]]),
-            ExpectedRows::Hits(rows) => ExpectedRows::Hits(vec![rows[row]]),
-            ExpectedRows::Spans(rows) => ExpectedRows::Spans(vec![rows[row]]),
-            ExpectedRows::Directions(rows) => ExpectedRows::Directions(vec![rows[row]]),
-        }
+        with_list!(self,
+            rays(dirs) => ExpectedRows::Rays(vec![dirs[row]]),
+            wrap(list) => wrap(vec![list[row]])
+        )
     }
 
-    /// Returns the rows with `change` applied to the value of every field.
+    /// Returns the rows with `change` applied to the value of every field. Camera rays aren't
+    /// changed.
     pub fn changed(&self, change: &dyn Fn(Value<'_>) -> Value<'static>) -> ExpectedRows {
-        fn each<R: Record + Copy>(
-            rows: &[Option<R>],
-            change: impl Fn(&mut dyn Record),
-        ) -> Vec<Option<R>> {
-            let mut rows = rows.to_vec();
-            rows.iter_mut().flatten().for_each(|row| change(row));
-            rows
-        }
-        let change = |record: &mut dyn Record| record.change(change);
-        match self {
-            ExpectedRows::Rays(_) | ExpectedRows::Directions(_) => self.clone(),
-            ExpectedRows::Hits(rows) => ExpectedRows::Hits(each(rows, change)),
-            ExpectedRows::Spans(rows) => ExpectedRows::Spans(each(rows, change)),
-        }
+        with_list!(self, rays(_dirs) => self.clone(), wrap(list) => {
+            let mut rows = list.clone();
+            for record in rows.iter_mut().filter_map(Output::record_mut) {
+                (record as &mut dyn Record).change(change);
+            }
+            wrap(rows)
+        })
     }
 }
 

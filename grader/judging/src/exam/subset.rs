@@ -30,6 +30,10 @@ pub(super) fn single_key(key: &Key, element: usize) -> Key {
                 .map(|(_, surface)| (0, *surface))
                 .collect(),
         },
+        // A single direction isn't spread in any way, but it must have length one.
+        Key::SpreadEvenly { .. } => Key::SpreadEvenly {
+            max_chi_squared: f64::INFINITY,
+        },
         Key::Tree { .. } | Key::Radiance { .. } => key.clone(),
     }
 }

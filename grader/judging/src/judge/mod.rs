@@ -8,6 +8,7 @@ mod mismatch;
 pub(crate) mod quantity;
 mod radiance;
 mod scale;
+mod spread;
 pub(crate) mod table;
 mod threshold;
 pub mod tree;
@@ -20,6 +21,7 @@ use crate::symptom::Side;
 use first_hits::FirstHits;
 use mismatch::Position;
 use radiance::Radiance;
+use spread::Spread;
 use table::TableAnswer;
 use tree::{TreeAnswer, TreeCriteria};
 
@@ -155,6 +157,12 @@ fn comparison<'a>(
                 answers,
             })
         }
+        (Key::SpreadEvenly { max_chi_squared }, Answer::Directions(answer), _) => {
+            Box::new(Spread {
+                max_chi_squared: *max_chi_squared,
+                answer,
+            })
+        }
         (Key::Tree { .. }, Answer::Tree(answer), _) => Box::new(TreeAnswer {
             criteria: TreeCriteria::of(question)?,
             answer,
@@ -172,6 +180,12 @@ fn comparison<'a>(
             answer,
         }),
         // Unreachable: an exam whose key doesn't fit its question is rejected when it is loaded.
-        (Key::FirstHits { .. } | Key::Tree { .. } | Key::Radiance { .. }, ..) => return None,
+        (
+            Key::FirstHits { .. }
+            | Key::SpreadEvenly { .. }
+            | Key::Tree { .. }
+            | Key::Radiance { .. },
+            ..,
+        ) => return None,
     })
 }

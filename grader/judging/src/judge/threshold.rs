@@ -1,13 +1,13 @@
 //! All thresholds between correct and wrong answers.
 
 use glam::{Vec2, Vec3};
-use protocol::{Interval, Ray, Record, Trace};
+use protocol::{Color, Fraction, Interval, Ray, Record, Scattered, Trace};
 
 use super::credit::TOLERATED_POSITIONS;
 use super::first_hits::{DEPTH, NORMAL};
 use super::radiance::RELATIVE_TOLERANCE;
 use super::tree::{CONTAIN_TOLERANCE, FULL_MARKS_RATIO, TIGHT_TOLERANCE};
-use crate::types::{self, Tolerance, direction, length, uv};
+use crate::types::{self, Tolerance, direction, length, portion, uv};
 
 /// A threshold between correct and wrong answers. The steps of partial credit aren't listed here,
 /// because they only distinguish between wrong answers of different quality.
@@ -29,6 +29,8 @@ pub enum Threshold {
     Radiance,
     /// Number of wrong pixels in a rendered picture.
     RadiancePixels,
+    /// How unevenly directions are spread over the sphere.
+    Spread,
     /// SAH cost of a tree.
     SahCost,
     /// How far a box extends beyond its contents.
@@ -38,7 +40,7 @@ pub enum Threshold {
 }
 
 /// The thresholds that don't belong to a single field.
-const OTHER: [Threshold; 10] = [
+const OTHER: [Threshold; 11] = [
     Threshold::UnitLength,
     Threshold::PictureDepth,
     Threshold::PictureNormal,
@@ -46,6 +48,7 @@ const OTHER: [Threshold; 10] = [
     Threshold::PicturePositions,
     Threshold::Radiance,
     Threshold::RadiancePixels,
+    Threshold::Spread,
     Threshold::SahCost,
     Threshold::BoxTooLarge,
     Threshold::BoxTooSmall,
@@ -63,7 +66,21 @@ impl Threshold {
             shape: 0,
         };
         let ray = Ray::new(Vec3::ZERO, Vec3::Z);
-        let records: [&dyn Record; 3] = [&trace, &ray, &Interval::AHEAD];
+        let scattered = Scattered {
+            direction: Vec3::ZERO,
+            attenuation: Vec3::ZERO,
+            pdf: None,
+        };
+        let color = Color { value: Vec3::ZERO };
+        let fraction = Fraction { fraction: 0.0 };
+        let records: [&dyn Record; 6] = [
+            &trace,
+            &ray,
+            &Interval::AHEAD,
+            &scattered,
+            &color,
+            &fraction,
+        ];
         let fields = records.into_iter().flat_map(|record| {
             let named = record.names().iter().zip(record.values());
             named.filter_map(|(name, value)| {
@@ -90,6 +107,7 @@ impl Threshold {
             Threshold::PicturePositions => "wrong positions in a picture",
             Threshold::Radiance => "radiance of a pixel",
             Threshold::RadiancePixels => "wrong pixels in a rendered picture",
+            Threshold::Spread => "unevenness of directions (χ²)",
             Threshold::SahCost => "SAH cost of a tree",
             Threshold::BoxTooLarge => "how far a box extends beyond its contents",
             Threshold::BoxTooSmall => "how far a primitive extends beyond its box",
@@ -114,7 +132,10 @@ impl Threshold {
                 format!("{TOLERATED_POSITIONS}, or 1e-4 of all positions")
             }
             Threshold::Radiance => format!("{RELATIVE_TOLERANCE}, relative"),
-            Threshold::RadiancePixels => "set by the key".to_owned(),
+            Threshold::Field(_, Tolerance::Relative) => {
+                format!("{:e}, relative", portion::TOLERANCE)
+            }
+            Threshold::RadiancePixels | Threshold::Spread => "set by the key".to_owned(),
             Threshold::SahCost => format!("{FULL_MARKS_RATIO} times the exact sweep's"),
             Threshold::BoxTooLarge => format!("{TIGHT_TOLERANCE:e} diagonals"),
             Threshold::BoxTooSmall => format!("{CONTAIN_TOLERANCE:e} diagonals"),
@@ -134,7 +155,9 @@ impl Threshold {
             Threshold::PictureNormal => "judge/first_hits/mod.rs: NORMAL",
             Threshold::PicturePositions => "judge/credit.rs: TOLERATED_POSITIONS",
             Threshold::Radiance => "judge/radiance.rs: RELATIVE_TOLERANCE",
+            Threshold::Field(_, Tolerance::Relative) => "types/portion.rs: TOLERANCE",
             Threshold::RadiancePixels => "the exam's key: max_wrong_pixels",
+            Threshold::Spread => "the exam's key: max_chi_squared",
             Threshold::SahCost => "judge/tree/mod.rs: FULL_MARKS_RATIO",
             Threshold::BoxTooLarge => "judge/tree/mod.rs: TIGHT_TOLERANCE",
             Threshold::BoxTooSmall => "judge/tree/mod.rs: CONTAIN_TOLERANCE",

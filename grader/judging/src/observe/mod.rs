@@ -35,7 +35,7 @@ fn expected_elements(question: &ExamQuestion) -> Vec<ObservedAnswer> {
             table.rows.iter().map(observe).collect()
         }),
         Key::Tree { .. } => vec![ObservedAnswer::Tree(None)],
-        Key::FirstHits { .. } | Key::Radiance { .. } => Vec::new(),
+        Key::FirstHits { .. } | Key::Radiance { .. } | Key::SpreadEvenly { .. } => Vec::new(),
     }
 }
 
@@ -51,7 +51,13 @@ fn observe_question(question: &ExamQuestion, answer: &Answer) -> Vec<ObservedAns
                 observe_tree(question, tree)
             })
         }
-        (Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. }, _) => Vec::new(),
+        (
+            Key::Tree { .. }
+            | Key::FirstHits { .. }
+            | Key::Radiance { .. }
+            | Key::SpreadEvenly { .. },
+            _,
+        ) => Vec::new(),
     }
 }
 

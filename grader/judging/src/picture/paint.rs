@@ -96,7 +96,7 @@ fn wanted_layers(key: &Key) -> Vec<LayerSamples> {
             directions.iter().map(|dir| signed_colour(*dir)),
         ),
         Key::Radiance { pixels, .. } => one_layer("light", pixels.iter().map(|it| srgb(*it))),
-        Key::Table { .. } | Key::Tree { .. } => Vec::new(),
+        Key::Table { .. } | Key::Tree { .. } | Key::SpreadEvenly { .. } => Vec::new(),
     }
 }
 
@@ -120,7 +120,11 @@ fn got_layers(key: &Key, answer: &Answer) -> Option<Vec<LayerSamples>> {
             one_layer("light", got.iter().map(|pixel| srgb(*pixel)))
         }
         (
-            Key::Table { .. } | Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. },
+            Key::Table { .. }
+            | Key::Tree { .. }
+            | Key::FirstHits { .. }
+            | Key::Radiance { .. }
+            | Key::SpreadEvenly { .. },
             _,
         ) => return None,
     })
@@ -137,7 +141,7 @@ pub(super) fn has_surface(question: &ExamQuestion) -> Vec<bool> {
         Key::FirstHits { hits, .. } => hits.iter().map(Option::is_some).collect(),
         Key::Table { rows, .. } => (0..rows.count()).map(|row| rows.is_present(row)).collect(),
         Key::Radiance { pixels, .. } => vec![true; pixels.len()],
-        Key::Tree { .. } => Vec::new(),
+        Key::Tree { .. } | Key::SpreadEvenly { .. } => Vec::new(),
     }
 }
 

@@ -103,7 +103,10 @@ impl Observations {
 fn can_be_hit(item: &Item) -> bool {
     item.questions.iter().any(|question| match &question.key {
         Key::Table { rows, .. } => (0..rows.count()).any(|row| rows.is_present(row)),
-        Key::Tree { .. } | Key::FirstHits { .. } | Key::Radiance { .. } => false,
+        Key::Tree { .. }
+        | Key::FirstHits { .. }
+        | Key::Radiance { .. }
+        | Key::SpreadEvenly { .. } => false,
     })
 }
 

@@ -1,12 +1,15 @@
 //! The types of fields: how values of each type are compared, printed and observed. Similar types
 //! share a file, and all functions use the same types.
 
+mod color;
 pub(crate) mod direction;
 mod index;
 mod interval;
 pub(crate) mod length;
+mod light;
 mod number;
 pub(crate) mod point;
+pub(crate) mod portion;
 mod question_value;
 mod shapes;
 pub(crate) mod uv;
@@ -66,6 +69,8 @@ pub enum Tolerance {
     Direction,
     /// The tolerance for texture coordinates.
     Uv,
+    /// The tolerance for colours, densities and fractions, relative to the expected value.
+    Relative,
 }
 
 /// Returns the type of a value.
@@ -79,13 +84,22 @@ pub(crate) fn of<'a>(value: &'a Value<'_>) -> Box<dyn FieldType + 'a> {
         Value::Range(range) => Box::new(interval::Range(*range)),
         Value::Index(index) => Box::new(index::Index(*index)),
         Value::Shapes(list) => Box::new(shapes::Shapes(list)),
+        Value::Color(color) => Box::new(color::Color(*color)),
+        Value::Density(density) => Box::new(portion::Portion(Some(*density))),
+        Value::OptionalDensity(density) => Box::new(portion::Portion(*density)),
+        Value::Fraction(fraction) => Box::new(portion::Portion(Some(*fraction))),
         Value::Count(_)
         | Value::Angle(_)
         | Value::Ratio(_)
         | Value::Film(_)
         | Value::Pixel(_)
         | Value::Offset(_)
-        | Value::Nodes(_) => Box::new(question_value::QuestionValue(value)),
+        | Value::Nodes(_)
+        | Value::Random(_)
+        | Value::RandomPair(_)
+        | Value::Lights(_)
+        | Value::Scene(_)
+        | Value::Map(_) => Box::new(question_value::QuestionValue(value)),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use protocol::Value;
 
-use super::{FieldType, number, uv};
+use super::{FieldType, light, number, uv};
 
 pub(super) struct QuestionValue<'a>(pub(super) &'a Value<'a>);
 
@@ -15,6 +15,11 @@ impl FieldType for QuestionValue<'_> {
             Value::Pixel(pixel) => format!("({}, {})", pixel.x, pixel.y),
             Value::Offset(offset) => uv(*offset),
             Value::Nodes(nodes) => nodes.len().to_string(),
+            Value::Random(random) => number(*random),
+            Value::RandomPair(random) => uv(*random),
+            Value::Lights(lights) => light::text(lights),
+            Value::Scene(_) => "a room".to_owned(),
+            Value::Map(map) => format!("a map of {}×{} pixels", map.size.x, map.size.y),
             Value::Length(_)
             | Value::Point(_)
             | Value::Direction(_)
@@ -22,7 +27,11 @@ impl FieldType for QuestionValue<'_> {
             | Value::Interval(_)
             | Value::Range(_)
             | Value::Index(_)
-            | Value::Shapes(_) => super::of(self.0).text(),
+            | Value::Shapes(_)
+            | Value::Color(_)
+            | Value::Density(_)
+            | Value::OptionalDensity(_)
+            | Value::Fraction(_) => super::of(self.0).text(),
         }
     }
 }

@@ -92,7 +92,10 @@ impl HitComparison {
                     surface.map(|surface| trace_of(surface, &ray)),
                 )
             }
-            Key::Table { .. } | Key::Tree { .. } | Key::Radiance { .. } => return None,
+            Key::Table { .. }
+            | Key::Tree { .. }
+            | Key::Radiance { .. }
+            | Key::SpreadEvenly { .. } => return None,
         };
         let got = hit_answer(element, answer);
         let focus = choose_focus(&judged, wanted.as_ref(), &got);

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use glam::UVec2;
-use grader::handed_out::TaskMethod;
+use grader::handed_out::TaskMethods;
 use grader::probe::Fault;
 use grader::submission::Submission;
 use judging::assignment::TaskInfo;
@@ -199,8 +199,8 @@ impl Session {
     }
 
     /// Returns a task's method in the submission, if it is found.
-    fn method(&self, task: &TaskInfo) -> Option<TaskMethod> {
-        self.submission.as_ref()?.task_method(task)
+    fn method(&self, task: &TaskInfo) -> Option<TaskMethods> {
+        self.submission.as_ref()?.task_methods(task)
     }
 
     /// Returns the file and line where a task's method is declared.

@@ -1,22 +1,25 @@
 //! The contract of each task: the sentences of its method's documentation.
 
+use grader::handed_out::find_method;
 use judging::assignment::TaskInfo;
 
-/// Returns the sentences that document a task's method, given the text of its file.
+/// Returns the sentences that document a task's methods, given the text of its file.
 pub(super) fn sentences(file: &str, task: &TaskInfo) -> Vec<String> {
-    split(&paragraphs(&documentation(file, task.method)))
+    let documented = task.methods.iter().flat_map(|path| {
+        let documentation = documentation(file, path);
+        split(&paragraphs(&documentation))
+    });
+    documented.collect()
 }
 
-/// Returns the lines that document a method, without their slashes.
-pub fn documentation<'a>(file: &'a str, method: &str) -> Vec<&'a str> {
-    let declaration = format!("pub fn {method}(");
-    let lines: Vec<&str> = file.lines().map(str::trim).collect();
-    let end = lines.iter().position(|line| line.starts_with(&declaration));
-    let above = lines[..end.unwrap_or(0)].iter().rev();
-    let documentation = above.map_while(|line| line.strip_prefix("///"));
-    let mut documentation: Vec<&str> = documentation.collect();
-    documentation.reverse();
-    documentation
+/// Returns the lines that document a method with this full name, without their slashes.
+pub fn documentation<'a>(file: &'a str, path: &str) -> Vec<&'a str> {
+    let Ok(method) = find_method(file, path) else {
+        return Vec::new();
+    };
+    let lines = file[method.bytes].lines().map(str::trim);
+    let lines = lines.skip_while(|line| !line.starts_with("///"));
+    lines.map_while(|line| line.strip_prefix("///")).collect()
 }
 
 /// Joins the lines of each paragraph and list item.
@@ -64,8 +67,8 @@ mod tests {
 
     #[test]
     fn paragraphs_and_list_items_are_split_into_sentences() {
-        let file = "    /// Returns a. Or `None`\n    /// if 1.5 is b.\n    ///\n    /// - One.\n    ///   \
-                    Two, i.e. three.\n    pub fn hit(&self) {}\n";
+        let file = "impl Sphere {\n    /// Returns a. Or `None`\n    /// if 1.5 is b.\n    ///\n    /// - One.\n    ///   \
+                    Two, i.e. three.\n    pub fn hit(&self) {}\n}\n";
         let sphere = RAYS
             .tasks
             .iter()

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use grader::files;
 use grader::handed_out::HandedOut;
 use judging::assignment::TaskInfo;
@@ -39,29 +39,35 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
     let tasks = handed_out.assignment.tasks;
     for task in tasks {
         let TaskInfo {
-            id, file, points, ..
+            id,
+            file,
+            methods,
+            points,
+            ..
         } = task;
         let link = link(root, task.chapter)?;
         let starter = handed_out.task_file(file).context("tasks have a file")?;
-        let method = handed_out.task_method(task.task(), starter.starter);
-        let method = method.map_err(|why| anyhow!(why))?.name;
-        chapter_rows.push(format!("| {link} | `{file}` | `{method}` | {points} |"));
-        task_rows.push(format!("| `{id}` | `{file}` | `{method}` | {points} |"));
+        let methods: Vec<String> = methods.iter().map(|path| format!("`{path}`")).collect();
+        let methods = methods.join(", ");
+        chapter_rows.push(format!("| {link} | `{file}` | {methods} | {points} |"));
+        task_rows.push(format!("| `{id}` | `{file}` | {methods} | {points} |"));
         let known = chapters.iter().position(|(name, _)| *name == task.chapter);
         let index = known.unwrap_or(chapters.len());
         if known.is_none() {
             chapters.push((task.chapter, page(root, task.chapter)?));
             links.push(link);
         }
-        let documentation = contract::documentation(starter.starter, task.method);
-        let text = with_contract(&chapters[index].1, &method, &documentation);
-        chapters[index].1 = text.with_context(|| {
-            format!(
-                "{} needs the lines {:?} and {END_OF_CONTRACT:?}",
-                task.chapter,
-                contract_of(&method)
-            )
-        })?;
+        for path in task.methods {
+            let documentation = contract::documentation(starter.starter, path);
+            let text = with_contract(&chapters[index].1, path, &documentation);
+            chapters[index].1 = text.with_context(|| {
+                format!(
+                    "{} needs the lines {:?} and {END_OF_CONTRACT:?}",
+                    task.chapter,
+                    contract_of(path)
+                )
+            })?;
+        }
     }
     task_rows.push(format!("| | | | **{}** |", handed_out.assignment.points()));
 

@@ -25,7 +25,8 @@ pub(super) fn draw_distinct(seed: Seed, item: &Declaration, practice: &Item) -> 
 ///
 /// Some questions are skipped. If the answer is the same for all rows, e.g. the length of a
 /// direction, or if no ray hits anything, only one answer is possible. A tree answers only
-/// questions about its own primitives, which depend on the seed. A picture that hasn't been
+/// questions about its own primitives, which depend on the seed. Directions that must only be
+/// spread evenly have no answers that could be shared. A picture that hasn't been
 /// recorded yet depends on a random number, which also depends on the seed.
 pub fn shares_a_question(item: &Item, other: &Item) -> bool {
     let answers = other.questions.iter();
@@ -36,7 +37,7 @@ pub fn shares_a_question(item: &Item, other: &Item) -> bool {
         }
         Key::FirstHits { .. } => true,
         Key::Radiance { pixels, .. } => !pixels.is_empty(),
-        Key::Tree { .. } => false,
+        Key::Tree { .. } | Key::SpreadEvenly { .. } => false,
     };
     let mut drawn = item.questions.iter().filter(is_drawn);
     drawn.any(|question| {

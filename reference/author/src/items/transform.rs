@@ -2,8 +2,11 @@
 //! absolute sizes or on being near the origin, since such code is correct in some places and wrong
 //! in others.
 
+use std::borrow::Cow;
+
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
+use protocol::light::lights::FlatLight;
 use protocol::{Interval, Question, Ray, Shape, TreeNode, Value};
 
 use crate::oracle::bbox::Bounds;
@@ -137,6 +140,20 @@ impl Transform {
         TreeNode { min, max, ..*node }
     }
 
+    fn light(self, light: &FlatLight) -> FlatLight {
+        let FlatLight {
+            corner,
+            edges: [first, second],
+            ..
+        } = *light;
+        let corners = [corner, corner + first, corner + second].map(|point| self.point(point));
+        FlatLight {
+            corner: corners[0],
+            edges: [corners[1] - corners[0], corners[2] - corners[0]],
+            ..*light
+        }
+    }
+
     /// Transforms the value of a field. Values without a position or a size stay unchanged.
     fn value(self, value: Value<'_>) -> Value<'static> {
         match value {
@@ -158,15 +175,33 @@ impl Transform {
             Value::Film(film) => Value::Film(film),
             Value::Pixel(pixel) => Value::Pixel(pixel),
             Value::Offset(offset) => Value::Offset(offset),
+            Value::Color(color) => Value::Color(color),
+            Value::Density(density) => Value::Density(density),
+            Value::OptionalDensity(density) => Value::OptionalDensity(density),
+            Value::Fraction(fraction) => Value::Fraction(fraction),
+            Value::Random(random) => Value::Random(random),
+            Value::RandomPair(random) => Value::RandomPair(random),
+            Value::Lights(lights) => {
+                let lights: Vec<FlatLight> = lights.iter().map(|it| self.light(it)).collect();
+                Value::Lights(lights.into())
+            }
+            Value::Scene(scene) => Value::Scene(scene.into_owned().into()),
+            Value::Map(map) => Value::Map(Cow::Owned(map.into_owned())),
         }
     }
 }
 
-/// Returns a transformed question, or `None` if it is about a picture.
+/// Returns a transformed question, or `None` if it is about a picture or a scene file.
 pub(super) fn moved(transform: Transform, asked: &ExamQuestion) -> Option<ExamQuestion> {
     let change = |value: Value<'_>| transform.value(value);
     let question = match (&asked.question, asked.question.table()) {
-        (_, Some(table)) => table.changed(&change)?,
+        (_, Some(table)) => {
+            let mut values = table.subject().values();
+            if values.any(|value| matches!(value, Value::Scene(_))) {
+                return None;
+            }
+            table.changed(&change)?
+        }
         (
             Question::Build {
                 shapes,
@@ -191,7 +226,7 @@ pub(super) fn moved(transform: Transform, asked: &ExamQuestion) -> Option<ExamQu
         },
         // A tree's cost is a ratio of areas.
         Key::Tree { .. } => asked.key.clone(),
-        Key::FirstHits { .. } | Key::Radiance { .. } => return None,
+        Key::FirstHits { .. } | Key::Radiance { .. } | Key::SpreadEvenly { .. } => return None,
     };
     Some(ExamQuestion::new(question, key))
 }

@@ -61,6 +61,11 @@ impl Detection {
                 Key::FirstHits { .. } | Key::Radiance { .. } => {
                     caught.picture = caught.picture.max(picture_multiple(question, answer));
                 }
+                // Directions are either spread evenly or not, like a tree that is right or wrong.
+                Key::SpreadEvenly { .. } => {
+                    caught.trees.0 += usize::from(is_wrong);
+                    caught.trees.1 += 1;
+                }
                 Key::Table { .. } => {
                     let count = judgement.failure.and_then(|failure| failure.count);
                     caught.answers.0 += count.map_or(0, |(wrong, _)| wrong);

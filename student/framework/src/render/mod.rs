@@ -7,6 +7,7 @@ pub mod offset;
 pub mod path_log;
 pub mod rectangles;
 pub mod renderer;
-pub mod sampler;
 pub mod sphere_light;
 pub mod tracer;
+
+pub use protocol::sampler;

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
 use glam::{UVec2, Vec2, Vec3};
-use protocol::{Interval, Ray, Shape};
+use protocol::{Interval, Ray, Shape, Trace};
 
 use crate::render::offset;
 use crate::render::renderer::{InvalidSample, RenderStats};
@@ -66,12 +66,20 @@ impl<'a> Tracer<'a> {
         if let (Some(time), Some(started)) = (&mut stats.time_in_hit, started) {
             *time += started.elapsed();
         }
-        let Some(trace) = hit else {
-            return Ok(None);
-        };
+        hit.map(|trace| Surface::new(self.scene, ray, &trace))
+            .transpose()
+    }
+}
+
+impl<'a> Surface<'a> {
+    /// Returns the surface in a scene at a ray's hit.
+    ///
+    /// # Errors
+    /// Fails if the hit is unusable.
+    pub fn new(scene: &'a Scene, ray: &Ray, trace: &Trace) -> Result<Self, InvalidSample> {
         // In a scene, a shape's number is its index.
-        let shape = self.scene.shapes.get(trace.shape as usize);
-        let material = self.scene.material_of(trace.shape);
+        let shape = scene.shapes.get(trace.shape as usize);
+        let material = scene.material_of(trace.shape);
         let normal = trace.normal.try_normalize();
         let (Some(shape), Some(material), Some(normal)) = (shape, material, normal) else {
             return Err(InvalidSample);
@@ -80,7 +88,7 @@ impl<'a> Tracer<'a> {
             return Err(InvalidSample);
         }
         let outside = ray.dir.dot(normal) < 0.0;
-        Ok(Some(Surface {
+        Ok(Surface {
             shape,
             material,
             eye: ray.origin,
@@ -89,11 +97,9 @@ impl<'a> Tracer<'a> {
             normal: if outside { normal } else { -normal },
             outside,
             uv: trace.uv,
-        }))
+        })
     }
-}
 
-impl Surface<'_> {
     /// Returns the ray that leaves the surface in direction `dir` and ends at distance `max`. It
     /// starts far enough away not to hit the surface itself.
     pub fn leave(&self, dir: Vec3, max: f32) -> Ray {

@@ -101,6 +101,8 @@ impl Record for Interval {
 }
 
 impl Output for Option<Interval> {
+    type Record = Interval;
+
     const NAMES: &'static [&'static str] = <Interval as Fields>::NAMES;
     const RESULT_TEXT: ResultText = ResultText {
         record: "{interval inside the box}",
@@ -109,8 +111,12 @@ impl Output for Option<Interval> {
     };
     const MAX_BYTES: usize = 2 * size_of::<f32>() + 1;
 
-    fn record(&self) -> Option<&dyn Record> {
-        self.as_ref().map(|interval| interval as &dyn Record)
+    fn record(&self) -> Option<&Interval> {
+        self.as_ref()
+    }
+
+    fn record_mut(&mut self) -> Option<&mut Interval> {
+        self.as_mut()
     }
 
     fn answer(rows: Vec<ElementOutcome<Self>>) -> Answer {

@@ -177,6 +177,8 @@ fields! {
 }
 
 impl Output for Option<Trace> {
+    type Record = Trace;
+
     const NAMES: &'static [&'static str] = <Trace as Fields>::NAMES;
     const RESULT_TEXT: ResultText = ResultText {
         record: "distance {distance}, position {position}, normal {normal}, uv {uv}, \
@@ -187,8 +189,12 @@ impl Output for Option<Trace> {
     // 12 floats and a variable-length number.
     const MAX_BYTES: usize = 12 * size_of::<f32>() + 6;
 
-    fn record(&self) -> Option<&dyn Record> {
-        self.as_ref().map(|trace| trace as &dyn Record)
+    fn record(&self) -> Option<&Trace> {
+        self.as_ref()
+    }
+
+    fn record_mut(&mut self) -> Option<&mut Trace> {
+        self.as_mut()
     }
 
     fn answer(rows: Vec<ElementOutcome<Self>>) -> Answer {

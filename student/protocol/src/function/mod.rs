@@ -5,7 +5,7 @@
 
 mod bbox_hit;
 mod hit;
-mod reflect;
+pub mod light;
 mod rows;
 mod sample_ray;
 mod table;
@@ -28,7 +28,9 @@ use crate::view::PinholeCamera;
 
 pub use bbox_hit::{BBoxHit, Corners, Query};
 pub use hit::{Geometry, Hit};
-pub use reflect::{LocalDirection, Reflect};
+pub use light::{
+    Color, Density, Fraction, LightFunctions, LightQuestion, LocalDirection, Scattered,
+};
 pub use rows::{Input, NoView, Rows, View};
 pub use sample_ray::SampleRay;
 pub use table::{AnyTable, Attempts, Table};
@@ -45,8 +47,8 @@ pub enum Question {
     /// Calls `BBox::hit` once per row.
     #[serde(rename = "bbox_hit")]
     BBoxHit(Table<BBoxHit>),
-    /// Calls `reflect` once per row.
-    Reflect(Table<Reflect>),
+    /// Calls a function of part two once per row.
+    Light(LightQuestion),
     /// Calls `Bvh::build` once. The answer is the whole tree.
     Build {
         /// The primitives, each with a different number.
@@ -75,7 +77,7 @@ impl Question {
             Question::SampleRay(table) => Some(table),
             Question::Hit(table) => Some(table),
             Question::BBoxHit(table) => Some(table),
-            Question::Reflect(table) => Some(table),
+            Question::Light(question) => Some(question.table()),
             Question::Build { .. } | Question::Radiance { .. } => None,
         }
     }
@@ -83,32 +85,48 @@ impl Question {
 
 /// A submission's files, called through the given file `world.rs`, which implements this
 /// trait. The methods convert the cameras, shapes and nodes in a scene or a question to the
-/// submission's own types.
+/// submission's own types. An assignment implements the methods for its own functions.
 pub trait Submission: Sync {
     /// Calls `Camera::new`.
-    fn camera(&self, pinhole: &PinholeCamera) -> Box<dyn CameraRays>;
+    fn camera(&self, _pinhole: &PinholeCamera) -> Box<dyn CameraRays> {
+        unimplemented!("this assignment has no camera")
+    }
 
     /// Creates a list of primitives, without a tree.
-    fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate>;
+    fn primitive_list(&self, _shapes: &[Shape]) -> Box<dyn Aggregate> {
+        unimplemented!("this assignment has no shapes")
+    }
 
     /// Calls `BBox::hit` on the box between these corners.
-    fn intersect_box(&self, min: Vec3, max: Vec3, ray: &Ray, times: Interval) -> Option<Interval>;
-
-    /// Calls `reflect`, in a frame whose +z is the normal.
-    fn reflect(&self, _toward_viewer: Vec3) -> Vec3 {
-        unimplemented!("this assignment has no mirrors")
+    fn intersect_box(
+        &self,
+        _min: Vec3,
+        _max: Vec3,
+        _ray: &Ray,
+        _times: Interval,
+    ) -> Option<Interval> {
+        unimplemented!("this assignment has no boxes")
     }
 
     /// Calls `Bvh::build`.
-    fn build(&self, shapes: &[Shape], max_leaf_size: usize) -> Box<dyn Hierarchy>;
+    fn build(&self, _shapes: &[Shape], _max_leaf_size: usize) -> Box<dyn Hierarchy> {
+        unimplemented!("this assignment has no trees")
+    }
 
     /// Calls `Bvh::from_nodes`.
     fn prebuilt_tree(
         &self,
-        shapes: &[Shape],
-        nodes: &[TreeNode],
-        root: usize,
-    ) -> Box<dyn Hierarchy>;
+        _shapes: &[Shape],
+        _nodes: &[TreeNode],
+        _root: usize,
+    ) -> Box<dyn Hierarchy> {
+        unimplemented!("this assignment has no trees")
+    }
+
+    /// Returns the functions of part two.
+    fn light(&self) -> &dyn LightFunctions {
+        unimplemented!("this assignment has no lights")
+    }
 }
 
 /// A method of a submission, with the types of its subject, its arguments and its result.
@@ -155,6 +173,8 @@ pub struct ResultText {
 
 /// A value that a function returns: a record or an optional record.
 pub trait Output: Data {
+    /// The type of the record.
+    type Record: Record + Data;
     /// The names of the record's fields.
     const NAMES: &'static [&'static str];
     /// The templates for printing values.
@@ -163,7 +183,10 @@ pub trait Output: Data {
     const MAX_BYTES: usize;
 
     /// Returns the record, or `None` if the function returned no record.
-    fn record(&self) -> Option<&dyn Record>;
+    fn record(&self) -> Option<&Self::Record>;
+
+    /// Returns the record, to change it.
+    fn record_mut(&mut self) -> Option<&mut Self::Record>;
 
     /// Returns an answer with these rows.
     fn answer(rows: Vec<ElementOutcome<Self>>) -> Answer;

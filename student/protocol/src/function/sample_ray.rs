@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Function, Input, Output, Question, ResultText, Submission, Table, View};
 use crate::answer::{Answer, ElementOutcome};
 use crate::ray::Ray;
-use crate::value::{Fields, Record, fields};
+use crate::value::{Fields, fields};
 use crate::view::{PinholeCamera, Sample};
 
 /// Calls `Camera::sample_ray` for positions on the film.
@@ -79,6 +79,8 @@ impl View<Sample> for UVec2 {
 }
 
 impl Output for Ray {
+    type Record = Ray;
+
     const NAMES: &'static [&'static str] = <Ray as Fields>::NAMES;
     const RESULT_TEXT: ResultText = ResultText {
         record: "{ray}",
@@ -87,7 +89,11 @@ impl Output for Ray {
     };
     const MAX_BYTES: usize = 8 * size_of::<f32>();
 
-    fn record(&self) -> Option<&dyn Record> {
+    fn record(&self) -> Option<&Ray> {
+        Some(self)
+    }
+
+    fn record_mut(&mut self) -> Option<&mut Ray> {
         Some(self)
     }
 

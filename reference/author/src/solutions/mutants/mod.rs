@@ -49,15 +49,17 @@ pub fn mutants(reference: &Sources) -> Result<Vec<Solution>> {
     Ok(found)
 }
 
-/// Returns the task that students write this function in, or all tasks in the file if there is no
-/// such task.
+/// Returns the tasks that students write a function with this name in, or all tasks in the file if
+/// there are none.
 fn tasks_of(assignment: &Assignment, file: &str, function: &str) -> Vec<Task> {
     let in_file = || assignment.tasks.iter().filter(|task| task.file == file);
-    let own = in_file().find(|task| task.method == function);
-    match own {
-        Some(own) => vec![own.task()],
-        None => in_file().map(TaskInfo::task).collect(),
+    let is_named = |path: &&str| path.rsplit("::").next() == Some(function);
+    let own = in_file().filter(|task| task.methods.iter().any(is_named));
+    let own: Vec<Task> = own.map(TaskInfo::task).collect();
+    if own.is_empty() {
+        return in_file().map(TaskInfo::task).collect();
     }
+    own
 }
 
 #[cfg(test)]

@@ -1,0 +1,161 @@
+//! Checks that directions are spread evenly over the sphere, for functions that may use any formula
+//! that does this. The random numbers are part of the exam, so the verdict never changes.
+
+use std::f64::consts::TAU;
+
+use glam::Vec3;
+use protocol::{ElementOutcome, LocalDirection};
+
+use super::deviation::worst_by_threshold;
+use super::{Comparison, Deviation, Failure, FailureKind, Judgement, Measurement, Threshold};
+use crate::types::{FieldType, UnitLength, in_units_of, number};
+
+/// The numbers of bands and sectors that the sphere is divided into. Bands of equal height have
+/// equal areas (Archimedes).
+const CELLS: [usize; 2] = [8, 8];
+
+/// Directions and the maximum χ² of their numbers in the cells.
+pub(super) struct Spread<'a> {
+    pub(super) max_chi_squared: f64,
+    pub(super) answer: &'a [ElementOutcome<LocalDirection>],
+}
+
+impl Spread<'_> {
+    /// Returns the deviation of each direction's length from one.
+    fn lengths(&self) -> impl Iterator<Item = Deviation> {
+        self.answer.iter().map(|outcome| match outcome {
+            ElementOutcome::Value(LocalDirection { direction }) => Deviation::new(
+                Threshold::UnitLength,
+                UnitLength(*direction).error(&protocol::Value::Direction(*direction), 1.0),
+            ),
+            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => Deviation::WRONG,
+        })
+    }
+
+    /// Returns χ² of the numbers of directions in the cells. Infinite if there are no directions.
+    fn chi_squared(&self) -> f64 {
+        let mut cells = [0.0; CELLS[0] * CELLS[1]];
+        for outcome in self.answer {
+            if let Some(LocalDirection { direction }) = outcome.value() {
+                cells[cell(*direction)] += 1.0;
+            }
+        }
+        let expected = self.answer.len() as f64 / cells.len() as f64;
+        let terms = cells.map(|count: f64| (count - expected).powi(2) / expected);
+        let sum: f64 = terms.iter().sum();
+        if sum.is_nan() { f64::INFINITY } else { sum }
+    }
+
+    fn spread(&self) -> Deviation {
+        let value = in_units_of(self.max_chi_squared, self.chi_squared());
+        Deviation::new(Threshold::Spread, value)
+    }
+}
+
+impl Comparison for Spread<'_> {
+    fn judge(&self) -> Judgement {
+        let first = self.lengths().position(|length| !length.is_right());
+        let wrong = |what: &str, got: String, wanted: String| FailureKind::Wrong {
+            what: what.to_owned(),
+            side: None,
+            got,
+            wanted,
+        };
+        let (element, kind) = match first.map(|element| (element, &self.answer[element])) {
+            Some((element, ElementOutcome::Panicked(panic))) => {
+                (element, FailureKind::Panicked(panic.clone()))
+            }
+            Some((element, ElementOutcome::Skipped)) => {
+                (element, FailureKind::Protocol("skipped".to_owned()))
+            }
+            Some((element, ElementOutcome::Value(LocalDirection { direction }))) => {
+                let length = UnitLength(*direction).text();
+                (
+                    element,
+                    wrong("length of direction", length, "1".to_owned()),
+                )
+            }
+            None if self.spread().is_right() => return Judgement::RIGHT,
+            None => {
+                let [got, limit] = [self.chi_squared(), self.max_chi_squared];
+                let text = |value: f64| number(value as f32);
+                let got = format!("a χ² of {}", text(got));
+                (0, wrong("spread", got, format!("at most {}", text(limit))))
+            }
+        };
+        Judgement::wrong(Failure {
+            element,
+            kind,
+            count: None,
+        })
+    }
+
+    fn measure(&self) -> Vec<Measurement> {
+        worst_by_threshold(self.lengths().chain([self.spread()]))
+    }
+}
+
+/// Returns the index of the cell that contains a direction.
+fn cell(direction: Vec3) -> usize {
+    let [bands, sectors] = CELLS;
+    let direction = direction.as_dvec3();
+    // Casts saturate, so a direction on the last border, or without a length, is in some cell too.
+    let band = ((direction.y + 1.0) / 2.0 * bands as f64) as usize;
+    let turn = direction.z.atan2(direction.x).rem_euclid(TAU) / TAU;
+    let sector = (turn * sectors as f64) as usize;
+    band.min(bands - 1) * sectors + sector.min(sectors - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns directions from a lattice on the unit square.
+    fn spread_by(direction: impl Fn(f32, f32) -> Vec3) -> Vec<ElementOutcome<LocalDirection>> {
+        let at = |n: usize| (n as f32 + 0.5) / 64.0;
+        let all = (0..64 * 64).map(|n| direction(at(n / 64), at(n % 64)));
+        all.map(|direction| ElementOutcome::Value(LocalDirection { direction }))
+            .collect()
+    }
+
+    fn on_sphere(height: f32, turn: f32) -> Vec3 {
+        let radius = (1.0 - height * height).max(0.0).sqrt();
+        let (sin, cos) = (std::f32::consts::TAU * turn).sin_cos();
+        Vec3::new(radius * cos, height, radius * sin)
+    }
+
+    fn judged(answer: &[ElementOutcome<LocalDirection>]) -> Option<String> {
+        let spread = Spread {
+            max_chi_squared: 100.0,
+            answer,
+        };
+        let measured = spread.measure().into_iter();
+        let is_right = measured.fold(true, |all, one| all && one.deciding_deviation().is_right());
+        let failure = spread.judge().failure;
+        assert_eq!(failure.is_none(), is_right);
+        match failure?.kind {
+            FailureKind::Wrong { what, .. } => Some(what),
+            FailureKind::Panicked(_) | FailureKind::Protocol(_) => None,
+        }
+    }
+
+    #[test]
+    fn even_directions_are_right_and_crowded_poles_are_not() {
+        let even = spread_by(|x, y| on_sphere(1.0 - 2.0 * x, y));
+        assert_eq!(judged(&even), None);
+        let turned = spread_by(|x, y| on_sphere(1.0 - 2.0 * y, x).zxy());
+        assert_eq!(judged(&turned), None);
+        let crowded = spread_by(|x, y| on_sphere((std::f32::consts::PI * x).cos(), y));
+        assert_eq!(judged(&crowded).as_deref(), Some("spread"));
+        let half = spread_by(|x, y| on_sphere(x, y));
+        assert_eq!(judged(&half).as_deref(), Some("spread"));
+    }
+
+    #[test]
+    fn directions_without_length_one_are_named() {
+        for factor in [0.5, 0.0, f32::NAN] {
+            let scaled = spread_by(|x, y| factor * on_sphere(1.0 - 2.0 * x, y));
+            assert_eq!(judged(&scaled).as_deref(), Some("length of direction"));
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! The functions of part two: materials, lights, direct light, paths and environment maps.
+
+pub mod environment;
+pub mod lambertian;
+pub mod lights;
+mod outputs;
+pub mod specular;
+pub mod transport;
+
+use glam::{Vec2, Vec3};
+use serde::{Deserialize, Serialize};
+
+use super::{AnyTable, Question, Table};
+use environment::{EnvironmentPdf, EnvironmentSample, MapImage, UniformSphere};
+use lambertian::{Evaluate, Pdf, Scatter};
+use lights::{AreaLightPdf, FlatLight, LightsPdf, LightsSample};
+use specular::{Fresnel, GlassScatter, MirrorScatter, Reflect, Refract};
+use transport::{Direct, DirectSample, PathStart, Radiance};
+
+pub use outputs::{Color, Density, Fraction, LocalDirection, Scattered};
+
+/// A question about part two. Each is a table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum LightQuestion {
+    /// Calls `Lambertian::evaluate` once per row.
+    Evaluate(Table<Evaluate>),
+    /// Calls `Lambertian::pdf` once per row.
+    LambertianPdf(Table<Pdf>),
+    /// Calls `Lambertian::scatter` once per row.
+    LambertianScatter(Table<Scatter>),
+    /// Calls `reflect` once per row.
+    Reflect(Table<Reflect>),
+    /// Calls `refract` once per row.
+    Refract(Table<Refract>),
+    /// Calls `fresnel` once per row.
+    Fresnel(Table<Fresnel>),
+    /// Calls `Mirror::scatter` once per row.
+    MirrorScatter(Table<MirrorScatter>),
+    /// Calls `Glass::scatter` once per row.
+    GlassScatter(Table<GlassScatter>),
+    /// Calls `AreaLight::pdf` once per row.
+    AreaLightPdf(Table<AreaLightPdf>),
+    /// Calls `Lights::sample` once per row.
+    LightsSample(Table<LightsSample>),
+    /// Calls `Lights::pdf` once per row.
+    LightsPdf(Table<LightsPdf>),
+    /// Calls `direct` once per row.
+    Direct(Table<Direct>),
+    /// Calls `radiance` once per row.
+    Radiance(Table<Radiance>),
+    /// Calls `uniform_sphere` once per row.
+    UniformSphere(Table<UniformSphere>),
+    /// Calls `Environment::sample` once per row.
+    EnvironmentSample(Table<EnvironmentSample>),
+    /// Calls `Environment::pdf` once per row.
+    EnvironmentPdf(Table<EnvironmentPdf>),
+}
+
+impl LightQuestion {
+    /// Returns the table.
+    pub fn table(&self) -> &dyn AnyTable {
+        match self {
+            LightQuestion::Evaluate(table) => table,
+            LightQuestion::LambertianPdf(table) => table,
+            LightQuestion::LambertianScatter(table) => table,
+            LightQuestion::Reflect(table) => table,
+            LightQuestion::Refract(table) => table,
+            LightQuestion::Fresnel(table) => table,
+            LightQuestion::MirrorScatter(table) => table,
+            LightQuestion::GlassScatter(table) => table,
+            LightQuestion::AreaLightPdf(table) => table,
+            LightQuestion::LightsSample(table) => table,
+            LightQuestion::LightsPdf(table) => table,
+            LightQuestion::Direct(table) => table,
+            LightQuestion::Radiance(table) => table,
+            LightQuestion::UniformSphere(table) => table,
+            LightQuestion::EnvironmentSample(table) => table,
+            LightQuestion::EnvironmentPdf(table) => table,
+        }
+    }
+}
+
+impl From<LightQuestion> for Question {
+    fn from(question: LightQuestion) -> Self {
+        Question::Light(question)
+    }
+}
+
+/// A submission's functions for part two, called through a given file that implements this trait.
+/// Directions at a surface are in its frame, where +z is the normal.
+pub trait LightFunctions: Sync {
+    /// Calls `Lambertian::evaluate`.
+    fn evaluate_matte(&self, albedo: Vec3, out: Vec3, incoming: Vec3) -> Vec3;
+
+    /// Calls `Lambertian::pdf`.
+    fn matte_pdf(&self, albedo: Vec3, out: Vec3, incoming: Vec3) -> f32;
+
+    /// Calls `Lambertian::scatter`.
+    fn scatter_matte(&self, albedo: Vec3, out: Vec3, random: Vec2) -> Scattered;
+
+    /// Calls `reflect`.
+    fn reflection(&self, out: Vec3) -> Vec3;
+
+    /// Calls `refract`.
+    fn refraction(&self, out: Vec3, ior: f32) -> Option<Vec3>;
+
+    /// Calls `fresnel`.
+    fn reflected_fraction(&self, out: Vec3, ior: f32) -> f32;
+
+    /// Calls `Mirror::scatter`.
+    fn scatter_mirror(&self, reflectance: Vec3, out: Vec3) -> Scattered;
+
+    /// Calls `Glass::scatter`.
+    fn scatter_glass(&self, ior: f32, out: Vec3, random: f32) -> Scattered;
+
+    /// Calls `AreaLight::pdf`.
+    fn area_light_pdf(&self, light: &FlatLight, from: Vec3, direction: Vec3) -> f32;
+
+    /// Calls `Lights::new`.
+    fn lights(&self, lights: &[FlatLight]) -> Box<dyn DirectionSampler>;
+
+    /// Creates a scene of rectangles from the text of a scene file.
+    fn room(&self, scene: &str) -> Box<dyn LitRoom>;
+
+    /// Calls `uniform_sphere`.
+    fn uniform_direction(&self, random: Vec2) -> Vec3;
+
+    /// Calls `Environment::new`.
+    fn environment(&self, map: &MapImage) -> Box<dyn MapSampler>;
+}
+
+/// A submission's lights.
+pub trait DirectionSampler: Send + Sync {
+    /// Calls `Lights::sample`.
+    fn direction(&self, from: Vec3, choice: f32, random: Vec2) -> Option<Vec3>;
+
+    /// Calls `Lights::pdf`.
+    fn density(&self, from: Vec3, direction: Vec3) -> f32;
+}
+
+/// A submission's environment map.
+pub trait MapSampler: Send + Sync {
+    /// Calls `Environment::sample`.
+    fn direction(&self, choice: f32, random: Vec2) -> Vec3;
+
+    /// Calls `Environment::pdf`.
+    fn density(&self, direction: Vec3) -> f32;
+}
+
+/// A scene that is lit by a submission's code.
+pub trait LitRoom {
+    /// Calls `direct` for the surface that the ray hits. Returns zero if it hits nothing.
+    fn direct_light(&self, sample: &DirectSample) -> Vec3;
+
+    /// Calls `radiance`.
+    fn path_light(&self, start: &PathStart) -> Vec3;
+}

@@ -37,7 +37,7 @@ pub struct Request {
 #[derive(Debug, thiserror::Error)]
 pub enum RequestError {
     /// The connection ended or failed before the request was complete.
-    #[error("the connection ended: {0}")]
+    #[error("the connection was closed: {0}")]
     Io(#[from] std::io::Error),
     /// The request is not valid HTTP/1.1 or uses a part of it that the server doesn't support.
     #[error("the request is malformed: {0}")]

@@ -123,8 +123,8 @@ pub struct GradingArguments {
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
 
-    /// CPU time limit for each item, in seconds; default: 50 times that of the slowest item that
-    /// has passed, but at least 2 and at most 10 seconds
+    /// CPU time limit for each item, in seconds; default: 50 times what the slowest passing item
+    /// has taken, but at least 2 and at most 10 seconds
     #[arg(long, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
     pub cpu_limit: Option<u64>,
 

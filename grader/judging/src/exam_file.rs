@@ -158,7 +158,7 @@ fn unknown_task(item: &Item, assignment: &Assignment) -> Option<String> {
         return None;
     }
     Some(format!(
-        "there is no task `{}`; the tasks are {}",
+        "unknown task `{}`; the tasks are {}",
         item.task,
         assignment.id_list()
     ))

@@ -144,7 +144,7 @@ fn files_with_other_names_are_named_once() {
         .with("bob/.git/HEAD", "");
     let preview = class.preview();
     let expected = "ann: nothing to grade: no task files were handed in, only camera.rs.txt, \
-                    bvh.rs.txt: give each file its task file's exact name, such as camera.rs; \
+                    bvh.rs.txt: name each file exactly like its task file, such as camera.rs; \
                     names must end in .rs";
     assert_eq!(line(&preview, "ann"), expected);
     assert!(

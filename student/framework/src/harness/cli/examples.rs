@@ -139,7 +139,7 @@ fn unknown_name(name: &str, known: &[String]) -> Option<String> {
     let files = known.iter().filter_map(|path| path.split("::").next());
     let files: Vec<&str> = BTreeSet::from_iter(files).into_iter().collect();
     Some(format!(
-        "no example is called `{name}`{}; there are examples in: {}",
+        "no example matches `{name}`{}; there are examples in: {}",
         suggestion(name, &files),
         files.join(", ")
     ))
@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(
             unknown_name("sphre", &known).as_deref(),
             Some(
-                "no example is called `sphre` (did you mean sphere?); there are examples in: bvh, \
+                "no example matches `sphre` (did you mean sphere?); there are examples in: bvh, \
                  sphere"
             )
         );

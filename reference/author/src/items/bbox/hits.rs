@@ -24,7 +24,7 @@ pub(super) const THROUGH: Declaration = Declaration {
     title: "rays through the box get the right entry and exit times",
     look: "Work out by hand when the ray shown is between the two planes of each axis. The answer \
         is the interval that these three intervals and the argument `times` have in common, or \
-        None if there is no such interval.",
+        None if they have nothing in common.",
     section: "boxes.md#from-the-last-entry-to-the-first-exit",
     tests: &["Returns the part…"],
     questions: |rng| {

@@ -59,7 +59,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         ),
         (
             summary.superseded,
-            "not counted, because another submission by the same person counts",
+            "not counted because another submission by the same person counts",
         ),
         (summary.by_test_student, "by Canvas's test student"),
         (

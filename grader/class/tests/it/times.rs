@@ -76,7 +76,7 @@ fn a_wrong_year_is_never_on_time_or_late() {
     is_open("last", "more than half a year from the due time");
     is_open("typo", "more than half a year from the due time");
     is_open("serial", "more than half a year from the due time");
-    is_open("slashes", "two different dates");
+    is_open("slashes", "it is ambiguous");
 }
 
 /// Winter time begins on 25 October.

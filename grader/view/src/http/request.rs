@@ -165,7 +165,7 @@ mod tests {
             ),
             ("PUT / HTTP/1.1\r\n\r\n", "not supported"),
             ("\u{1}\r\n\r\n", "malformed"),
-            ("GET / HTTP/1.1\r\n", "the connection ended"),
+            ("GET / HTTP/1.1\r\n", "the connection was closed"),
         ] {
             let error = Request::read(&mut text.as_bytes()).unwrap_err().to_string();
             assert!(error.contains(why), "{text:?}: {error}");

@@ -19,7 +19,7 @@ const LONG: Duration = Duration::from_secs(5);
 /// Runs the worked examples in your task files
 ///
 /// Exit codes: 0 all examples pass; 101 an example fails, or a file does not compile; 2 no example
-/// has this name.
+/// matches the name.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo examples", bin_name = "cargo examples")]
 struct Arguments {

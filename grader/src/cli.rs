@@ -75,22 +75,22 @@ pub struct Arguments {
     /// in student/src/); default: student
     pub submission: Option<PathBuf>,
 
-    /// Grade only one task, such as sphere, or all tasks in a file, such as bvh, without writing a
-    /// score
+    /// Grade only one task, such as sphere, or all tasks in a file, such as bvh; no score is
+    /// written
     #[arg(long, value_name = "TASK")]
     pub task: Option<String>,
 
-    /// Run one question again, such as sphere.from_inside#7, and show the whole answer; if you
-    /// leave out the number, run the first of the item's questions that was answered wrongly
+    /// Rerun one question, such as sphere.from_inside#7, and show the full answer; without a
+    /// number, rerun the first of the item's questions that was answered wrongly
     #[arg(long, value_name = "ITEM[#N]", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<QuestionRef>,
 
-    /// Restore the stub of a task, such as sphere, or of a whole file, such as bvh, or restore a
-    /// given file, such as world.rs; your file is kept as a copy, such as bvh.rs.bak-1
+    /// Restore a task, such as sphere, or a whole file, such as bvh, to its stub, or restore a
+    /// given file, such as world.rs; your version is kept as a copy, such as bvh.rs.bak-1
     #[arg(long, value_name = "TASK")]
     pub reset: Option<String>,
 
-    /// Instead of the whole report, show only one thing to do next, and where
+    /// Show only the next thing to do, and where, instead of the whole report
     #[arg(long, conflicts_with_all = ["replay", "watch", "format"])]
     pub next: bool,
 
@@ -98,11 +98,11 @@ pub struct Arguments {
     #[arg(long)]
     pub hints: bool,
 
-    /// Grade again whenever a file is saved, starting with what failed; stop with Ctrl-C
+    /// Grade again whenever a file is saved, starting with what failed; press Ctrl-C to stop
     #[arg(long, conflicts_with_all = ["replay", "require"])]
     pub watch: bool,
 
-    /// Open the HTML report when it is written
+    /// Open the HTML report in a browser
     #[arg(long, conflicts_with_all = ["task", "replay"])]
     pub open: bool,
 
@@ -110,7 +110,7 @@ pub struct Arguments {
     #[arg(long)]
     pub fresh: bool,
 
-    /// At the end, print how long each step took
+    /// Print how long each step took
     #[arg(long, conflicts_with_all = ["replay", "watch"])]
     pub timings: bool,
 
@@ -138,8 +138,7 @@ pub struct Arguments {
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub untrusted: bool,
 
-    /// Require this isolation level; --untrusted chooses full if it is available, or else
-    /// no-namespaces
+    /// Require this isolation level; --untrusted chooses full if available, otherwise no-namespaces
     #[arg(long, value_name = "LEVEL", help_heading = STAFF_OPTIONS)]
     pub isolation: Option<Isolation>,
 
@@ -148,8 +147,8 @@ pub struct Arguments {
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub no_reference: bool,
 
-    /// CPU time limit for an item, in seconds; default: 50 times as long as the slowest item that
-    /// has passed, but at least 2 and at most 10 seconds
+    /// CPU time limit for each item, in seconds; default: 50 times what the slowest passing item
+    /// has taken, but at least 2 and at most 10 seconds
     #[arg(long, value_name = "SECONDS", help_heading = STAFF_OPTIONS)]
     #[arg(value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
     pub cpu_limit: Option<u64>,

@@ -47,8 +47,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let is_missing = missing.any(|file| needed.contains(*file));
     let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
         let question = &reference.item;
-        text +=
-            &format!("{question} needs this file, so it can only be run with a corrected one\n");
+        text += &format!("{question} can only be run once this file compiles\n");
         return Ok(paths.in_text(&text).into_owned());
     };
     let launcher = build.launcher(program);
@@ -85,8 +84,8 @@ fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'s
 fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
     item.element(number).ok_or_else(|| {
         Error::User(format!(
-            "{} has {count} questions, so there is no question {number}: use a number up to \
-             {count}, or leave it out to run the first question that was answered wrongly",
+            "{} has no question {number}: its questions are numbered from 1 to {count}; without a \
+             number, the first question that was answered wrongly is run",
             item.id,
             count = item.count(),
         ))
@@ -134,14 +133,14 @@ impl ExamRun {
             (Err(fault), Some((question, element))) => {
                 let number = item.number(question, element);
                 return format!(
-                    "correct, but the item could not be answered because of {}#{number}: {fault}",
+                    "correct, but the item got no answers because of {}#{number}: {fault}",
                     item.id
                 );
             }
             (Err(fault), None) => {
                 return format!(
-                    "correct in isolation, but when all of the item's questions are asked together, there \
-                     is no answer: {fault}"
+                    "correct in isolation, but there is no answer when all of the item's questions \
+                     are asked together: {fault}"
                 );
             }
         };

@@ -22,12 +22,12 @@ policy=() cores=()
 [[ -z "$CORES" ]] || cores=(--jobs "$CORES")
 
 if [[ "$(realpath -m "$OUT")/" == "$(realpath "$INPUT")"/* ]]; then
-    echo "error: OUT is in INPUT, so the results would be mistaken for submissions: choose a different OUT" >&2
+    echo "error: OUT is inside INPUT, so the results would be mistaken for submissions: choose a different OUT" >&2
     exit 2
 fi
 before=$(cat "$OUT/shards/count" 2>/dev/null || true)
 if [[ -n "$before" && "$before" != "$SHARDS" ]]; then
-    echo "error: $OUT/shards has parts of $before; set SHARDS=$before, or remove that folder" >&2
+    echo "error: $OUT/shards was graded with SHARDS=$before: set SHARDS=$before, or remove that folder" >&2
     exit 2
 fi
 mkdir -p "$OUT/shards"
@@ -40,7 +40,7 @@ if ! seq "$SHARDS" | timeout --foreground "$WAIT" \
     --retries "$((RETRIES + 1))" $SSH --workdir "$PWD" \
     $CLASS "$INPUT" $OPTIONS --exam "$EXAM" "${policy[@]}" "${cores[@]}" \
     --shard "{}/$SHARDS" --out "$OUT/shards/{}"; then
-    echo "error: not every part was graded; see above, and run the command again" >&2
+    echo "error: some parts were not graded: see above, and run the command again" >&2
     exit 3
 fi
 # shellcheck disable=SC2086

@@ -53,12 +53,12 @@ unfinished() {
 case "${STEP:-submit}" in
 submit)
     if [[ "$(realpath -m "$OUT")/" == "$(realpath "$INPUT")"/* ]]; then
-        echo "error: OUT is in INPUT, so the results would be mistaken for submissions: choose a different OUT" >&2
+        echo "error: OUT is inside INPUT, so the results would be mistaken for submissions: choose a different OUT" >&2
         exit 2
     fi
     before=$(cat "$OUT/shards/count" 2>/dev/null || true)
     if [[ -n "$before" && "$before" != "$SHARDS" ]]; then
-        echo "error: $OUT/shards has parts of $before; set SHARDS=$before, or remove that folder" >&2
+        echo "error: $OUT/shards was graded with SHARDS=$before: set SHARDS=$before, or remove that folder" >&2
         exit 2
     fi
     mkdir -p "$OUT/shards"
@@ -73,7 +73,7 @@ shard)
 merge)
     failed=$(unfinished)
     if [[ -n "$failed" && "$TRY" -lt "$RETRIES" ]]; then
-        echo "the parts $failed are not finished: they are graded again"
+        echo "parts $failed are not finished and will be graded again"
         submit "$failed" "$((TRY + 1))"
         exit
     fi

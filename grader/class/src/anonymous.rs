@@ -74,7 +74,7 @@ fn hide_problem(problem: &mut GradeProblem) {
         GradeProblem::UnclearTime(time) => time.why = hidden,
         GradeProblem::UnclearPerson(text) | GradeProblem::OtherAttempt(text) => *text = hidden,
         GradeProblem::SeveralAttempts(ids, remedy) => {
-            (*ids, *remedy) = (vec!["another submission".to_owned()], hidden);
+            (*ids, *remedy) = (vec!["another attempt".to_owned()], hidden);
         }
     }
 }

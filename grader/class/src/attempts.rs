@@ -130,9 +130,12 @@ fn remedy(policy: &Policy, rows: &[ClassRow], submissions: &BTreeSet<usize>) -> 
     let needing_time = submissions.iter().filter(|_| rule != AttemptRule::Ask);
     let mut times = needing_time.map(|row| submission_time(policy, &rows[*row].result.info));
     let remedy = match rule {
-        AttemptRule::Ask => "remove one, or set `counts` under [attempts] in the policy",
-        AttemptRule::Latest => "`latest` needs a time or number that only the last has: remove one",
-        AttemptRule::Best => "`best` needs the points of one or more attempts: remove one",
+        AttemptRule::Ask => "remove all but one, or set `counts` under [attempts] in the policy",
+        AttemptRule::Latest => "`latest` cannot tell which attempt is the last: remove all but one",
+        AttemptRule::Best => {
+            "`best` cannot compare attempts that have no points: remove all but \
+            one"
+        }
     };
     let unclear = times.find_map(Result::err);
     unclear.map_or(remedy.to_owned(), |unclear| unclear.why)
@@ -282,7 +285,7 @@ mod tests {
         );
         let unknown = why(None);
         assert!(
-            unknown.ends_with("that only the last has: remove one"),
+            unknown.ends_with("which attempt is the last: remove all but one"),
             "{unknown}"
         );
     }
@@ -319,7 +322,7 @@ mod tests {
         apply_rule(&policy, &mut rows);
         let others = |ids: &[&str]| {
             let ids = ids.iter().map(|id| (*id).to_owned());
-            let remedy = "remove one, or set `counts` under [attempts] in the policy";
+            let remedy = "remove all but one, or set `counts` under [attempts] in the policy";
             Some(GradeProblem::SeveralAttempts(
                 ids.collect(),
                 remedy.to_owned(),

@@ -14,13 +14,13 @@ use crate::layout_kind::LayoutChoice;
 use crate::list_kind::ListKind;
 use crate::shard::Shard;
 
-/// Grades a class: a learning platform's export, or a folder that contains a folder or an archive
-/// for each student.
+/// Grades a class: an export from a learning platform, or a folder with a subfolder or archive for
+/// each student.
 ///
-/// You can stop this command at any time: when you run it again, it only grades what is missing.
-/// Exit codes: 0 every submission was graded or had nothing to grade; 2 the command line, the input
-/// or a list is wrong; 3 some submissions could not be graded because of a problem with the grader
-/// or the machine: run it again.
+/// You can stop this command at any time. When you run it again, it resumes where it left off. Exit
+/// codes: 0 every submission was graded or had nothing to grade; 2 the command line, the input or a
+/// list is invalid; 3 some submissions could not be graded because of a problem with the grader or
+/// the machine: run it again.
 #[derive(Clone, Debug, Parser)]
 #[command(
     name = "cargo class",
@@ -48,16 +48,16 @@ pub enum Command {
 /// The arguments for grading a class.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ClassArguments {
-    /// The platform's export (a folder or archive), or a folder that contains a folder or an
-    /// archive for each student
+    /// The platform's export (a folder or archive), or a folder with a subfolder or archive for
+    /// each student
     #[arg(required_unless_present = "replay")]
     pub input: Option<PathBuf>,
 
-    /// Output folder; if a run is interrupted, the next one resumes from it
+    /// Output folder; an interrupted run resumes from it
     #[arg(long, value_name = "FOLDER", required_unless_present = "dry_run")]
     pub out: Option<PathBuf>,
 
-    /// List which files would be graded for each student, without grading them
+    /// List the files that would be graded for each student, but don't grade them
     #[arg(long)]
     pub dry_run: bool,
 
@@ -65,12 +65,12 @@ pub struct ClassArguments {
     #[arg(long, requires = "out", conflicts_with_all = ["dry_run", "regrade", "shard"])]
     pub estimate: bool,
 
-    /// Write the students' own lines to this new folder, without names, for a similarity checker;
-    /// the key and a list of identical submissions are written next to it
+    /// Write the lines that students added to the starter to this new folder, without names, for a
+    /// similarity checker; the key and a list of identical submissions are written next to it
     #[arg(long, value_name = "FOLDER")]
     pub similarity_input: Option<PathBuf>,
 
-    /// Grade everything again, keep the old scores, and list whose points changed, and why
+    /// Grade everything again, keep the old scores, and list whose points changed and why
     #[arg(long, conflicts_with = "dry_run")]
     pub regrade: bool,
 
@@ -78,15 +78,15 @@ pub struct ClassArguments {
     #[arg(long, value_name = "K/N", conflicts_with = "regrade")]
     pub shard: Option<Shard>,
 
-    /// Folder with corrected hand-ins: a folder or archive for each, named after the submission or
-    /// one of its students. Their files replace the original ones, but the original submission time
-    /// still applies. Repeat this option in every run
+    /// Folder of corrected submissions: a subfolder or archive for each, named after the submission
+    /// or one of its students. Their files replace the original ones, but the original submission
+    /// time still applies. Pass this option on every run
     #[arg(long, value_name = "FOLDER", conflicts_with = "replay")]
     pub corrected: Option<PathBuf>,
 
-    /// Run one question of a graded submission again, such as `ann sphere.from_inside#7`, and show
-    /// the whole answer; ID is the submission's folder, or anything that identifies one of its
-    /// students. If they have several attempts, the one that counts is used
+    /// Rerun one question of a graded submission, such as `ann sphere.from_inside#7`, and show the
+    /// full answer; ID is the submission's folder, or anything that identifies one of its students.
+    /// If there are several attempts, the one that counts is used
     #[arg(long, value_names = ["ID", "ITEM[#N]"], num_args = 2, requires = "out")]
     #[arg(conflicts_with_all = ["input", "dry_run", "estimate", "regrade", "shard", "similarity_input"])]
     pub replay: Option<Vec<String>>,
@@ -123,13 +123,13 @@ pub struct GradingArguments {
     #[arg(long, value_name = "FILE")]
     pub policy: Option<PathBuf>,
 
-    /// CPU time limit for an item, in seconds; default: 50 times as long as the slowest item that
-    /// has passed, but at least 2 and at most 10 seconds
+    /// CPU time limit for each item, in seconds; default: 50 times what the slowest passing item
+    /// has taken, but at least 2 and at most 10 seconds
     #[arg(long, value_name = "SECONDS", value_parser = value_parser!(u64).range(1..=Budget::MAX_SECONDS))]
     pub cpu_limit: Option<u64>,
 
-    /// How well submissions are isolated from this machine; default: full if the machine supports
-    /// it, otherwise no-namespaces; if it supports neither, nothing is graded
+    /// How strictly submissions are isolated from this machine; default: full if the machine
+    /// supports it, otherwise no-namespaces; if it supports neither, nothing is graded
     #[arg(long, value_name = "LEVEL")]
     pub isolation: Option<Isolation>,
 
@@ -155,7 +155,7 @@ pub struct Lists {
     #[arg(long, value_name = "CSV")]
     pub roster: Option<PathBuf>,
 
-    /// Grade even if more than half of the submissions don't match anybody in the roster or
+    /// Grade even if more than half of the submissions don't match anyone in the roster or
     /// gradebook
     #[arg(long)]
     pub accept_unlisted: bool,
@@ -165,19 +165,18 @@ pub struct Lists {
     #[arg(long, value_name = "CSV")]
     pub manual_points: Option<PathBuf>,
 
-    /// Write hand-back.zip, which contains a page for each student, with the file names that Canvas
-    /// and Moodle expect
+    /// Write hand-back.zip with a page for each student, named the way Canvas and Moodle expect
     #[arg(long)]
     pub hand_back: bool,
 
-    /// Write a copy of the class for graders to this folder, with pseudonyms instead of names;
-    /// anonymous-key.json in the output folder is the key
+    /// Write a copy of the class to this folder for human graders, with pseudonyms instead of
+    /// names; the key is anonymous-key.json in the output folder
     #[arg(long, value_name = "FOLDER")]
     pub anonymous: Option<PathBuf>,
 
     /// Show similar submissions side by side, given the folder of an earlier --similarity-input and
-    /// a checker's results (Dolos's pairs.csv, or JPlag's results.csv or archive). Repeat this
-    /// option in every run
+    /// a checker's results (Dolos's pairs.csv, or JPlag's results.csv or archive). Pass this option
+    /// on every run
     #[arg(long, value_names = ["FOLDER", "RESULTS"], num_args = 2)]
     pub similar: Vec<PathBuf>,
 
@@ -197,8 +196,8 @@ pub struct Lists {
     #[arg(long, value_name = "CSV")]
     pub gradescope: Option<PathBuf>,
 
-    /// Stop using a list from an earlier run; otherwise, if you leave out a list, the previous one
-    /// is used
+    /// Stop using a list from an earlier run; by default, a list that you leave out is taken from
+    /// the last run
     #[arg(long, value_name = "LIST")]
     pub drop_list: Vec<ListKind>,
 }

@@ -31,8 +31,8 @@ pub fn replace_files(
     let shown = folder.display();
     if contains(input, folder) {
         return Err(Error::user(format!(
-            "{shown} is inside {}, so the corrected hand-ins would be graded as separate \
-             submissions: move the folder elsewhere",
+            "{shown} is inside {}, so the corrected submissions would be graded as separate ones: \
+             move the folder elsewhere",
             input.display()
         )));
     }
@@ -75,7 +75,7 @@ pub fn check_none_lost(store: &Store) -> Result<(), Error> {
         |id: &String| matches!(store.result(id), Ok(Some(result)) if result.info.is_corrected);
     match store.ids()?.into_iter().find(is_corrected) {
         Some(id) => Err(Error::user(format!(
-            "{} has points for corrected hand-ins, such as {id}: pass their folder with \
+            "{} contains points for corrected submissions, such as {id}: pass their folder with \
              --corrected again, or an empty folder to go back to the original files",
             store.folder().display()
         ))),

@@ -105,9 +105,9 @@ impl ListFindings {
                 let unlisted = self.unlisted.len();
                 let example = sanitize_line(example, MAX_CHARS);
                 Err(Error::user(format!(
-                    "{unlisted} of {all} submissions, such as {example:?}, don't match anybody on \
-                     the lists: check that the roster or gradebook is for this class, and that \
-                     --dry-run shows the right names; if everything is right, add --accept-unlisted"
+                    "{unlisted} of {all} submissions, such as {example:?}, don't match anyone on \
+                     the lists: check that the roster or gradebook is for this class and that \
+                     --dry-run shows the right names; if both are right, pass --accept-unlisted"
                 )))
             }
             Some(_) | None => Ok(()),
@@ -139,7 +139,7 @@ fn misleading_number(rows: &[Member], info: &EntryInfo) -> Option<String> {
         let mut others = rows.iter().filter(|row| !row.person.number.is_empty());
         let other = others.find(is_of_other)?;
         Some(format!(
-            "{}: the number {} was not used, because a list assigns it to {}: if this is a team, \
+            "{}: the number {} was ignored because a list assigns it to {}: if this is a team, \
              list its members in the roster's `group` column; otherwise, correct the name",
             info.from,
             person.number,
@@ -161,8 +161,8 @@ fn shared_name(rows: &[Member], info: &EntryInfo) -> Option<String> {
     let namesakes: BTreeSet<&str> = namesakes.collect();
     (!namesakes.is_empty()).then(|| {
         format!(
-            "{}: several people on the lists are called {}, so the submission isn't assigned to \
-             any of them: rename it, replacing the name with one of {}",
+            "{}: several people on the lists are named {}, so the submission isn't assigned to any \
+             of them: rename it so that it contains one of {} instead",
             info.from,
             person.display_name(),
             joined(namesakes, ", ")

@@ -46,7 +46,7 @@ impl Estimate {
         }
         let hours = MANY * seconds / 3600.0;
         text += &format!("  a million submissions: {hours:.0} core-hours\n");
-        text + "  the results are kept: leave out --estimate to grade the rest\n\n"
+        text + "  these results are kept; leave out --estimate to grade the rest\n\n"
     }
 }
 

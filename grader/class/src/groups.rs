@@ -37,8 +37,8 @@ pub fn shared_team(rows: &[Member], info: &EntryInfo) -> Option<String> {
     (groups.len() > 1).then(|| {
         format!(
             "{}: it could belong to any of the groups {}, whose names differ only in punctuation, \
-             so it isn't assigned to any of them: give the groups names that differ in letters or \
-             digits, both in the name of the file or folder and in the `group` column",
+             so it isn't assigned to any of them: rename the groups so that they differ in a \
+             letter or digit, both in the file or folder name and in the `group` column",
             info.from,
             joined(groups, ", ")
         )

@@ -93,11 +93,11 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
          \n    cargo handin\n\
          \n\
          It creates the archive handin.zip from your {}.\n\
-         It also reads the archive the way the grader will, and lists each file. If one is\n\
-         missing, put it next to the others, with exactly this name, and run the command again.\n\
+         It also checks the archive the way the grader will and lists each file. If one is\n\
+         missing, put it next to the others, with exactly the name listed, and run it again.\n\
          \n\
-         Then send us handin.zip in reply to this message. The time of your first submission\n\
-         counts, so please hand in your code as it was then.\n",
+         Then send us handin.zip in reply to this message. Your original submission time still\n\
+         counts, so please hand in the same code as before, without changes.\n",
         reasons.iter().map(reason).collect::<String>(),
         handed_out.file_list(),
     )

@@ -63,8 +63,8 @@ pub fn find_submission(
     Err(match found.as_slice() {
         [only] => return Ok(*only),
         [] => format!(
-            "no submission is called {who:?}, and none belongs to a person with this name or \
-             identifier{}; --dry-run and grades.csv list all submissions and people",
+            "{who:?} doesn't match any submission or person in this class{}; --dry-run and \
+             grades.csv list them all",
             suggestion(who, all.iter().map(|(id, _)| *id))
         ),
         several => format!(

@@ -172,7 +172,7 @@ fn error_message(error: &SubmissionError, input: &Path) -> String {
             found.retain(|name| !layout::is_written_into_folders(name));
             match sanitize(&listed(&found), 200) {
                 _ if found.is_empty() => "nothing was handed in".to_owned(),
-                found => format!("none of the task files was handed in, only {found}{advice}"),
+                found => format!("no task files were handed in, only {found}{advice}"),
             }
         }
         SubmissionError::Ambiguous { .. }

@@ -28,12 +28,12 @@ pub struct UnclearTime {
 
 /// The reason reported if the platform says only that the submission is late, but the person has an
 /// extension.
-pub const ONLY_A_FLAG: &str = "the platform says that the submission is late, but an extension can \
-    be applied only if the submission time and the due time are known: add a `datetime` column to \
-    the roster, and `due` to the policy";
+pub const ONLY_A_FLAG: &str = "the platform marks the submission as late, but the extension can \
+    only be applied if the submission time and the due time are known: add a `datetime` column to \
+    the roster and `due` to the policy";
 
-const NOT_IN_CLASS: &str = "who is not in this class: use a name, email address, account or student \
-    id from grades.csv, or the name of a group";
+const NOT_IN_CLASS: &str = "which doesn't match any person or group in this class: use a name, \
+    email address, account or student id from grades.csv, or a group's name";
 const SHARED_NAME: &str = "but several people have this name, so all of them get the extension: \
     use an email address or a student number instead";
 
@@ -114,7 +114,7 @@ fn check_plausible(
     } else if info.marks_late && !info.late && time.duration_since(due).as_secs() > grace {
         Err(UnclearTime::new(format!(
             "a list gives the submission time as {text:?}, which is late, but the platform does \
-             not mark the submission as late: correct the time, or, if the platform granted an \
+             not mark the submission as late: correct the time, or if the platform granted an \
              extension, add it to the roster or the policy"
         )))
     } else {
@@ -146,8 +146,8 @@ fn extensions(
     let status = MoodleStatus::parse(&person.status);
     if let Some(unknown) = status.unknown {
         return Err(UnclearTime::new(format!(
-            "the status {unknown:?} in Moodle's worksheet is unknown, and could mean a draft or an \
-             extension: set Moodle's language to English, and download the worksheet again"
+            "Moodle's worksheet contains the unknown status {unknown:?}, which could mean a draft \
+             or an extension: switch Moodle to English, then download the worksheet again"
         )));
     }
     // A partner's draft is a different submission.

@@ -24,8 +24,8 @@ pub enum Layout {
     /// Clones of repositories from GitHub Classroom or classroom50
     #[value(name = "github", alias = "classroom50")]
     GitHub,
-    /// Clones of a GitLab group, or a folder for each tutorial with a folder for each student (can
-    /// also be written as `tutorials`)
+    /// Clones of a GitLab group, or a folder for each tutorial with a folder for each student
+    /// (alias: `tutorials`)
     #[value(name = "gitlab", alias = "tutorials")]
     GitLab,
     /// A folder or archive for each student
@@ -37,8 +37,8 @@ pub enum Layout {
 /// How to read the input if its names don't make that clear. The choice is stored in `run.json`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Args)]
 pub struct LayoutChoice {
-    /// Layout of the input; default: the last run's layout, or the one recognised from the names of
-    /// files and folders
+    /// Layout of the input; default: the last run's layout, or the one detected from file and
+    /// folder names
     #[arg(long, value_name = "PLATFORM")]
     pub layout: Option<Layout>,
 

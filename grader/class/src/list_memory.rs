@@ -220,8 +220,8 @@ fn one_of_parts<'a>(
             let (one, other) = (first.display(), other.display());
             let (name, title) = (kind.name(), kind.title());
             Err(Error::user(format!(
-                "{one} and {other} were not graded with the same list: {title} differs, or only \
-                 one has it; choose one with --{name}, or none with --drop-list {name}"
+                "{one} and {other} were graded with different lists: {title} differs, or only one \
+                 of them used it; choose one with --{name}, or none with --drop-list {name}"
             )))
         }
         None => Ok(list.map(|list| (*first, list))),
@@ -245,7 +245,7 @@ fn read_copy(kind: ListKind, path: &Path, list: &ListCopy) -> Result<Vec<u8>, Er
             let (path, name, title) = (path.display(), kind.name(), kind.title());
             Err(Error::user(format!(
                 "{path} is missing or has changed, and {title} from the last run is still needed: \
-                 pass it again with --{name}, or drop it with --drop-list {name}"
+                 pass it again with --{name}, or stop using it with --drop-list {name}"
             )))
         }
     }

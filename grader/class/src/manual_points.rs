@@ -111,9 +111,10 @@ impl ManualPointsList {
                              full name"
                         .to_owned(),
                 };
-                return Err(self.error(row, format!(
-                    "nobody with the name or identifier {student:?} handed anything in: {remedy}"
-                )));
+                return Err(self.error(
+                    row,
+                    format!("nobody called {student:?} handed anything in: {remedy}"),
+                ));
             };
             if let Some((other, _)) = found.find(|(_, other)| *other != id) {
                 let [first, other] = [first, other].map(|person| person.display_name());
@@ -126,9 +127,10 @@ impl ManualPointsList {
                 ));
             }
             if let Some(other) = rows.insert((*id, points.task.as_str()), row) {
-                return Err(self.error(row, format!(
-                    "row {other} also has points for this student and task: combine the two rows"
-                )));
+                return Err(self.error(
+                    row,
+                    format!("row {other} is for the same student and task: combine the two rows"),
+                ));
             }
         }
         Ok(())
@@ -170,8 +172,8 @@ impl ManualPointsList {
             let sum = earned.checked_add_signed(*delta);
             if sum.is_none_or(|sum| sum > most) {
                 return Err(self.error(*row, format!(
-                    "{delta:+} points is out of range, perhaps because files were handed in again: \
-                        {student} earned {earned} of {most} points for {task}. Correct this row, \
+                    "{delta:+} points is out of range: {student} earned {earned} of {most} points \
+                        for {task}, perhaps because files were handed in again. Correct this row \
                         and pass the table with --manual-points"
                 )));
             }
@@ -197,7 +199,7 @@ impl ManualPoints {
         let tasks: Vec<&str> = tasks.collect();
         if !tasks.contains(&task.as_str()) {
             let tasks = tasks.join(", ");
-            return Err(format!("there is no task {task:?}; the tasks are {tasks}"));
+            return Err(format!("unknown task {task:?}; the tasks are {tasks}"));
         }
         if student.is_empty() || author.is_empty() {
             return Err("the columns student and author must not be empty".to_owned());

@@ -332,11 +332,9 @@ fn task_causes(task: &TaskScore) -> Vec<(String, Option<String>)> {
         "unimplemented" => (format!("{id} is not written yet"), None),
         // The rest of the task has the same verdict because it wasn't run.
         "timed_out" => (format!("{id} takes too long"), None),
-        "crashed" => (format!("{id} ends the program"), None),
+        "crashed" => (format!("{id} crashes"), None),
         "out_of_memory" => (format!("{id} needs too much memory"), None),
-        _ if task.points == 0 && task.items.len() > 1 => {
-            (format!("nothing in {id} is right"), None)
-        }
+        _ if task.points == 0 && task.items.len() > 1 => (format!("{id} gets no points"), None),
         _ => (item.title.clone(), Some(item.id.clone())),
     };
     failed.map(cause).collect()

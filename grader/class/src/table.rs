@@ -32,7 +32,7 @@ impl Table {
         Table::parse(&bytes).map_err(|why| {
             let path = path.display();
             Error::user(format!(
-                "{path}: {why}; export it again as a CSV file in UTF-8"
+                "{path}: {why}; export it again as a UTF-8 CSV file"
             ))
         })
     }

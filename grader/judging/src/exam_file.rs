@@ -158,7 +158,7 @@ fn unknown_task(item: &Item, assignment: &Assignment) -> Option<String> {
         return None;
     }
     Some(format!(
-        "there is no task `{}`; the tasks are {}",
+        "unknown task `{}`; the tasks are {}",
         item.task,
         assignment.id_list()
     ))
@@ -235,7 +235,7 @@ fn signatures_problem(item: &Item, mistakes: usize) -> Option<String> {
     (has_bad_element
         || has_bad_mistake
         || signatures.correct_answers.len() != signatures.elements.len())
-    .then(|| "its signatures refer to mistakes or elements that do not exist".to_owned())
+    .then(|| "its signatures refer to unknown mistakes or elements".to_owned())
 }
 
 /// Returns whether the key fits the question. Also returns the number of elements in the key.

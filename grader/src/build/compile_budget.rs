@@ -57,8 +57,8 @@ impl CompileBudget {
 pub(super) fn used_up_message() -> String {
     let CompileTime { cpu, wall } = CompileTime::MOST;
     format!(
-        "the compiler was stopped: a submission may take at most {} s of CPU time and {} s overall \
-         to compile. Look for a constant, a macro or a type that grows without end",
+        "the compiler was stopped: a submission may take at most {} s of CPU time and {} s of wall \
+         time to compile. Look for a constant, a macro or a type that expands without end",
         cpu.as_secs(),
         wall.as_secs()
     )

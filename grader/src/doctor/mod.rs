@@ -90,7 +90,8 @@ fn remedy(why: &SelfTestError) -> Option<&'static str> {
              (Fedora) or musl-dev (Alpine)",
         ),
         SelfTestError::Unsafe(_) => Some(
-            "do not grade other people's work at this level, and report the problem as described in grader/SECURITY.md",
+            "do not grade other people's work at this level; report the problem as described in \
+            grader/SECURITY.md",
         ),
         SelfTestError::Setup(_) => None,
     }

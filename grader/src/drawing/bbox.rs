@@ -181,7 +181,7 @@ fn caption(query: &BoxQuery) -> String {
             describe::interval(span)
         ),
         (None, Some(Some(span))) => format!(
-            "There is no time when all bars overlap, so the correct answer is None. You answered {}.",
+            "The bars never all overlap, so the correct answer is None. You answered {}.",
             describe::interval(span)
         ),
         (None, Some(None)) => "The correct answer is None.".to_owned(),

@@ -37,11 +37,11 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
         for (methods, what) in [
             (
                 missing,
-                "are missing, but other code may need them, so put them back",
+                "are missing, but other code may need them: put them back",
             ),
             (
                 changed,
-                "were changed, which may make items of any task fail",
+                "were changed, which may cause items of any task to fail",
             ),
         ] {
             if !methods.is_empty() {

@@ -67,8 +67,7 @@ impl HandIn {
             return "unmodified".to_owned();
         }
         let lines = match own_lines(file, text).lines().count() {
-            0 => "no lines of your own were added, but some of the starter's lines were \
-                removed"
+            0 => "some of the starter's lines were removed, but you added none of your own"
                 .to_owned(),
             count => format!("{} of your own", counted(count, "line")),
         };

@@ -25,7 +25,7 @@ pub fn open(file: &Path) -> Result<(), String> {
         return Err("no desktop session is available".to_owned());
     }
     let opened = open::that_detached(file);
-    opened.map_err(|error| format!("no program can open the page ({error})"))
+    opened.map_err(|error| format!("no program could open the page ({error})"))
 }
 
 /// Returns whether there is a desktop session. Windows and macOS always have one. On other systems

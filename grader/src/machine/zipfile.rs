@@ -53,7 +53,7 @@ pub enum ZipError {
     #[error("{0}")]
     Damaged(#[from] rawzip::Error),
     /// The directory has more or fewer entries than the zip declares.
-    #[error("its directory does not list as many files as it should")]
+    #[error("its directory lists fewer files than it should")]
     WrongCount,
     /// The zip has too many entries.
     #[error("it has more than {0} files")]

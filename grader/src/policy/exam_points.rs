@@ -145,13 +145,13 @@ impl PointsPolicy {
             }
         }
         let (result, blocked_result) = match self.void_points {
-            VoidPoints::Shrink => ("", "the other items make up for it"),
+            VoidPoints::Shrink => ("", "the other items are worth more instead"),
             VoidPoints::Scale => (
-                ", and the other items make up for it",
-                "the other items make up for it",
+                ", and the other items are worth more instead",
+                "the other items are worth more instead",
             ),
             VoidPoints::Give => (
-                ", and everybody gets the points for it",
+                ", and everyone gets the points for it",
                 "its points are awarded",
             ),
         };

@@ -49,8 +49,8 @@ impl SubmissionTime {
         let text = text.map_err(|error| error.of_action("read Gradescope's"))?;
         SubmissionTime::parse(&text).map_err(|why| {
             Error::Machine(format!(
-                "{} has no valid submission time and due date ({why}); without \
-                 --gradescope-metadata, nothing counts as late",
+                "cannot read the submission time and due date in {} ({why}); without \
+                 --gradescope-metadata, no submission counts as late",
                 path.display()
             ))
         })
@@ -139,7 +139,7 @@ mod tests {
         assert_eq!(read.submitted.to_string(), "2026-11-20T23:00:10Z");
         std::fs::write(&path, "{}").unwrap();
         let error = SubmissionTime::read(&path).unwrap_err().to_string();
-        let expected = "submission_metadata.json has no valid submission time";
+        let expected = "submission time and due date in";
         assert!(error.contains(expected), "{error}");
     }
 

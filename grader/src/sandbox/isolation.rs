@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub enum Isolation {
     /// Limits on time and memory only, for your own work.
     None,
-    /// The program may make only a few system calls, and the program and the compiler can open only
+    /// The program is limited to a few system calls, and the program and the compiler can open only
     /// the files that they need.
     NoNamespaces,
     /// In addition, the program and the compiler cannot see other files, processes or networks.

@@ -134,8 +134,8 @@ impl Submission {
                 let mut seen = BTreeSet::new();
                 found.retain(|name| seen.insert(name.clone()));
                 let advice = format!(
-                    ": give each file its task file's exact name, such as {}; \
-                     names must end in .rs",
+                    ": name each file exactly like its task file, such as {}; names must end in \
+                     .rs",
                     handed_out.files[0].name
                 );
                 SubmissionError::NoTaskFiles {

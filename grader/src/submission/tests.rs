@@ -363,8 +363,8 @@ fn a_copy_next_to_a_file_is_never_chosen_silently() {
 #[test]
 fn files_with_other_names_are_named_once_with_advice() {
     let expected = format!(
-        "it contains none of {} in any of its folders; it contains camera.rs.txt, bvh.rs.txt: give \
-         each file its task file's exact name, such as camera.rs; names must end in .rs",
+        "it contains none of {} in any of its folders; it contains camera.rs.txt, bvh.rs.txt: name \
+         each file exactly like its task file, such as camera.rs; names must end in .rs",
         RAYS.file_list()
     );
     let files: Files = &[

@@ -21,15 +21,15 @@ pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
     let method = task.method_names("or");
     match fault {
         Fault::TimedOut(TimeLimit::Waiting) => format!(
-            "Find what {method} in {file} waits for: a sleep, a lock, a channel, or input. Nothing in \
-             this task needs to wait."
+            "Find out what {method} in {file} is waiting for: a sleep, a lock, a channel, or \
+             input. Nothing in this task needs to wait."
         ),
         Fault::TimedOut(TimeLimit::Cpu | TimeLimit::Wall) => format!(
             "Find the loop or the recursion in {file} that doesn't end, or takes far too long, when {method} \
              is called for this question: what changes from one iteration to the next, and what should end it?"
         ),
         Fault::OutOfMemory => format!(
-            "Find the list that {method} in {file} keeps adding to. What should make it stop?"
+            "Which list does {method} in {file} keep adding to, and what should make it stop?"
         ),
         Fault::Crashed(Crash::StackOverflow) => match clues.if_stack_overflows {
             Some(clue) => clue.to_owned(),
@@ -66,8 +66,8 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
     }
     if message.starts_with("slice index starts at") {
         return Some(
-            "The range ends before it starts. A leaf holds the primitives start..start + size: which \
-             two numbers does your range go from and to?",
+            "The range ends before it starts. A leaf holds the primitives start..start + size: \
+             where does your range start and end?",
         );
     }
     // The first message is from a vector, the second from an array of three numbers.
@@ -93,8 +93,8 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
              Which of the numbers can be 0 here?"
         }
         PanicKind::NoValue => {
-            "That line assumes that there is a value. When is there none, and what should your code return \
-             in that case?"
+            "That line assumes that there is a value. When is there none, and what should your \
+             code return then?"
         }
     })
 }

@@ -140,7 +140,7 @@ fn not_run_message(why: &NotRunReason) -> String {
             "not run because two other items in this task crashed"
         }
         NotRunReason::NeedsStoppedTask => {
-            "not run because a task that this item depends on was stopped"
+            "not run because a task that this item depends on was stopped early"
         }
         NotRunReason::BudgetUsedUp => "not run because earlier items used up the submission's time",
     };

@@ -175,7 +175,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             "sphere.near_side",
             &[
                 "protocols",
-                "sphere.near_side needs this file, so it can only be run with a corrected one\n",
+                "sphere.near_side can only be run once this file compiles\n",
             ],
         ),
         // An error in a different task's file doesn't matter.
@@ -218,8 +218,7 @@ fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     let first = "sphere.from_inside#1";
     assert_ne!(culprit, first, "{text}");
     let text = replay(&submission, first);
-    let lost =
-        format!("verdict  correct, but the item could not be answered because of {culprit}: ");
+    let lost = format!("verdict  correct, but the item got no answers because of {culprit}: ");
     assert!(text.contains(&lost), "{text}");
     assert!(!text.contains("keeps something"), "{text}");
 }
@@ -262,7 +261,7 @@ fn a_name_that_is_unknown_leads_to_the_known_ones() {
         (
             "--replay",
             "sphere.uv#99999",
-            "so there is no question 99999",
+            "sphere.uv has no question 99999",
         ),
     ] {
         assert_wrong_use(&[option, name], why);

@@ -12,7 +12,7 @@ use crate::session::View;
 /// The default port, used if it is free.
 pub const DEFAULT_PORT: u16 = 8420;
 
-/// Shows in a browser how your code draws a picture
+/// Opens a viewer in the browser that shows how your code draws a picture
 #[derive(Clone, Debug, Parser)]
 #[command(
     name = "cargo view",
@@ -30,7 +30,7 @@ pub struct Arguments {
     #[arg(long, value_name = "ITEM#N")]
     pub item: Option<QuestionRef>,
 
-    /// Quantity to show in the picture at first [default: shaded; for a question, normals]
+    /// Quantity to show first [default: shaded; for a question, normals]
     #[arg(long, value_name = "VIEW", value_enum)]
     pub view: Option<View>,
 
@@ -54,7 +54,7 @@ pub struct Arguments {
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
 
-    /// Port of the page on this machine [default: 8420, or any free one]
+    /// Local port to serve the page on [default: 8420, or any free port]
     #[arg(long, value_name = "N")]
     pub port: Option<u16>,
 
@@ -62,15 +62,15 @@ pub struct Arguments {
     #[arg(long)]
     pub no_open: bool,
 
-    /// Additional host name for the page, such as that of a tunnel; may be repeated
+    /// Also accept this host name, such as a tunnel's; can be repeated
     #[arg(long, value_name = "NAME")]
     pub allow_host: Vec<String>,
 
-    /// Number of programs that draw at the same time [default: one per core]
+    /// Number of programs that draw in parallel [default: one per core]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=256))]
     pub threads: Option<u16>,
 
-    /// Show the reference's code (course staff)
+    /// Show the reference instead of your code (course staff)
     #[arg(long, conflicts_with = "submission")]
     pub reference: bool,
 
@@ -78,7 +78,7 @@ pub struct Arguments {
     #[arg(long)]
     pub reference_light: bool,
 
-    /// Show the code in a submission, which is a folder or an archive (course staff)
+    /// Show a submission, which is a folder or an archive (course staff)
     #[arg(long, value_name = "PATH")]
     pub submission: Option<PathBuf>,
 

@@ -38,7 +38,7 @@ pub fn subject_of_question(
     let number = reference.number.unwrap_or(1);
     let (question, element) = item.element(number).ok_or_else(|| {
         ViewError::Usage(format!(
-            "{} has {count} questions, so there is no question {number}: use a number up to {count}",
+            "{} has no question {number}: its questions are numbered from 1 to {count}",
             item.id,
             count = item.count(),
         ))
@@ -72,8 +72,8 @@ fn subject(
     }) = QuestionScene::of(&question.question)
     else {
         return Err(ViewError::Usage(format!(
-            "{name} is about neither shapes nor a box, so there is no scene to show: \
-             run `cargo grade --replay {name}`"
+            "{name} involves neither shapes nor a box, so there is no scene to show: run `cargo grade \
+             --replay {name}` instead"
         )));
     };
     let tree = match tree {

@@ -30,7 +30,7 @@ pub struct Probe {
 #[derive(Debug, thiserror::Error)]
 pub enum Stop {
     /// The result is no longer wanted, or the reason has already been reported.
-    #[error("the result is no longer wanted")]
+    #[error("the result is no longer needed")]
     Unwanted,
     /// The program failed.
     #[error("{0}")]

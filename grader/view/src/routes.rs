@@ -196,7 +196,7 @@ fn of_tree(tree: &TreeModel, request: &Request) -> Response {
         }
         _ => match tree.info(index("node")) {
             Some(node) => json(&node),
-            None => not_found("there is no such node"),
+            None => not_found("the tree has no such node"),
         },
     }
 }

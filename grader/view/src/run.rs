@@ -33,7 +33,7 @@ use crate::subject::{SceneList, Subject};
 use crate::watcher;
 use crate::workers;
 
-const NO_REFERENCE: &str = "there is no reference here: leave out --reference";
+const NO_REFERENCE: &str = "the reference is not available here: leave out --reference";
 
 /// Serves the page until the process ends.
 pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
@@ -180,7 +180,7 @@ fn programs(
     let (_, light_folder) = light;
     if !workspace.root().join(light_folder).is_dir() {
         return Err(ViewError::Usage(format!(
-            "there is no folder {light_folder} here"
+            "the folder {light_folder} is missing"
         )));
     }
     Programs::prepare(workspace, handed_out, folder, is_package, light, isolation)

@@ -208,7 +208,7 @@ impl SceneList {
         let nearest = suggestion(name, known.iter().map(String::as_str));
         let known = known.join(", ");
         ViewError::Usage(format!(
-            "there is no scene `{name}`{nearest}; the `scenes` folder contains: {known}"
+            "unknown scene `{name}`{nearest}; the `scenes` folder contains: {known}"
         ))
     }
 }

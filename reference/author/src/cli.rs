@@ -59,8 +59,8 @@ pub enum Command {
     Bundle(BundleArgs),
     /// Write the autograder package that instructors upload to a platform
     Package(PackageArgs),
-    /// List the items that each known mistake fails regardless of the seed, and write the table of
-    /// the items that each fails in the practice exam
+    /// List the items that each known mistake fails with every seed, and write the table of the
+    /// items that it fails in the practice exam
     Mistakes(MistakesArgs),
     /// Write the table that shows which items test each sentence of the contract
     Coverage(CheckArgs),
@@ -68,7 +68,7 @@ pub enum Command {
     /// final exams
     Hints(HintsArgs),
     /// Make many small mechanical changes to the reference (operators, bodies, epsilons, confused
-    /// names, dropped properties, kept state) and grade each of these mutants
+    /// names, dropped properties, kept state) and grade each mutant
     Mutants {
         /// Grade only a fixed sample of the mutants
         #[arg(long)]
@@ -105,8 +105,8 @@ pub struct BundleArgs {
     /// version
     #[arg(long, conflicts_with = "check")]
     pub update: bool,
-    /// Unpack the bundle in an empty home directory, run the commands shown in its documentation,
-    /// and grade the starter and the reference
+    /// Unpack the bundle in an empty home directory, run the commands in its documentation, and
+    /// grade the starter and the reference
     #[arg(long)]
     pub check: bool,
 }
@@ -132,9 +132,9 @@ pub struct PackageArgs {
     /// Part two's files in the package, as for `cargo author bundle`
     #[arg(long, value_name = "FILES", value_enum, default_value_t)]
     pub light: LightFiles,
-    /// Set up and run the package the way the platform does, without a network and with half a
-    /// core; grade the reference, the starter, an empty submission and, for gradescope, a malicious
-    /// one (on Linux, as root or with sudo)
+    /// Set up and run the package the way the platform does, with no network and half a core; grade
+    /// the reference, the starter, an empty submission and, for gradescope, a malicious one (on
+    /// Linux, as root or with sudo)
     #[arg(long)]
     pub check: bool,
 }

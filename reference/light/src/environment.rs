@@ -53,7 +53,7 @@ impl Environment {
     pub fn new(map: EnvironmentMap) -> Self {
         // solution
         // starter: let size = map.size();
-        // starter: todo!("part two, environment: how much does each of {size} pixels weigh?")
+        // starter: todo!("part two, environment: what is the weight of each of {size} pixels?")
         let (width, height): (u32, u32) = map.size().into();
         let sines = (0..height).map(|row| sin_cos(PI * (row as f32 + 0.5) / height as f32).0);
         let rows = map.pixels().chunks(width as usize).zip(sines);
@@ -121,7 +121,7 @@ impl Environment {
     /// - Directions at the poles (sin θ = 0) and at the edge of a pixel are not tested.
     pub fn pdf(&self, direction: Vec3) -> f32 {
         // solution
-        // starter: todo!("part two, environment: how often does `sample` return {direction:?}?")
+        // starter: todo!("part two, environment: with what density does `sample` return {direction:?}?")
         let index = self.index(direction);
         let before = match index {
             0 => 0.0,

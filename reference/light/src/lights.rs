@@ -130,7 +130,7 @@ impl AreaLight {
     /// - It doesn't matter whether something else is in the way.
     pub fn pdf(&self, from: Vec3, direction: Vec3) -> f32 {
         // solution
-        // starter: todo!("part two, lights: how dense are samples at {from:?} toward {direction:?}?")
+        // starter: todo!("part two, lights: what is the density of samples at {from:?} toward {direction:?}?")
         let cosine = -direction.dot(self.normal);
         match self.intersect(from, direction) {
             Some(distance) if cosine > 0.0 => distance * distance / (cosine * self.area),
@@ -231,7 +231,7 @@ impl Lights {
     /// - Shapes and other lights that are in the way are ignored.
     pub fn sample(&self, from: Vec3, choice: f32, random: Vec2) -> Option<Vec3> {
         // solution
-        // starter: todo!("part two, lights: which way from {from:?} is {random:?} on light {choice}?")
+        // starter: todo!("part two, lights: which way leads from {from:?} to {random:?} on light {choice}?")
         let target = choice * self.power;
         let mut power = 0.0;
         let picked = self.lights.iter().find(|light| {
@@ -258,7 +258,7 @@ impl Lights {
     /// - The result is zero if there are no lights.
     pub fn pdf(&self, from: Vec3, direction: Vec3) -> f32 {
         // solution
-        // starter: todo!("part two, lights: how often is {direction:?} sampled at {from:?}?")
+        // starter: todo!("part two, lights: with what density is {direction:?} sampled at {from:?}?")
         let densities = self.lights.iter().map(|light| {
             let share = light.power() / self.power;
             share * light.pdf(from, direction)

@@ -75,7 +75,7 @@ impl Lambertian {
     /// - The result is zero unless both directions are above the surface (z > 0).
     pub fn pdf(&self, out: Vec3, incoming: Vec3) -> f32 {
         // solution
-        // starter: todo!("part two, lambertian: how often is {incoming:?} sampled for {out:?}?")
+        // starter: todo!("part two, lambertian: with what density is {incoming:?} sampled for {out:?}?")
         if out.z > 0.0 && incoming.z > 0.0 {
             incoming.z * FRAC_1_PI
         } else {

@@ -38,7 +38,7 @@ use crate::world::World;
 pub fn radiance(world: &World, ray: Ray, sampler: &Sampler, bounces: u32) -> Vec3 {
     // solution
     // starter: let _ = (world, sampler);
-    // starter: todo!("part two, path: how much light has {ray:?} after {bounces} bounces?")
+    // starter: todo!("part two, path: how much light does {ray:?} carry after {bounces} bounces?")
     let mut ray = ray;
     let mut light = Vec3::ZERO;
     let mut throughput = Vec3::ONE;

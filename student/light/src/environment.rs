@@ -40,7 +40,7 @@ impl Environment {
     /// - A map can be entirely black. In that case, [`Environment::sample`] is never called.
     pub fn new(map: EnvironmentMap) -> Self {
         let size = map.size();
-        todo!("part two, environment: how much does each of {size} pixels weigh?")
+        todo!("part two, environment: what is the weight of each of {size} pixels?")
     }
 
     /// Returns the radiance from a direction, which must be a unit vector. This is the radiance of
@@ -79,7 +79,7 @@ impl Environment {
     /// - The result is zero for a black pixel, and everywhere if all pixels are black.
     /// - Directions at the poles (sin θ = 0) and at the edge of a pixel are not tested.
     pub fn pdf(&self, direction: Vec3) -> f32 {
-        todo!("part two, environment: how often does `sample` return {direction:?}?")
+        todo!("part two, environment: with what density does `sample` return {direction:?}?")
     }
 }
 

@@ -129,7 +129,7 @@ impl AreaLight {
     ///   doesn't emit.
     /// - It doesn't matter whether something else is in the way.
     pub fn pdf(&self, from: Vec3, direction: Vec3) -> f32 {
-        todo!("part two, lights: how dense are samples at {from:?} toward {direction:?}?")
+        todo!("part two, lights: what is the density of samples at {from:?} toward {direction:?}?")
     }
 }
 
@@ -223,7 +223,7 @@ impl Lights {
     ///   No other light is picked instead.
     /// - Shapes and other lights that are in the way are ignored.
     pub fn sample(&self, from: Vec3, choice: f32, random: Vec2) -> Option<Vec3> {
-        todo!("part two, lights: which way from {from:?} is {random:?} on light {choice}?")
+        todo!("part two, lights: which way leads from {from:?} to {random:?} on light {choice}?")
     }
 
     /// Returns the probability density, per solid angle, with which [`Lights::sample`] chooses a
@@ -234,7 +234,7 @@ impl Lights {
     ///   of it.
     /// - The result is zero if there are no lights.
     pub fn pdf(&self, from: Vec3, direction: Vec3) -> f32 {
-        todo!("part two, lights: how often is {direction:?} sampled at {from:?}?")
+        todo!("part two, lights: with what density is {direction:?} sampled at {from:?}?")
     }
 }
 

@@ -71,7 +71,7 @@ impl Lambertian {
     ///
     /// - The result is zero unless both directions are above the surface (z > 0).
     pub fn pdf(&self, out: Vec3, incoming: Vec3) -> f32 {
-        todo!("part two, lambertian: how often is {incoming:?} sampled for {out:?}?")
+        todo!("part two, lambertian: with what density is {incoming:?} sampled for {out:?}?")
     }
 
     /// Samples a direction above the surface with two random numbers in `[0, 1)`.

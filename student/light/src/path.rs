@@ -37,7 +37,7 @@ use crate::world::World;
 ///   most 0.95.
 pub fn radiance(world: &World, ray: Ray, sampler: &Sampler, bounces: u32) -> Vec3 {
     let _ = (world, sampler);
-    todo!("part two, path: how much light has {ray:?} after {bounces} bounces?")
+    todo!("part two, path: how much light does {ray:?} carry after {bounces} bounces?")
 }
 
 #[cfg(test)]

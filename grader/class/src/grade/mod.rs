@@ -113,7 +113,7 @@ pub fn grade_class_with(
         let missing = &findings.missing;
         print(render_preview(&recognised, missing, handed_out));
         if let Err(error) = findings.check(given) {
-            print(format!("  this class would not be graded: {error}\n\n"));
+            print(format!("  this class cannot be graded yet: {error}\n\n"));
         }
         return Ok(Completion::Complete);
     };
@@ -191,8 +191,8 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
         }
         (Some(run), true) => Ok(run.next_round(settings)),
         (Some(run), false) => Err(Error::user(format!(
-            "{} contains scores that can't be compared with new ones: {} changed; use --regrade to grade \
-             everything again and list the changes, or choose a new folder",
+            "the scores in {} can't be compared with new ones, because {} changed: use --regrade \
+             to grade everything again and list the changes, or choose a new folder",
             store.folder().display(),
             run.settings.differences(&settings).join(", ")
         ))),

@@ -236,7 +236,7 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
         let kept = match cell.trim() {
             "" | EXCUSED => String::new(),
             kept => format!(
-                ", so the gradebook still contains {kept}: change it by hand unless that is right"
+                ", so the gradebook still shows {kept}: if that is wrong, change it by hand"
             ),
         };
         warnings.push(format!("{who}{why}; left unchanged{kept}"));
@@ -302,13 +302,13 @@ fn match_rows<'c>(
                     let listed = name_in(row_index);
                     warnings.push(if key.kind == KeyKind::Number {
                         format!(
-                            "{who} is not {listed}, who has the same number in this list: enter \
-                             the points by hand"
+                            "{who}'s number belongs to {listed} in this list: enter the points by \
+                             hand"
                         )
                     } else {
                         format!(
-                            "{who} is not in this list: {listed} is, but with a different number or \
-                             student id; enter the points by hand"
+                            "{who} was not matched to {listed}, who has a different number or \
+                             student id in this list: enter the points by hand"
                         )
                     });
                 }
@@ -341,7 +341,7 @@ fn maximum_warning(class: &GradedClass, listed: Option<&str>) -> Option<String> 
     let listed = listed?.trim();
     (!listed.is_empty() && !cell_equals(listed, counted.max_points)).then(|| {
         format!(
-            "the gradebook's maximum is {listed}, but these points are out of {}: set out_of in \
+            "the gradebook's maximum is {listed}, but these points are out of {}: set `out_of` in \
              the policy",
             counted.max_points
         )

@@ -12,8 +12,8 @@ use crate::table::Table;
 const REMEDY: &str =
     "download the grading worksheet from the assignment's page (it must allow offline grading)";
 
-const TRANSLATED: &str = "it is a grading worksheet in a language other than English: switch \
-                          Moodle to English in its menu or in your preferences, and download it \
+const TRANSLATED: &str = "the grading worksheet is in a language other than English: switch Moodle \
+                          to English in its menu or your preferences, then download the worksheet \
                           again";
 
 /// Reads the worksheet at `path` and fills in the class's points.

@@ -66,9 +66,7 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
                 ("y", person("Eve", "", "", "7001")),
             ],
             ["100", "", "80", ""],
-            vec![
-                "Eve is not Doe, Jane, who has the same number in this list: enter the points by hand",
-            ],
+            vec!["Eve's number belongs to Doe, Jane in this list: enter the points by hand"],
         ),
         (
             vec![
@@ -127,8 +125,8 @@ fn a_namesake_with_another_id_gets_no_points() {
             let mut wanted = Vec::new();
             if is_other {
                 wanted.push(format!(
-                    "Jane Doe is not in this list: {name} is, but with a different number or \
-                     student id; enter the points by hand"
+                    "Jane Doe was not matched to {name}, who has a different number or student id \
+                     in this list: enter the points by hand"
                 ));
             }
             assert_eq!(filled.warnings, wanted);
@@ -143,8 +141,8 @@ fn an_equal_grade_in_another_format_is_not_a_change() {
     let filled = moodle(moodles, &class(&[("x", person("", "", "", "5"))]));
     assert!(filled.changes.is_empty());
     assert_eq!(filled.table.to_csv(), moodles);
-    let warning = "the gradebook's maximum is 50,00, but these points are out of 100: \
-                   set out_of in the policy";
+    let warning = "the gradebook's maximum is 50,00, but these points are out of 100: set `out_of` \
+                   in the policy";
     assert_eq!(filled.warnings, [warning]);
 }
 
@@ -186,10 +184,10 @@ Participant 6,Finn,,100.00,Yes
     Participant 6,Finn,,100.00,Yes
     ");
     insta::assert_snapshot!(filled.warnings.join("\n"), @"
-    Bob: the platform does not allow changes; left unchanged, so the gradebook still contains 12.50: change it by hand unless that is right
+    Bob: the platform does not allow changes; left unchanged, so the gradebook still shows 12.50: if that is wrong, change it by hand
     Carl is excused; left unchanged
     Eve: nothing to grade; left unchanged
-    Finn: b by the same person could also count: remove one; left unchanged
+    Finn: the same person also submitted b: remove one; left unchanged
     ");
 }
 
@@ -236,8 +234,8 @@ fn every_key_of_a_platform_finds_its_row() {
         let filled = moodle(moodles, &class);
         assert_eq!(cells(&filled), ["80", ""], "{key}");
         let filled = gradescope(gradescopes, &class);
-        let warning = "the gradebook's maximum is 50, but these points are out of 100: set out_of \
-                       in the policy";
+        let warning = "the gradebook's maximum is 50, but these points are out of 100: set \
+                       `out_of` in the policy";
         if ["sid", "email"].contains(&key) {
             assert_eq!(filled.changes[0].who, "Ann Lee", "{key}");
             assert_eq!(filled.table.rows[0][4], "80", "{key}");
@@ -318,8 +316,8 @@ fn only_a_known_maximum_that_differs_needs_a_warning() {
     // Canvas lists the maximum in the row of possible points.
     let jane = class(&[("x", person("", "", "", "7001"))]);
     assert_eq!(canvas(CANVAS, &jane).warnings, Vec::<String>::new());
-    let warning = "the gradebook's maximum is 50, but these points are out of 100: set out_of in the \
-                   policy";
+    let warning = "the gradebook's maximum is 50, but these points are out of 100: set `out_of` in \
+                   the policy";
     let filled = canvas(&CANVAS.replace(",100,", ",50,"), &jane);
     assert_eq!(filled.warnings, [warning]);
 }

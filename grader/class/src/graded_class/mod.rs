@@ -52,11 +52,11 @@ pub enum GradeProblem {
     #[error("{0}")]
     UnclearPerson(String),
     /// Another submission by the same person is used.
-    #[error("submission {0} by the same person counts instead")]
+    #[error("submission {0} from the same person counts instead")]
     OtherAttempt(String),
     /// Neither the policy nor the teacher has chosen between several submissions by the same
     /// person: the ids of the other submissions, and what to do.
-    #[error("{ids} by the same person could also count: {1}", ids = .0.join(" and "))]
+    #[error("the same person also submitted {ids}: {1}", ids = .0.join(" and "))]
     SeveralAttempts(Vec<String>, String),
 }
 
@@ -155,16 +155,15 @@ impl ClassRow {
         if all.all(|texts| Some(texts) == first) {
             return self.counted_texts();
         }
-        let note =
-            "The members of this group have different final points, which this page doesn't show.";
+        let note = "The members of this group have different final points, so this page doesn't show \
+            them.";
         let texts = iter::once(note).chain(self.correction());
         texts.map(str::to_owned).collect()
     }
 
     /// Returns a sentence about the files of a submission that was handed in again.
     pub fn correction(&self) -> Option<&'static str> {
-        let sentence =
-            "The files were handed in again, but the time of the first submission counts.";
+        let sentence = "The files were handed in again, but the original submission time counts.";
         self.result.info.is_corrected.then_some(sentence)
     }
 

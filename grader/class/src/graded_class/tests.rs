@@ -135,12 +135,12 @@ fn the_status_and_the_reason_follow_from_the_outcome_and_the_problem() {
     }
     insta::assert_snapshot!(lines.join("\n"), @r"
     graded ()
-    time unclear (the platform says that the submission is)
-    another attempt counts (submission b by the same person counts i)
-    several attempts (b and c by the same person could also co)
+    time unclear (the platform marks the submission as lat)
+    another attempt counts (submission b from the same person counts)
+    several attempts (the same person also submitted b and c: )
     nothing to grade (the folder is empty)
-    time unclear (the platform says that the submission is)
-    another attempt counts (submission b by the same person counts i)
+    time unclear (the platform marks the submission as lat)
+    another attempt counts (submission b from the same person counts)
     several attempts (the folder is empty)
     not graded (the disk is full)
     not graded (the disk is full)
@@ -212,7 +212,7 @@ fn notes_give_the_reason_why_there_are_no_points() {
     assert_eq!(
         row.notes(),
         [
-            "another attempt counts: submission b by the same person counts instead",
+            "another attempt counts: submission b from the same person counts instead",
             by_hand
         ]
     );
@@ -223,7 +223,7 @@ fn a_problem_is_explained_instead_of_points() {
     let texts = problems().map(|problem| with_problem(problem).explanation().join("\n"));
     insta::assert_snapshot!(texts.join("\n"), @"
     No points count yet: the staff still have to decide.
-    No points count towards the grade: submission b by the same person counts instead.
+    No points count towards the grade: submission b from the same person counts instead.
     No points count yet: the staff still have to decide.
     ");
     assert_eq!(PersonGrade::default().explanation(), Vec::<String>::new());

@@ -30,8 +30,8 @@ pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node
     }
     let unpack = archive.map_or("", |_| "unpack the archive and ");
     let note = format!(
-        "there is only the folder {name}, which is treated as one submission; if it contains the \
-         whole class, {unpack}pass its path"
+        "the only folder is {name}, which is treated as one submission; if it contains the whole \
+         class, {unpack}pass its path"
     );
     (root, Some(note))
 }

@@ -46,8 +46,8 @@ pub(super) fn read_metadata(metadata: &str) -> Result<BTreeMap<String, Submissio
         serde_saphyr::from_str_with_options(metadata, options);
     let submissions = submissions.map_err(|error| {
         Error::user(format!(
-            "cannot read {METADATA}: {error}; export the submissions again, or delete the file to go \
-             by folder names"
+            "cannot read {METADATA}: {error}; export the submissions again, or delete the file to \
+             use the folder names instead"
         ))
     })?;
     let submissions = submissions.into_iter();

@@ -205,7 +205,7 @@ impl Reader<'_> {
         if !odd.is_empty() && is_majority(&prefix, &all) {
             names.notes.push(format!(
                 "most folder names begin with {prefix}, unlike {odd}: if this is from another \
-                 assignment or from staff, move it out"
+                 assignment or from staff, move it elsewhere"
             ));
         }
         for SubmissionNode { parts, .. } in &mut names.found {
@@ -282,8 +282,8 @@ fn unlisted_prefix<'a>(names: &[&'a str], separator: char) -> Result<&'a str, Er
     let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
     Err(Error::user(format!(
         "most folder names begin with {longer}, unlike {odd}, so it is unclear where the students' \
-         names begin: if this is from another assignment or from staff, move it out; otherwise, \
-         pass a list with the students' accounts or names, for example with --roster"
+         names begin: if this is from another assignment or from staff, move it elsewhere; \
+         otherwise, pass a list with the students' accounts or names, for example with --roster"
     )))
 }
 
@@ -308,7 +308,7 @@ fn choose_title(found: &mut Vec<SubmissionNode>, choice: &LayoutChoice) -> Resul
     let all = sanitize_line(&joined(&titles, ", "), MAX_CHARS);
     match choice.title.as_deref() {
         Some(title) if !titles.contains(title) => Err(Error::user(format!(
-            "there is no assignment with the title {title:?}; the titles are: {all}"
+            "no assignment has the title {title:?}; the titles are: {all}"
         ))),
         None if titles.len() > 1 => Err(Error::user(format!(
             "the input contains several assignments ({all}): choose one with --title"

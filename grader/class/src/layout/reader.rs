@@ -23,12 +23,13 @@ use crate::roster::Member;
 const SHARED_NUMBER: &str = "another file has the same user number but a different name: rename \
                              it, or put each student's files into a separate folder";
 /// The reason for not grading two files with the same name, which Canvas never exports.
-const REPEATED_FILE: &str = "two of its files have the same name: remove the one that does not \
+const REPEATED_FILE: &str = "two of its files have the same name: remove the one that shouldn't \
                              count, or put each student's files into a separate folder";
 /// The reason for not grading an archive that Canvas exports together with a newer one.
-const OLDER: &str = "a newer archive with this name was handed in, which is graded instead";
+const OLDER: &str = "a newer archive with this name is graded instead";
 /// The reason for not grading two downloads that were unpacked into one folder.
-const SEVERAL: &str = "it is in several folders with this name: keep the one that counts";
+const SEVERAL: &str = "several folders with this name contain it: keep only the one that should be \
+    graded";
 /// The fields that may differ between the files of one submission.
 const OF_FILES: [&str; 4] = ["file", "attachment", "late", "kind"];
 

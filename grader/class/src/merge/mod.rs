@@ -45,8 +45,8 @@ pub fn merge_shards(
     if !missing.is_empty() {
         let missing = joined(missing.iter().map(Shard::to_string), ", ");
         return Err(Error::user(format!(
-            "results are missing for {missing}: pass the output folders of all parts; otherwise, \
-             submissions would be missing from the merged grades"
+            "results are missing for {missing}: pass the output folders of all parts, or the \
+             merged grades would be incomplete"
         )));
     }
     let out = Store::new(&arguments.out);
@@ -165,8 +165,8 @@ fn check_compatible(one: &(Store, Run), other: &(Store, Run)) -> Result<(), Erro
     let mut what = one.1.settings.differences(&other.1.settings);
     what.retain(|what| !local.contains(what));
     let why = if one.1.class != other.1.class {
-        " because submissions were added or removed between the two runs, so somebody could be missing: run \
-         every `cargo class --shard` command again (existing results are kept)"
+        " because submissions were added or removed between the two runs, so some could be \
+         missing: run every `cargo class --shard` command again (existing results are kept)"
             .to_owned()
     } else if !what.is_empty() {
         format!(": they differ in {}", what.join(", "))

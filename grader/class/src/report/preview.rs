@@ -33,8 +33,8 @@ pub fn render_preview(
     for ids in several_of_one_person(&class.entries) {
         let ids = joined(ids.into_iter().map(sentence), " and ");
         text += &format!(
-            "\n  {ids} belong to the same person: remove all but one, unless the policy chooses with \
-             [attempts]\n"
+            "\n  {ids} belong to the same person: remove all but one, or let the policy choose one \
+             with [attempts]\n"
         );
     }
     text += &render_warnings(class);

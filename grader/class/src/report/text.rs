@@ -59,12 +59,12 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         ),
         (
             summary.superseded,
-            "not counted, because another submission by the same person counts",
+            "not counted because another submission by the same person counts",
         ),
         (summary.by_test_student, "by Canvas's test student"),
         (
             summary.undated,
-            "counted as on time or 1 day late, because their submission time is unknown",
+            "counted as on time or 1 day late because their submission time is unknown",
         ),
     ];
     let counts = counts.iter().filter(|(count, _)| *count > 0);
@@ -180,7 +180,7 @@ pub fn render_changes(changes: &Changes) -> String {
 
 fn render_regrade(regrade: &RegradeChanges) -> String {
     let causes = match regrade.causes.as_slice() {
-        [] => "no setting changed".to_owned(),
+        [] => "no settings changed".to_owned(),
         causes => format!("changed settings: {}", causes.join(", ")),
     };
     let changes = with_changed_points(&regrade.scores);

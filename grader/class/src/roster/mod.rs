@@ -195,7 +195,8 @@ fn check_keys(path: &Path, members: &[Member]) -> Result<(), Error> {
             let first = *rows.entry((kind, fold(key))).or_insert(index);
             if !is_repetition(&members[first].person, &member.person) {
                 return Err(Error::user(format!(
-                    "{}: rows {} and {} both have {key:?}, but differ otherwise: correct one of them",
+                    "{}: rows {} and {} both contain {key:?}, but are otherwise different: correct \
+                    one of them",
                     path.display(),
                     members[first].row,
                     member.row

@@ -196,6 +196,6 @@ fn only_attempts_that_may_count_are_in_the_copy() {
     };
     assert_eq!(row("ann2")["counts"], "2");
     assert_eq!(row("bob1")["status"], "several attempts");
-    let why = "another submission by the same person could also count";
+    let why = "the same person also submitted another attempt";
     assert_contains(&row("bob1")["why"], &[why]);
 }

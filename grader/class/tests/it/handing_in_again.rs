@@ -63,7 +63,7 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
         "4 messages for students who need to resubmit",
         "  nothing to grade; ask for the files, using the message in hand-in-again, or give manual \
          points:\n    it is damaged (Missing end of central directory): download or pack it again: \
-         bob (Bob Kim)\n    none of the task files was handed in, only notes.txt: carl (Carl Ode)\n    \
+         bob (Bob Kim)\n    no task files were handed in, only notes.txt: carl (Carl Ode)\n    \
          nothing was handed in: dora (Dora Day)\n",
         "  nothing to grade: the folder tut contains several versions",
     ];
@@ -101,7 +101,7 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
     assert!(!class.read("students/ann/feedback.html").contains(SENTENCE));
 
     let refused = class.refused(&exam, &[]);
-    let expected = "has points for corrected hand-ins, such as bob: pass their folder";
+    let expected = "contains points for corrected submissions, such as bob: pass their folder";
     assert_contains(&refused, &[expected]);
     let empty = class.path_beside("empty");
     fs::create_dir(&empty).unwrap();

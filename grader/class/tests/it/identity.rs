@@ -45,14 +45,14 @@ fn a_moodle_team_gets_points_by_its_name_and_never_by_its_number() {
     let error = class.refused(&exam, &["--moodle", &path]);
     assert_contains(
         &error,
-        &["2 of 2 submissions, such as \"Team A\", don't match anybody"],
+        &["2 of 2 submissions, such as \"Team A\", don't match anyone"],
     );
     let (moodle, pages, text) = grade(&unknown, &["--accept-unlisted"]);
     assert!(moodle.contains("51,Ann Lee,Team B,,"), "{moodle}");
     assert_eq!(pages, [""; 0]);
     assert_contains(
         &text,
-        &["the number 51 was not used, because a list assigns it to Ann Lee"],
+        &["the number 51 was ignored because a list assigns it to Ann Lee"],
     );
 }
 
@@ -78,7 +78,7 @@ fn a_canvas_name_that_can_be_read_in_two_ways_needs_a_gradebook() {
     let who = [
         "  Ann Lee: ",
         &format!("  Red_2: 1 of {} files", RAYS.files.len()),
-        "the number 7003 was not used, because a list assigns it to Eve Kim",
+        "the number 7003 was ignored because a list assigns it to Eve Kim",
     ];
     assert_contains(&preview, &who);
 }
@@ -108,7 +108,7 @@ fn what_is_in_the_only_submission_does_not_describe_the_class() {
         let expected = [
             "1 submission in folders and archives",
             &all_files("  Mallory"),
-            "there is only the folder mallory",
+            "the only folder is mallory",
         ];
         assert_contains(&preview, &expected);
     }
@@ -149,11 +149,11 @@ fn a_class_of_which_most_are_on_no_list_needs_a_confirmation() {
     let roster = class.write_beside("roster.csv", "username\nann\nkim\n");
     let lists = ["--roster", &roster];
     let preview = class.preview_of(&class.input(), &lists);
-    assert_contains(&preview, &["this class would not be graded"]);
+    assert_contains(&preview, &["this class cannot be graded yet"]);
     for shard in ["1/3", "2/3"] {
         let error = class.refused(&exam, &[&lists[..], &["--shard", shard]].concat());
         assert!(
-            error.contains("2 of 3 submissions, such as \"bob\", don't match anybody"),
+            error.contains("2 of 3 submissions, such as \"bob\", don't match anyone"),
             "{error}"
         );
         assert!(!class.out().exists());
@@ -210,8 +210,8 @@ fn people_whose_names_differ_only_in_punctuation_are_not_guessed() {
     let roster = class.write_beside("roster.csv", roster);
     let preview = class.preview_of(&class.input(), &["--roster", &roster]);
     let expected = [
-        "several people on the lists are called Bob OHara",
-        "replacing the name with one of bo@x.edu, bob@x.edu",
+        "several people on the lists are named Bob OHara",
+        "so that it contains one of bo@x.edu, bob@x.edu",
     ];
     assert_contains(&preview, &expected);
 }
@@ -292,7 +292,7 @@ fn a_namesakes_folder_that_was_renamed_is_confirmed_by_its_number() {
     let preview = class.preview_of(&class.input(), &options);
     assert_contains(
         &preview,
-        &["the number 400306 was not used, because a list assigns it to Ann Lee"],
+        &["the number 400306 was ignored because a list assigns it to Ann Lee"],
     );
 }
 

@@ -161,7 +161,7 @@ fn canvas_attachments_are_in_the_order_of_their_numbers() {
         .with("doejane_7001_1000_hw-1.zip", archive())
         .with("leeann_7002_9001_hw.zip", archive());
     let preview = class.preview();
-    let older = "doejane_7001_999_hw.zip: a newer archive with this name was handed in";
+    let older = "doejane_7001_999_hw.zip: a newer archive with this name is graded";
     assert_contains(&preview, &["doejane_7001_1000_hw-1.zip and 1 more", older]);
 }
 

@@ -47,7 +47,7 @@ fn the_policy_says_which_of_several_attempts_counts() {
     let row = "\"Lee, Ann\",7001,u1,ann,A,100";
     assert_contains(&class.read("canvas.csv"), &[row]);
     let text =
-        "No points count towards the grade: submission u1 by the same person counts instead.";
+        "No points count towards the grade: submission u1 from the same person counts instead.";
     assert_contains(&class.read("students/ann/feedback.html"), &[text]);
 
     // Without times, the latest attempt is unknown.
@@ -83,7 +83,9 @@ Ann Lee,camera,0,see me,Tess
     let error = String::from_utf8(output.stderr).unwrap();
     assert_contains(
         &error,
-        &["an extension for \"zoe\", who is not in this class: use a name"],
+        &[
+            "an extension for \"zoe\", which doesn't match any person or group in this class: use a name",
+        ],
     );
     let of = |submission, name| {
         ["counts", "points", "manual", "late_days"]
@@ -142,8 +144,8 @@ fn namesakes_are_told_apart_or_belong_to_nobody() {
     let roster = class.write_beside("roster.csv", roster);
     let preview = class.preview_of(&class.input(), &["--roster", &roster]);
     let expected = [
-        "Ann Lee: several people on the lists are called Ann Lee",
-        "replacing the name with one of a1@x.edu, a2@x.edu",
+        "Ann Lee: several people on the lists are named Ann Lee",
+        "so that it contains one of a1@x.edu, a2@x.edu",
     ];
     assert_contains(&preview, &expected);
     assert_eq!(preview.matches("several people").count(), 1);

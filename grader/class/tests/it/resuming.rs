@@ -68,7 +68,10 @@ fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
     let (worth, other) = exam_with_changed_points(&class, &exam, -1);
 
     let error = class.refused(&other, &[]);
-    assert!(error.contains("the exam changed; use --regrade"), "{error}");
+    assert!(
+        error.contains("because the exam changed: use --regrade"),
+        "{error}"
+    );
 
     let text = class.graded(&other, &["--regrade"]);
     let expected = [
@@ -172,7 +175,7 @@ fn a_regrade_does_not_list_submissions_whose_files_changed() {
     let ids = drift.as_array().unwrap().iter().map(|change| &change["id"]);
     assert_eq!(ids.collect::<Vec<_>>(), ["carl"]);
     let page = class.read("class.html");
-    let (_, regrade) = page.split_once("Scores that the regrade changed").unwrap();
+    let (_, regrade) = page.split_once("Scores changed by the regrade").unwrap();
     let (regrade, _) = regrade.split_once("</section>").unwrap();
     assert!(!regrade.contains("bob"), "{regrade}");
 }

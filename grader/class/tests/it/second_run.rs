@@ -93,7 +93,7 @@ fn a_copy_that_was_changed_is_not_used() {
     let roster = paths.into_iter().find(is_roster).unwrap();
     fs::write(&roster, "username\nann\n").unwrap();
     let error = graded.class.refused(&graded.exam, &[]);
-    let advice = "pass it again with --roster, or drop it with --drop-list roster";
+    let advice = "pass it again with --roster, or stop using it with --drop-list roster";
     assert!(error.contains(advice), "{error}");
     graded.run(&["--drop-list", "roster"]);
 }
@@ -268,7 +268,7 @@ fn each_change_of_a_grade_names_the_causes_that_apply_to_this_person() {
     let lists = [("moodle", &*worksheet("Submitted for grading", "2.00"))];
     let text = class.graded_with(&exam, &lists, &[]);
     all.push(grade_changes(&class, &text));
-    let kept = "Bob Kim: nothing to grade; left unchanged, so the gradebook still contains 2.00";
+    let kept = "Bob Kim: nothing to grade; left unchanged, so the gradebook still shows 2.00";
     assert_contains(&text, &[kept]);
 
     let manual = "student,task,delta,comment,author\nBob Kim,camera,1,on paper,Tess\n\

@@ -42,12 +42,12 @@ fn a_late_flag_without_a_time_is_said_to_count_as_one_day() {
     let exam = class.small_exam(&["camera.offset"]);
     let policy = ("policy", "[late]\npercent_per_day = 10\n");
     let printed = class.graded_with(&exam, &[policy], &["--hand-back"]);
-    assert_contains(&printed, &["1 counted as on time or 1 day late, because"]);
+    assert_contains(&printed, &["1 counted as on time or 1 day late because"]);
     let sentence = "handed in late (how late is unknown, so it counts as 1 day), so 10 % of";
     for page in ["class.html", "students/doejane_7001/feedback.html"] {
         assert_contains(&class.read(page), &[sentence]);
     }
-    let times = "because the time is unknown: doejane_7001 (doejane).";
+    let times = "as 1 day late if marked as late: doejane_7001 (doejane).";
     assert_contains(&class.read("class.html"), &[times]);
 }
 
@@ -76,7 +76,7 @@ fn a_wrong_year_is_never_on_time_or_late() {
     is_open("last", "more than half a year from the due time");
     is_open("typo", "more than half a year from the due time");
     is_open("serial", "more than half a year from the due time");
-    is_open("slashes", "two different dates");
+    is_open("slashes", "it is ambiguous");
 }
 
 /// Winter time begins on 25 October.
@@ -172,7 +172,7 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
         "Other",
         "the extension \"lundi 26 octobre 2026, 23:59\"",
     );
-    is_open("German_5", "German", "set Moodle's language to English");
+    is_open("German_5", "German", "switch Moodle to English");
     let expected = [
         "Draft: the status in Moodle's worksheet",
         "2 without final points, because it is unclear when they were submitted",

@@ -143,9 +143,9 @@ fn files_with_other_names_are_named_once() {
         .with("ann/bvh.rs.txt", WORK)
         .with("bob/.git/HEAD", "");
     let preview = class.preview();
-    let expected = "ann: nothing to grade: none of the task files was handed in, only \
-                    camera.rs.txt, bvh.rs.txt: give each file its task file's exact name, such as \
-                    camera.rs; names must end in .rs";
+    let expected = "ann: nothing to grade: no task files were handed in, only camera.rs.txt, \
+                    bvh.rs.txt: name each file exactly like its task file, such as camera.rs; \
+                    names must end in .rs";
     assert_eq!(line(&preview, "ann"), expected);
     assert!(
         preview.contains("bob: nothing to grade: nothing was handed in"),
@@ -241,6 +241,6 @@ fn files_that_a_platform_writes_into_a_folder_are_not_handed_in() {
         .with_minimal_submission("pt-ann")
         .with("pt-bob/README.md", "# Path tracer")
         .with("pt-bob/result.json", "{}");
-    let expected = "bob: nothing to grade: none of the task files was handed in, only README.md\n";
+    let expected = "bob: nothing to grade: no task files were handed in, only README.md\n";
     assert_contains(&class.preview(), &[expected]);
 }

@@ -150,7 +150,7 @@ fn an_exam_that_cannot_be_asked_or_judged_is_refused() {
         (
             item("task"),
             json!("light"),
-            "there is no task `light`; the tasks are camera",
+            "unknown task `light`; the tasks are camera",
         ),
         (item("points"), json!(0), "no points or no questions"),
         (item("questions"), json!([]), "no points or no questions"),

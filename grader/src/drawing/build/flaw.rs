@@ -80,7 +80,7 @@ impl<'a> Flaw<'a> {
                 format!("Leaf {leaf} has {count} of {all} primitives: the tree is barely split.")
             }
             Some(TreeDefect::NeedlessSplit { node, count, most }) => format!(
-                "Node {node} is split even though it only has {}; up to {most} belong in one leaf.",
+                "Node {node} is split even though it only has {}; a leaf can hold up to {most}.",
                 primitives(*count)
             ),
             Some(TreeDefect::Partition { .. }) => format!(

@@ -28,7 +28,7 @@ pub enum TimeError {
     #[error("it is not a date and time in a recognised format, such as 2026-11-20 23:59:59 +0100")]
     UnknownForm,
     /// The day, the month and the year cannot be distinguished.
-    #[error("it could be two different dates: write it as 2026-11-20 23:59:59 +0100")]
+    #[error("it is ambiguous: write it as 2026-11-20 23:59:59 +0100")]
     AmbiguousDate,
     /// No course takes place in this year.
     #[error("its year is not between 2000 and 2099: correct it")]

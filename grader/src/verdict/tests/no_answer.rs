@@ -56,7 +56,7 @@ fn an_item_that_was_not_run_says_why() {
     not run because two other items in this task crashed
     not run because two other items in this task crashed
     not run because two other items in this task crashed
-    not run because a task that this item depends on was stopped
+    not run because a task that this item depends on was stopped early
     not run because earlier items used up the submission's time
     ");
 }

@@ -88,7 +88,7 @@ fn hidden_items_are_left_out_or_summed_up() {
     for format in others.map(|format| format.id) {
         let text = models::readable(format, &written[format]);
         assert!(!text.contains("sphere.near_side"), "{format}: {text}");
-        let title = "from outside, the near side is hit";
+        let title = "a ray from outside hits the near side";
         assert!(!text.contains(title), "{format}: {text}");
     }
     assert!(written["classroom50"].contains("2 items that are not shown"));

@@ -37,7 +37,7 @@ pub struct Request {
 #[derive(Debug, thiserror::Error)]
 pub enum RequestError {
     /// The connection ended or failed before the request was complete.
-    #[error("the connection ended: {0}")]
+    #[error("the connection was closed: {0}")]
     Io(#[from] std::io::Error),
     /// The request is not valid HTTP/1.1 or uses a part of it that the server doesn't support.
     #[error("the request is malformed: {0}")]
@@ -165,7 +165,7 @@ mod tests {
             ),
             ("PUT / HTTP/1.1\r\n\r\n", "not supported"),
             ("\u{1}\r\n\r\n", "malformed"),
-            ("GET / HTTP/1.1\r\n", "the connection ended"),
+            ("GET / HTTP/1.1\r\n", "the connection was closed"),
         ] {
             let error = Request::read(&mut text.as_bytes()).unwrap_err().to_string();
             assert!(error.contains(why), "{text:?}: {error}");

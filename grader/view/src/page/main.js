@@ -52,7 +52,7 @@ function waitingFor(state) {
   if (state.loading) return `Loading ${state.loading} …`;
   if (state.build === "compiling") return "Compiling …";
   if (state.build === "failed") return state.picture > 0 ? "" : "No picture yet: see the errors.";
-  if (state.has_stopped && state.is_stale) return "This picture was drawn by your previous version, because the new one has stopped.";
+  if (state.has_stopped && state.is_stale) return "This picture was drawn by the previous version of your code, because the new one has stopped.";
   if (state.is_opening) return "Building the tree …";
   if (state.picture > 0) return "";
   return state.has_stopped ? "No picture yet." : "Drawing …";

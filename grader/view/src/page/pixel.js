@@ -23,8 +23,8 @@ const SHORT_OUTCOMES = {
 const OUTCOMES = {
   entered: "hit from AT: entered",
   not_entered: "hit from AT: not entered",
-  skipped_beyond: "hit from AT: not entered, because it begins beyond the closest hit",
-  outside_times: "hit from AT, but not within the times that were passed: skipped",
+  skipped_beyond: "hit from AT: not entered because it begins beyond the closest hit",
+  outside_times: "hit from AT, but outside the times that were passed: skipped",
   missed: "missed",
   closest: "hit at AT: the closest so far",
   farther: "hit at AT, which is not the closest",
@@ -178,7 +178,7 @@ function outcomeOf(row) {
   // `row.closest` is the closest hit right after this test. A closer one may have been found later,
   // before the traversal came to the node.
   const isLater = row.outcome === "skipped_beyond" && !(row.closest !== null && row.closest < row.at[0]);
-  const text = isLater ? "hit from AT: left for later, then not entered, because a closer hit was found" : OUTCOMES[row.outcome];
+  const text = isLater ? "hit from AT: postponed, then not entered because a closer hit was found" : OUTCOMES[row.outcome];
   return text.replace("AT", row.at.map((x) => number(x)).join(" to "));
 }
 

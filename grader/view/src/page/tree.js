@@ -99,7 +99,7 @@ const relatives = [["node-parent", (node) => node?.parent], ["node-first", (node
 async function goTo(index) {
   const node = await load(`/node?node=${index}`);
   if (node) select(node);
-  else document.getElementById("node").textContent = `There is no node ${index} in the tree.`;
+  else document.getElementById("node").textContent = `The tree has no node ${index}.`;
 }
 
 function showTable(id, nodes) {

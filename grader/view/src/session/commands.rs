@@ -59,7 +59,7 @@ impl Session {
         match command {
             Command::Scene(name) => {
                 if !self.shown.scenes.contains(name) {
-                    return Err(format!("there is no scene {name:?}"));
+                    return Err(format!("unknown scene {name:?}"));
                 }
                 self.shown.loading = Some(name.clone());
                 self.shown.version += 1;

@@ -229,8 +229,8 @@ impl Session {
 /// Returns the message that explains why tests cannot be recorded.
 pub(super) fn recording_failed(errors: &[FileError]) -> String {
     format!(
-        "Your files compile on their own, but not with the code that is added to record the tests, \
-         so the tests cannot be shown: {}",
+        "Your files compile, but not together with the code that records the tests, so the tests \
+         cannot be shown: {}",
         errors.first().map_or("", |error| &error.text)
     )
 }

@@ -175,7 +175,7 @@ fn an_error_of_the_user_says_what_to_do() {
         ),
         (
             "--item sphere.from_inside#99999".into(),
-            "so there is no question 99999".into(),
+            "sphere.from_inside has no question 99999".into(),
         ),
     ] {
         let output = view().args(arguments.split(' ')).output().unwrap();

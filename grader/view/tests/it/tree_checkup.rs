@@ -54,7 +54,7 @@ fn each_defect_of_a_tree_is_named_with_its_node() {
         (
             "let lost = bvh.nodes.iter_mut().find(|node| node.is_leaf() && node.size > 1); \
              lost.unwrap().size -= 1;",
-            "Primitives that no ray can hit because they are in no leaf",
+            "Primitives that no ray can hit because they are not in any leaf",
             1..=1,
             "primitive ",
         ),

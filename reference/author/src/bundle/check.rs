@@ -69,6 +69,6 @@ pub fn check(
         .env("CARGO_TARGET_DIR", folder.join("built"))
         .status()
         .at("run", "bash")?;
-    ensure!(status.success(), "the bundle does not work: see above");
+    ensure!(status.success(), "the bundle failed its check: see above");
     Ok(())
 }

@@ -23,7 +23,7 @@ pub(super) fn handout(
     let problems = handout::problems(root, authoring.handed_out.assignment, &practice)?;
     report(
         &problems,
-        "handout: every link, name and command was checked",
+        "handout: all links, names and commands are valid",
     )?;
     let Some(folder) = book else {
         return Ok(());

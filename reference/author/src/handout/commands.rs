@@ -127,7 +127,7 @@ fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
         let file = format!("student/src/{word}.rs");
         !EXAMPLES_FLAGS.contains(word) && !sources.iter().any(|source| source.path == file)
     })?;
-    Some(format!("there is no examples file named {unknown}.rs"))
+    Some(format!("no file with examples is named {unknown}.rs"))
 }
 
 #[cfg(test)]
@@ -168,7 +168,7 @@ mod tests {
             "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres' for '--task <TASK>'",
             "a.md:4: cargo has no command gradee",
             "a.md:5: no command has the flag --views",
-            "a.md:6: there is no examples file named tree.rs",
+            "a.md:6: no file with examples is named tree.rs",
             "a.md:7: unknown command make",
             "a.md:8: `cargo handin --zip`: error: unexpected argument '--zip' found",
             "a.md:9: `cargo class a --shard 9/8`: error: invalid value '9/8'",

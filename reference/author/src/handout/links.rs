@@ -20,7 +20,7 @@ pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
             let file = if file.is_empty() { &page.name } else { file };
             let problem = match anchors.get(file) {
                 None if figures.contains(file) => None,
-                None => Some(format!("there is no {file}")),
+                None => Some(format!("{file} does not exist")),
                 Some(anchors) if anchor.is_empty() || anchors.contains(anchor) => None,
                 Some(_) => Some(format!("{file} has no heading for #{anchor}")),
             };
@@ -151,9 +151,9 @@ mod tests {
         assert_eq!(
             broken_links(&pages, &figures(&["figures/a.svg"])),
             [
-                "a.md:3: there is no c.md",
+                "a.md:3: c.md does not exist",
                 "a.md:4: a.md has no heading for #b",
-                "b.md:2: there is no figures/b.svg",
+                "b.md:2: figures/b.svg does not exist",
                 "b.md: no chapter links to it",
                 "figures/a.svg: no chapter links to it",
             ]

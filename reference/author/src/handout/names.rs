@@ -67,7 +67,7 @@ pub fn unknown_names(page: &Page, known: &KnownNames) -> Vec<String> {
             return (!there).then(|| format!("the exam has no item {item}"));
         }
         if is_path(text) {
-            return (!path_exists(text, known)).then(|| format!("there is no file {text}"));
+            return (!path_exists(text, known)).then(|| format!("{text} does not exist"));
         }
         let parts = text.split("::").collect::<Vec<_>>();
         if let [owner, member] = parts[..]
@@ -189,8 +189,8 @@ mod tests {
                 "a.md:1: Bvh has no member grow",
                 "a.md:2: unknown name max_leaf",
                 "a.md:3: the exam has no item bbox.fat",
-                "a.md:4: there is no file tree.rs",
-                "a.md:5: there is no file starter/",
+                "a.md:4: tree.rs does not exist",
+                "a.md:5: starter/ does not exist",
             ]
         );
     }

@@ -280,7 +280,7 @@ impl Mistake {
             title: known.title.clone(),
             sources: sources.map_err(|(file, count)| {
                 anyhow!(
-                    "{id} no longer applies: its `was` should occur once in {file} with its given \
+                    "{id} no longer applies: its `was` must occur once in {file} with its given \
                         code, but occurs {count} times; update `was` in mistakes/independent"
                 )
             })?,
@@ -295,8 +295,8 @@ impl Mistake {
         let own_file = handed_out.assignment.info(self.task()).file;
         apply_changes(reference, &self.changes, own_file).map_err(|(file, count)| {
             anyhow!(
-                "{} no longer applies: its `was` should occur once in {}/{file}, but occurs \
-                    {count} times; update `was` in the catalogue of mistakes",
+                "{} no longer applies: its `was` must occur once in {}/{file}, but occurs {count} \
+                    times; update `was` in the catalogue of mistakes",
                 self.id,
                 handed_out.reference
             )

@@ -125,7 +125,7 @@ impl Solutions {
         self.variants.retain(|variant| variant.id == id);
         if self.variants.is_empty() {
             let folder = self.workbench.handed_out().solutions();
-            bail!("there is no variant {id}: see {folder}/variants/variants.toml for a list");
+            bail!("unknown variant {id}: see {folder}/variants/variants.toml for a list");
         }
         Ok(self)
     }

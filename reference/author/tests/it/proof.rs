@@ -131,7 +131,7 @@ fn reports_an_independent_mistake_that_does_not_apply() {
     };
     let message = |mistake: Mistake| mistake.in_variant(&SOLUTIONS).unwrap_err().to_string();
     let in_sphere = message(mistake("sphere.far_first", "sphere.full_quadratic"));
-    let expected = "sphere.far_first in sphere.full_quadratic no longer applies: its `was` should \
+    let expected = "sphere.far_first in sphere.full_quadratic no longer applies: its `was` must \
                     occur once in sphere.rs with its given code, but occurs 4 times; update `was` \
                     in mistakes/independent";
     assert_eq!(in_sphere, expected);
@@ -214,8 +214,8 @@ fn reports_a_mistake_that_no_longer_applies() {
     mistake.changes[0].was = "no such text".to_owned();
     let error = mistake.apply(SOLUTIONS.recorder.reference()).unwrap_err();
     let expected = format!(
-        "{} no longer applies: its `was` should occur once in reference/src/camera.rs, but occurs \
-            0 times; update `was` in the catalogue of mistakes",
+        "{} no longer applies: its `was` must occur once in reference/src/camera.rs, but occurs 0 \
+            times; update `was` in the catalogue of mistakes",
         mistake.id
     );
     assert_eq!(error.to_string(), expected);

@@ -40,8 +40,8 @@ impl EnvironmentMap {
         } = size;
         if width != 2 * height || width > MAX_FILM_SIDE || height == 0 {
             return Err(format!(
-                "the map has {width} × {height} pixels: a map of all directions is twice as wide \
-                 as it is high, and at most {MAX_FILM_SIDE} pixels wide"
+                "the map has {width} × {height} pixels, but a map of all directions must be twice \
+                 as wide as it is high, and at most {MAX_FILM_SIDE} pixels wide"
             ));
         }
         if radiance.len() != (width * height) as usize {
@@ -81,8 +81,8 @@ impl EnvironmentMap {
             .map_err(|error| in_file(format!("cannot read the file: {error}")))?;
         let format = reader.format();
         if !matches!(format, Some(ImageFormat::Hdr | ImageFormat::OpenExr)) {
-            let message =
-                "a map must be an HDR or EXR file, because other pictures don't store radiance";
+            let message = "a map must be an HDR or EXR file, because other image formats don't store \
+                radiance";
             return Err(in_file(message.to_owned()));
         }
         let decoded = reader.decode();

@@ -89,7 +89,7 @@ fn an_error_begins_with_the_name_of_the_file() {
     check(&folder.write("empty.json", ""), empty);
     let unreadable = "none.json: cannot read the file: ";
     check(&folder.0.join("none.json"), unreadable);
-    let mesh = "a.obj: this is a mesh, not a scene. A scene can show it, with this entry in its \
+    let mesh = "a.obj: this is a mesh, not a scene. To show it in a scene, add this entry to its \
                 `shapes`: { \"mesh\": { \"file\": \"a.obj\"";
     check(&folder.write("a.obj", SQUARE), mesh);
 }

@@ -88,8 +88,9 @@ impl Scene {
         let is_mesh = path.extension().is_some_and(|ending| ending == "obj");
         if let (true, Some(name)) = (is_mesh, path.file_name()) {
             let message = format!(
-                "this is a mesh, not a scene. A scene can show it, with this entry in its `shapes`: \
-                 {{ \"mesh\": {{ \"file\": {:?}, \"material\": \"…\" }} }}; see scenes/README.md",
+                "this is a mesh, not a scene. To show it in a scene, add this entry to its \
+                 `shapes`: {{ \"mesh\": {{ \"file\": {:?}, \"material\": \"…\" }} }}; see \
+                 scenes/README.md",
                 name.to_string_lossy()
             );
             return Err(SceneError::new(None, message).in_file(path));

@@ -72,7 +72,7 @@ fn split(points: &[Vec3]) -> Result<(Vec3, Vec<[usize; 3]>), String> {
     let off_plane = |p: &DVec3| (*p - points[0]).dot(normal).abs() > FLATNESS_TOLERANCE * size;
     if let Some(index) = points.iter().position(off_plane) {
         return Err(format!(
-            "`points` are not in one plane: point {} sticks out, so split the polygon",
+            "`points` are not in one plane: point {} is off the plane, so split the polygon",
             index + 1
         ));
     }

@@ -265,7 +265,7 @@ fn syntax_message(error: &serde_json::Error) -> String {
         "expected value" => {
             "expected a value: a number, a string in quotes, a list in [ ] or an object in { }"
         }
-        "expected ident" => "expected a value; `true`, `false` and `null` are written in full",
+        "expected ident" => "expected a value; write `true`, `false` and `null` in full",
         "key must be a string" => "expected a key in quotes",
         "trailing comma" => "remove the comma before this closing bracket",
         "trailing characters" => "the scene ends before this point: remove the rest",

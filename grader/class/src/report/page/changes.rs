@@ -13,16 +13,16 @@ pub(super) fn changes(changes: &Changes) -> Markup {
     let resubmitted = with_changed_points(&changes.resubmitted);
     html! {
         @if let Some(regrade) = &changes.regrade { (section(
-            "regraded", "Scores that the regrade changed", &html! {
-                @if regrade.causes.is_empty() { p { "No setting changed." } }
+            "regraded", "Scores changed by the regrade", &html! {
+                @if regrade.causes.is_empty() { p { "No settings changed." } }
                 @else { p { "Changed settings: " (regrade.causes.join(", ")) "." } }
                 (score_changes(&with_changed_points(&regrade.scores)))
             },
         )) }
         @if let Some(grades) = changes.grades.as_ref().filter(|grades| !grades.is_empty()) { (section(
-            "grades", "Final grades that changed", &html! {
+            "grades", "Changed final grades", &html! {
                 @if !grades.causes.is_empty() { p { "Changed: " (grades.causes.join(", ")) "." } }
-                @if grades.changes.is_empty() { p { "No final grade changed." } }
+                @if grades.changes.is_empty() { p { "No final grades changed." } }
                 (list(&grades.changes))
             },
         )) }
@@ -41,7 +41,7 @@ fn list(texts: &[String]) -> Markup {
 
 fn score_changes(changes: &[&ScoreChange]) -> Markup {
     html! {
-        @if changes.is_empty() { p { "No score changed." } }
+        @if changes.is_empty() { p { "No scores changed." } }
         ul { @for change in changes { li {
             a href=(report_link(&change.id)) { (sanitized(&change.id)) }
             ": " strong { (change.was) " → " (points_now(change)) }

@@ -215,7 +215,7 @@ fn failure_rates(summary: &ClassSummary) -> Markup {
         wide("rates", &table)
     };
     let title = "Submissions without full marks, by section";
-    let items = html! { details { summary { "Each item" } (table("Item", true)) } };
+    let items = html! { details { summary { "By item" } (table("Item", true)) } };
     section("rates", title, &html! { (table("Task", false)) (items) })
 }
 

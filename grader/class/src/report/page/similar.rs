@@ -15,7 +15,8 @@ pub(super) fn similar(class: &GradedClass, pairs: &[SimilarPair]) -> Markup {
     let contents = html! {
         p {
             "A similarity checker compared the students' own lines. Code can be similar for "
-            "reasons other than copying, so compare it yourself. This doesn't affect points."
+            "reasons other than copying, so look at each pair yourself. This doesn't affect \
+            points."
         }
         @for pair in pairs { (side_by_side(class, pair)) }
     };

@@ -50,7 +50,7 @@ pub(super) fn times(class: &GradedClass) -> Markup {
             } } }
         }
         @if !undated.is_empty() { p {
-            "Counted as on time or 1 day late (if marked as late), because the time is unknown: "
+            "Submission time unknown, so counted as on time, or as 1 day late if marked as late: "
             (sanitized(&undated)) "."
         } }
         @if !unclear.is_empty() {

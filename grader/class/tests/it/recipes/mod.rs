@@ -68,7 +68,7 @@ fn another_number_of_parts_and_results_among_the_submissions_are_refused() {
         let shards = class.out().join("shards");
         std::fs::create_dir_all(&shards).unwrap();
         std::fs::write(shards.join("count"), "2\n").unwrap();
-        refused(&class.out(), "has parts of 2; set SHARDS=2");
+        refused(&class.out(), "was graded with SHARDS=2: set SHARDS=2");
 
         let inside = class.input().join("graded");
         refused(&inside, "would be mistaken for submissions");

@@ -148,7 +148,7 @@ fn a_killed_part_is_graded_again_and_the_results_equal_one_run() {
     let [first, second] = logs.as_slice() else {
         panic!("{logs:?}")
     };
-    let again = "the parts 2 are not finished: they are graded again";
+    let again = "parts 2 are not finished and will be graded again";
     assert_contains(first, &[again, "submitted the parts 2 as job"]);
     assert_contains(second, &["3 graded"]);
     successful_stdout(&slurm.class.grade(

@@ -277,8 +277,8 @@ pub(super) const BUILD: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::less("splits")],
             clue: "The leaf shown holds at least half of all the primitives, and more than \
-                     max_leaf_size. Why didn't your code split it: did it not try any partition, or did it \
-                     reject them all?",
+                     max_leaf_size. Why didn't your code split it: did it try no partitions, or \
+                     did it reject them all?",
             section: "building.md#when-a-node-becomes-a-leaf",
         },
         SymptomClue {
@@ -289,14 +289,14 @@ pub(super) const BUILD: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("leaf size")],
-            clue: "The leaf shown holds more than max_leaf_size primitives. Why did your code \
-                     stop there?",
+            clue: "The leaf shown holds more than max_leaf_size primitives. Why did your code stop \
+                     splitting there?",
             section: "building.md#when-a-node-becomes-a-leaf",
         },
         SymptomClue {
             symptoms: &[Symptom::of("SAH cost")],
-            clue: "Print the partition that your code chooses at the root, and work out the cost of a \
-                different one by hand: which is cheaper?",
+            clue: "Print the partition that your code chooses at the root, and work out the cost \
+                of a different one by hand: which of the two is cheaper?",
             section: "building.md#which-partitions-to-try",
         },
     ],
@@ -306,9 +306,10 @@ pub(super) const BUILD: TaskClues = TaskClues {
 /// The clues for traversing a tree.
 pub(super) const TRAVERSE: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "None of your rays hit anything, so look for something that is wrong for every ray. Follow the ray \
-         shown from the root. Does your code enter the boxes that the ray hits, and test all primitives in \
-         the leaves? If it finds a hit, is the hit kept, compared the right way round, and returned?",
+        "None of your rays hit anything, so look for something that is wrong for every ray. Follow \
+         the ray shown from the root. Does your code enter the boxes that the ray hits and test \
+         all primitives in the leaves? If it finds a hit, is that hit compared the right way \
+         round, kept, and returned?",
     ),
     section_on_kept_state: Some("traversal.md#keep-nothing-between-two-rays"),
     by_symptom: &[

@@ -25,12 +25,12 @@ pub(super) fn remarks(
             "There is no tree yet, so `Bvh::hit` tests the primitives one by one.".to_owned(),
         ),
         (true, 0, 1..) => notes.push(
-            "`Bvh::hit` didn't test any box with `BBox::hit`. If it uses the tree in a different way, only \
-             the tests of primitives can be listed."
+            "`Bvh::hit` never called `BBox::hit`. If it uses the tree in some other way, only the \
+             primitive tests can be listed."
                 .to_owned(),
         ),
         (true, _, 0) if ray.hit.is_some() => notes.push(
-            "`Bvh::hit` found a hit without calling `Primitive::hit`, so the tests of primitives \
+            "`Bvh::hit` found a hit without calling `Primitive::hit`, so the primitive tests \
              cannot be listed."
                 .to_owned(),
         ),

@@ -125,7 +125,7 @@ impl TreeCheckup {
 fn title(defect: &TreeDefect) -> &'static str {
     match defect {
         TreeDefect::Partition { leaves: 0, .. } => {
-            "Primitives that no ray can hit because they are in no leaf"
+            "Primitives that no ray can hit because they are not in any leaf"
         }
         TreeDefect::Partition { .. } => "Primitives that are in several leaves",
         TreeDefect::BoxTooSmall(_) => {

@@ -65,7 +65,7 @@ impl Chapter {
     fn text(&self, catalogue: &[Mistake]) -> Result<String> {
         let captions = self.mistakes.iter().enumerate().map(|(index, id)| {
             let mistake = catalogue.iter().find(|mistake| mistake.id == *id);
-            let mistake = mistake.with_context(|| format!("{LIST}: there is no mistake `{id}`"))?;
+            let mistake = mistake.with_context(|| format!("{LIST}: unknown mistake `{id}`"))?;
             Ok(format!("{}. The code {}.", index + 2, mistake.title))
         });
         let captions = captions.collect::<Result<Vec<_>>>()?.join("\n");
@@ -146,7 +146,7 @@ mod tests {
             .expect_err("no such mistake");
         assert_eq!(
             error.to_string(),
-            "mistakes/gallery.toml: there is no mistake `sphere.radius_two`"
+            "mistakes/gallery.toml: unknown mistake `sphere.radius_two`"
         );
     }
 }

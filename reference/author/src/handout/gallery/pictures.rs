@@ -94,7 +94,7 @@ impl Workspace {
         let mut pictures = vec![self.picture(&self.reference, chapter)?];
         for id in &chapter.mistakes {
             let mistake = catalogue.iter().find(|mistake| mistake.id == *id);
-            let mistake = mistake.with_context(|| format!("there is no mistake `{id}`"))?;
+            let mistake = mistake.with_context(|| format!("unknown mistake `{id}`"))?;
             let sources = mistake.solution(&self.reference)?.sources;
             pictures.push(self.picture(&sources, chapter)?);
         }

@@ -21,10 +21,10 @@ fn crosses_all_slabs(call: &BoxCall) -> bool {
 
 pub(super) const THROUGH: Declaration = Declaration {
     id: "bbox.through",
-    title: "for a ray through the box, the times of entry and exit are returned",
+    title: "rays through the box get the right entry and exit times",
     look: "Work out by hand when the ray shown is between the two planes of each axis. The answer \
         is the interval that these three intervals and the argument `times` have in common, or \
-        None if there is no such interval.",
+        None if they have nothing in common.",
     section: "boxes.md#from-the-last-entry-to-the-first-exit",
     tests: &["Returns the part…"],
     questions: |rng| {
@@ -65,10 +65,10 @@ pub(super) const OCTANTS: Declaration = Declaration {
 
 pub(super) const AXIS_PARALLEL: Declaration = Declaration {
     id: "bbox.axis_parallel",
-    title: "directions with components that are 0, −0 or almost 0 work as well",
+    title: "directions with components of 0, −0 or almost 0 work too",
     look: "A ray that does not move along an axis is either always or never between the planes of \
-        that axis. Dividing by zero gives infinities, which express this if your comparisons \
-        handle them. A component that is almost 0 still moves the ray.",
+        that axis. Dividing by zero gives infinities, which lead to the right answer if your \
+        comparisons handle them. A component that is almost 0 still moves the ray.",
     section: "boxes.md#zero-and-minus-zero",
     tests: &["A component of `ray.dir`…", "Then the ray is parallel…"],
     questions: |rng| {
@@ -83,7 +83,7 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
 
 pub(super) const FLAT: Declaration = Declaration {
     id: "bbox.flat",
-    title: "a box without thickness can be hit",
+    title: "a flat box can be hit",
     look: "The box of an axis-parallel triangle is flat: the ray enters and leaves it at the same \
            time, and that is a hit.",
     look_fits: &[Symptom::MISS],

@@ -11,7 +11,7 @@ pub(super) const BEHIND: Declaration = Declaration {
     id: "bbox.behind",
     title: "a box ahead of the ray is hit, and one behind it is missed",
     look: "If a box is behind the origin, its times are negative, so no part of the ray's path \
-        through it is within `times`. An interval that would end before it begins is a miss, too.",
+        through it is within `times`. An interval that would end before it begins is a miss too.",
     look_fits: &[Symptom::HIT],
     section: "boxes.md#use-times-and-not-the-range-of-the-ray",
     tests: &["Returns the part…"],
@@ -25,7 +25,7 @@ pub(super) const BEHIND: Declaration = Declaration {
 
 pub(super) const FROM_INSIDE: Declaration = Declaration {
     id: "bbox.from_inside",
-    title: "from inside, the interval starts at times.min, not behind the ray",
+    title: "if the ray starts inside the box, the interval starts at times.min",
     look: "A ray that starts in the box has entered it at a negative time: clip the interval to \
         `times`.",
     look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
@@ -42,7 +42,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
 
 pub(super) const CLIPPED: Declaration = Declaration {
     id: "bbox.clipped",
-    title: "the answer is the part of the given times during which the ray is in the box",
+    title: "the interval is the part of the given times when the ray is in the box",
     look: "Clip the interval at both ends. If the ray's line passes through the box, it is a miss \
            only if the box is entered after times.max or left before times.min.",
     section: "boxes.md#clip-the-result-to-times",
@@ -57,7 +57,7 @@ pub(super) const CLIPPED: Declaration = Declaration {
 
 pub(super) const WHOLLY_INSIDE: Declaration = Declaration {
     id: "bbox.wholly_inside",
-    title: "if the ray is in the box all the time, the given times are returned",
+    title: "if the ray is in the box the whole time, the given times are returned unchanged",
     look: "If the ray is inside the box throughout `times`, it doesn't cross any of the box's \
         planes in that time, but it is still a hit, from times.min to times.max.",
     look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],

@@ -186,7 +186,7 @@ pub fn relative_cost(question: &ExamQuestion, builder: BucketedBuilder) -> f64 {
 
 pub(super) const COST_STRANDS: Declaration = Declaration {
     id: "build.cost_strands",
-    title: "for strands along x, y and z, the best of all three axes is chosen",
+    title: "strands along x, y and z are split along the best of the three axes",
     look: "At every node, compare partitions along all three axes by the same cost. It depends on \
         the areas of the boxes around whole primitives and on the numbers of primitives. The \
         cheapest partition need not be along the longest axis.",
@@ -199,7 +199,7 @@ pub(super) const COST_STRANDS: Declaration = Declaration {
 
 pub(super) const COST_SHEETS: Declaration = Declaration {
     id: "build.cost_sheets",
-    title: "for stacked sheets, the areas of both sides decide",
+    title: "the split of stacked sheets depends on the areas of both sides",
     look: "S_A and S_B are the areas of the boxes around *all* primitives of each side: merge the \
         buckets from the left for one side, and from the right for the other.",
     look_fits: &[Symptom::of("SAH cost")],
@@ -215,7 +215,7 @@ pub(super) const COST_SHEETS: Declaration = Declaration {
 
 pub(super) const COST_TOWN: Declaration = Declaration {
     id: "build.cost_town",
-    title: "for dense clusters in empty space, both areas and counts determine the split",
+    title: "the split of dense clusters in empty space depends on areas and counts",
     look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
            together with its cost.",
     look_fits: &[Symptom::of("SAH cost")],

@@ -93,7 +93,7 @@ const LARGE_END: Layout<'static> = Layout {
 
 pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
-    title: "for a few primitives arranged in a row, the best split is found",
+    title: "a row of a few primitives is split in the best place",
     look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
            areas and the counts of its sides: does your code try this partition and compute this \
            cost, and are these the two sides of your root?",

@@ -192,7 +192,7 @@ pub(super) const CONTAINS: Declaration = Declaration {
 
 pub(super) const TIGHT: Declaration = Declaration {
     id: "build.tight",
-    title: "no box is larger than its contents require",
+    title: "no box is larger than necessary",
     look: "A node's box is the union of its primitives' boxes. It is too large if it starts at the \
            origin instead of BBox::EMPTY, if it is the parent's box, or if start and size leave \
            out a primitive that it was made for.",

@@ -41,7 +41,7 @@ fn with_domain(
 
 pub(super) const NEGATIVE: Declaration = Declaration {
     id: "build.negative",
-    title: "negative coordinates work as well",
+    title: "negative coordinates work too",
     look: "A box that grows from (0, 0, 0) always contains that point, and a cast to usize turns \
         negative numbers into 0.",
     look_fits: &[
@@ -146,7 +146,7 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
 
 pub(super) const COPLANAR: Declaration = Declaration {
     id: "build.coplanar",
-    title: "a flat grid works as well",
+    title: "a flat grid works too",
     look: "Along one axis, all centres coincide: no plane separates them there, and dividing by \
            their extent gives NaN. Both the search for the cheapest partition and the partition \
            itself must use another axis.",
@@ -176,7 +176,7 @@ pub(super) const COPLANAR: Declaration = Declaration {
 
 pub(super) const COLLINEAR: Declaration = Declaration {
     id: "build.collinear",
-    title: "a row of primitives works as well, along any axis",
+    title: "a row of primitives along any axis works too",
     look: "Along two axes, all centres coincide. Find the third axis, whether it is x, y or z.",
     look_fits: &[
         Symptom::of("nodes"),
@@ -202,7 +202,7 @@ pub(super) const COLLINEAR: Declaration = Declaration {
 
 pub(super) const OUTLIER: Declaration = Declaration {
     id: "build.outlier",
-    title: "one primitive far from all others does not spoil the tree",
+    title: "one primitive far from the others does not ruin the tree",
     look: "Most of the other primitives then end up in one bucket. The split still helps, because \
         it puts them into a smaller node with its own buckets.",
     look_fits: &[Symptom::less("splits"), Symptom::of("leaf size")],
@@ -239,7 +239,7 @@ fn outlier(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const ONE_OR_NONE: Declaration = Declaration {
     id: "build.one_or_none",
-    title: "trees of zero, one and two primitives are built",
+    title: "trees of zero, one and two primitives are built correctly",
     look: "Without primitives, build no nodes or one leaf of size 0. For one primitive, build one \
         leaf.",
     look_fits: &[

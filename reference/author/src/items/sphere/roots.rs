@@ -15,7 +15,7 @@ fn is_ahead(line: &Line) -> bool {
 
 pub(super) const NEAR_SIDE: Declaration = Declaration {
     id: "sphere.near_side",
-    title: "from outside, the near side is hit",
+    title: "a ray from outside hits the near side",
     look: "Work out both roots by hand for the ray shown, using the same form of the formula \
            throughout, and compare them with the values in your code. From outside, the smaller \
            root is the distance. A negative discriminant means a miss.",
@@ -30,7 +30,7 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
 
 pub(super) const BESIDE: Declaration = Declaration {
     id: "sphere.beside",
-    title: "a ray hits the sphere, unless it passes beside it",
+    title: "rays hit the sphere unless they pass beside it",
     look: "Without real roots, there is no hit. With two roots, there may be a hit. Work out the \
         value under the square root for the ray shown, before you take the root.",
     look_fits: &[Symptom::HIT],
@@ -85,7 +85,7 @@ pub(super) const BEHIND: Declaration = Declaration {
 
 pub(super) const FROM_INSIDE: Declaration = Declaration {
     id: "sphere.from_inside",
-    title: "from inside, the far side is hit",
+    title: "a ray from inside hits the far side",
     look: "From inside, the near root is negative and the far one is positive in every direction. Only the \
         roots and ray.range decide whether there is a hit, and its distance is the root that is in the range.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
@@ -100,7 +100,7 @@ pub(super) const FROM_INSIDE: Declaration = Declaration {
 
 pub(super) const FAR_ROOT: Declaration = Declaration {
     id: "sphere.far_root",
-    title: "if the near side is before the range, the far side is hit if it is in the range",
+    title: "if the near side is before the range, the far side can still be hit",
     look: "The range need not start at 0. If the near root is outside the range and the far root \
         is inside it, the far root counts.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
@@ -131,7 +131,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
 
 pub(super) const RANGE_WITHIN: Declaration = Declaration {
     id: "sphere.range_within",
-    title: "a ray whose range contains neither root misses, and any other hits",
+    title: "a ray misses if neither root is in its range, and hits otherwise",
     look: "Between the roots, the ray is inside the sphere and hits nothing. Beyond both, it has left the \
         sphere. A root is a hit if and only if it is in ray.range, no matter how small it is.",
     section: "sphere.md#check-each-root-by-itself",

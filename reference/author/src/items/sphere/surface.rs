@@ -64,7 +64,7 @@ pub(super) const UV_RADIUS: Declaration = Declaration {
 
 pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     id: "sphere.origin_and_material",
-    title: "the trace holds the ray's origin and the sphere's shape",
+    title: "the trace contains the ray's origin and the sphere's shape",
     look: "Copy both: the origin from the given ray, even if you used a shifted one in your calculation, \
         and the shape's number from the sphere.",
     look_fits: &[Symptom::of("origin"), Symptom::of("shape")],

@@ -16,10 +16,10 @@ use crate::tree::{Tree, construction};
 
 pub(super) const OWN_TREE: Declaration = Declaration {
     id: "traverse.own_tree",
-    title: "traversal finds the closest hit in a leaf, even in the tree that you built",
+    title: "traversal finds the closest hit in a leaf, in your own trees too",
     look: "Test all primitives with the ray shown, and find out where your traversal skips the \
            closest one or loses its hit. If all other items of both tasks pass, look for something \
-           that your tree has and the exam's trees do not.",
+           that sets your tree apart from the exam's trees.",
     look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#your-own-builder-and-your-own-traversal",
     tests: &["Returns the ray's…"],
@@ -131,10 +131,10 @@ fn long_row(rng: &mut Rng) -> ExamQuestion {
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "traverse.picture",
-    title: "a picture of the contents of a tree's leaves is correct in every quantity",
+    title: "a picture of the primitives in a tree is correct in every quantity",
     look: "Follow the ray of one wrong pixel from the root: which nodes should it enter, and which \
-           primitives should it test? If your traversal leaves one out, see whether it skips the \
-           node or loses the hit to a farther one.",
+           primitives should it test? If your traversal leaves a primitive out, see whether it \
+           skips a node or keeps a farther hit instead.",
     section: "grading.md#reading-a-wrong-picture",
     tests: &["Returns the ray's…"],
     questions: picture,

@@ -18,7 +18,7 @@ pub(super) const QUANTITIES: [&str; 6] =
 
 pub(super) const TRACE: Declaration = Declaration {
     id: "traverse.trace",
-    title: "the trace of a hit is the one that the primitive returns for the given ray",
+    title: "the trace is the one that Primitive::hit returns for the given ray",
     look: "Primitive::hit returns the trace, and you can return it unchanged. Its origin is the origin of \
         the given ray, and its normal does not depend on where the ray comes from.",
     look_fits: &[

@@ -84,7 +84,7 @@ fn with_detached_subtrees(
 
 pub(super) const NO_NODES: Declaration = Declaration {
     id: "traverse.no_nodes",
-    title: "an empty tree has no hits, but a tree of a single leaf can have some",
+    title: "an empty tree has no hits, but a tree with a single leaf can",
     look: "An empty tree has either no nodes or a single leaf of size 0, with l == r as in any \
            other leaf. In the first case, there is no node at index root; in the second, there is \
            no primitive at start.",

@@ -163,8 +163,8 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
 pub(super) const PRUNES: Declaration = Declaration {
     id: "traverse.prunes",
     title: "a node that begins beyond the closest hit is not entered",
-    look: "First search the child whose box the ray enters first. After that, if the entry of the \
-           other box is beyond the closest hit so far, nothing in it can be nearer: skip it.",
+    look: "First visit the child whose box the ray enters first. After that, if the ray enters the \
+           other box beyond the closest hit so far, nothing in it can be nearer: skip it.",
     look_fits: &[Symptom::less("distance")],
     section: "traversal.md#order-the-children-and-prune",
     tests: &["Do not enter a node whose box begins…"],
@@ -193,7 +193,7 @@ pub(super) const PRUNES: Declaration = Declaration {
 
 pub(super) const NEARER_FIRST: Declaration = Declaration {
     id: "traverse.nearer_first",
-    title: "if the ray enters r first, r is visited first, then l is pruned by its own entry",
+    title: "if the ray enters r first, r is visited first, and l is pruned by its own entry",
     look: "First visit the child whose box the ray enters first, whether that is l or r. Then \
         compare the entry of the other child with the closest hit: the slides' hit2.t is the entry \
         of r, even if l comes second.",
@@ -240,7 +240,7 @@ fn nearer_first(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const BOTH_SIDES: Declaration = Declaration {
     id: "traverse.both_sides",
-    title: "a child is entered only if its own box is hit, before the closest hit",
+    title: "a child is entered only if the ray hits its own box before the closest hit",
     look: "Look at each child's own box: enter the child only if the ray hits that box and doesn't \
         enter it beyond the closest hit so far. If both boxes are missed, enter neither, even \
         though the slides always enter `first`.",

@@ -22,7 +22,7 @@ use crate::tree::{Tree, construction, decoy};
 
 pub(super) const CLOSEST_HIT: Declaration = Declaration {
     id: "traverse.closest_hit",
-    title: "the closest hit in the leaves that the ray reaches is returned",
+    title: "the closest hit in all leaves that the ray reaches is returned",
     look: "Follow the ray shown through the tree, box by box, starting at the root: which \
            primitives need to be tested, and which of their hits is the closest? Then see which \
            primitives your code tests, and which hit it keeps after each.",
@@ -208,10 +208,10 @@ fn replaces_a_hit(tree: &Tree, ray64: &Ray64) -> bool {
 
 pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     id: "traverse.first_box_empty",
-    title: "a ray may hit a box without hitting anything inside it",
-    look: "Work out by hand which of the two boxes and which of the primitives in them the ray \
-           shown hits. Until something is hit, there is no closest hit, and a child may be skipped \
-           only if the ray misses its box.",
+    title: "a ray can hit a box without hitting anything inside it",
+    look: "For the ray shown, work out by hand which of the two boxes it hits, and which \
+           primitives in them. As long as nothing has been hit, there is no closest hit to compare \
+           with: skip a child only if the ray misses its box.",
     look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#no-hit-yet-is-not-a-hit-at-distance-zero",
     tests: &["Boxes overlap, so…"],
@@ -253,7 +253,7 @@ pub(super) const RANGE: Declaration = Declaration {
     title: "only hits within the ray's range count",
     look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞. The \
            closest hit that counts is the answer. Find all hits of the ray shown, and see where \
-           your code chooses a different one, or none.",
+           your code picks a different hit, or none.",
     section: "traversal.md#only-a-hit-shortens-the-ray",
     tests: &["Returns the ray's…"],
     questions: range,
@@ -304,9 +304,9 @@ fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
     id: "traverse.leaf_of_several",
-    title: "every primitive of a leaf is tested",
-    look: "A leaf holds primitives[start..start + size]. The closest of all their hits counts, whether it \
-        is on the first primitive, on the last one, or on one in between.",
+    title: "every primitive in a leaf is tested",
+    look: "A leaf holds primitives[start..start + size]. The closest of all their hits counts, no \
+        matter which of these primitives it is on.",
     section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
     tests: &["Returns the ray's…"],
     questions: leaf_of_several,
@@ -378,8 +378,8 @@ fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
 pub(super) const DEEP: Declaration = Declaration {
     id: "traverse.deep",
     title: "a tree of 60 levels is traversed to the end",
-    look: "Nothing may end the traversal above the deepest level: neither a limit on the depth nor a stack of \
-        fixed size that is too small. If you push nodes, pop every one of them.",
+    look: "Nothing may stop the traversal before the deepest level, neither a depth limit nor a \
+        fixed-size stack that is too small. If you push nodes, pop all of them.",
     look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#deep-trees",
     tests: &["The tree can be 60…"],

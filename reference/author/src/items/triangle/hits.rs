@@ -60,7 +60,7 @@ pub(super) const OUTSIDE: Declaration = Declaration {
 
 pub(super) const FROM_BEHIND: Declaration = Declaration {
     id: "triangle.from_behind",
-    title: "a triangle is hit from behind as well",
+    title: "a triangle can be hit from behind too",
     look: "If the triangle is seen from behind, the determinant has the opposite sign, but that \
         doesn't make it a miss.",
     look_fits: &[Symptom::MISS],
@@ -76,7 +76,7 @@ pub(super) const FROM_BEHIND: Declaration = Declaration {
 
 pub(super) const RANGE_MAX: Declaration = Declaration {
     id: "triangle.range_max",
-    title: "t can be at most the end of the ray's range",
+    title: "t must be at most the end of the ray's range",
     look: "A ray through the triangle hits it if and only if t is in ray.range, no matter how small the \
         triangle is. Which comparison in your code decides this for the ray shown?",
     look_fits: &[Symptom::of(PRESENCE)],

@@ -56,7 +56,7 @@ pub(super) const UV: Declaration = Declaration {
 
 pub(super) const UV_CORNERS: Declaration = Declaration {
     id: "triangle.uv_corners",
-    title: "near a corner, that corner's texture coordinates count most",
+    title: "near a corner, that corner's texture coordinates dominate",
     look: "Close to a corner, that corner's weight is nearly 1 and the two others are nearly 0. w \
            = 1 − u − v belongs to p0, u to p1 and v to p2.",
     look_fits: &[Symptom::of("uv")],
@@ -78,7 +78,7 @@ pub(super) const UV_CORNERS: Declaration = Declaration {
 
 pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
     id: "triangle.normal_from_behind",
-    title: "seen from behind, the normal stays the same",
+    title: "the normal stays the same when the triangle is seen from behind",
     look: "The normal belongs to the surface, not to the ray, so it is never flipped toward the \
            ray.",
     look_fits: &[Symptom::reversed("normal")],
@@ -90,7 +90,7 @@ pub(super) const NORMAL_FROM_BEHIND: Declaration = Declaration {
 
 pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
     id: "triangle.origin_and_material",
-    title: "the trace holds the ray's origin and the triangle's shape",
+    title: "the trace contains the ray's origin and the triangle's shape",
     look: "Copy both: the origin from the ray, and the shape's number from the triangle.",
     look_fits: &[Symptom::of("origin"), Symptom::of("shape")],
     section: "triangle.md#what-to-return",

@@ -69,7 +69,7 @@ impl Machine {
         let toolchain = toolchain.context(NO_CARGO)?.to_owned();
         let mut prefixes = [vec![], vec!["sudo", "-n"]].into_iter();
         let Some(root_prefix) = prefixes.find(|prefix| can_unshare(prefix)) else {
-            let missing = "the trial needs Linux with namespaces, and root or sudo";
+            let missing = "the trial requires Linux with namespaces, and root or sudo";
             return skip_or_fail(missing).map(|()| None);
         };
         let mut machine = Machine {

@@ -19,7 +19,7 @@ const LONG: Duration = Duration::from_secs(5);
 /// Runs the worked examples in your task files
 ///
 /// Exit codes: 0 all examples pass; 101 an example fails, or a file does not compile; 2 no example
-/// has this name.
+/// matches the name.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo examples", bin_name = "cargo examples")]
 struct Arguments {
@@ -139,7 +139,7 @@ fn unknown_name(name: &str, known: &[String]) -> Option<String> {
     let files = known.iter().filter_map(|path| path.split("::").next());
     let files: Vec<&str> = BTreeSet::from_iter(files).into_iter().collect();
     Some(format!(
-        "no example is called `{name}`{}; there are examples in: {}",
+        "no example matches `{name}`{}; there are examples in: {}",
         suggestion(name, &files),
         files.join(", ")
     ))
@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(
             unknown_name("sphre", &known).as_deref(),
             Some(
-                "no example is called `sphre` (did you mean sphere?); there are examples in: bvh, \
+                "no example matches `sphre` (did you mean sphere?); there are examples in: bvh, \
                  sphere"
             )
         );

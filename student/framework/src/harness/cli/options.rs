@@ -52,7 +52,7 @@ pub(super) struct Options {
     #[arg(long, value_enum)]
     pub(super) view: Option<ViewMode>,
 
-    /// Let the framework find the hits, so that you need only the camera from part one. The scene
+    /// Let the framework find the hits, so that the camera is all you need from part one. The scene
     /// must consist of rectangles
     #[arg(long, conflicts_with = "bench")]
     pub(super) rectangles: bool,
@@ -67,13 +67,13 @@ pub(super) struct Options {
     )]
     pub(super) exposure: f32,
 
-    /// Instead of writing a picture, print the hit and the radiance of this pixel, counted from the
-    /// bottom left
+    /// Print the hit and the radiance of this pixel, counted from the bottom left, instead of
+    /// writing a picture
     #[arg(long, value_name = "X,Y", value_parser = pixel)]
     pub(super) pixel: Option<UVec2>,
 
-    /// Instead of writing a picture, measure rays per second with one path per pixel and compare
-    /// the result with that of the last run
+    /// Measure rays per second with one path per pixel and compare them with the last run, instead
+    /// of writing a picture
     #[arg(long, conflicts_with_all = ["out", "out_option", "pixel", "view", "samples"])]
     pub(super) bench: bool,
 }

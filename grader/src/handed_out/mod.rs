@@ -3,6 +3,7 @@
 //! never used.
 
 mod fresh;
+mod light;
 mod method_span;
 mod own_lines;
 mod rays;
@@ -19,13 +20,14 @@ use tokens::{contains, tokens};
 
 pub use fresh::{ChangedDeclaration, TaskMethods, changed_declaration};
 pub use judging::assignment::TaskFile;
+pub use light::LIGHT;
 pub use method_span::find_method;
 pub use own_lines::own_lines;
 pub use rays::RAYS;
 pub use tokens::without_comments;
 
 /// The assignments that can be selected with `--assignment`. The first is the default.
-pub static ASSIGNMENTS: [&HandedOut; 1] = [&RAYS];
+pub static ASSIGNMENTS: [&HandedOut; 2] = [&RAYS, &LIGHT];
 
 /// An assignment as handed out to students.
 #[derive(PartialEq, Eq)]
@@ -72,6 +74,8 @@ pub struct SubstitutedFile {
     pub file: &'static str,
     /// The given files that are compiled with the file.
     pub given: &'static [&'static str],
+    /// The other files that use the file. The file is graded without them.
+    pub users: &'static [&'static str],
 }
 
 impl SubstitutedFile {
@@ -120,12 +124,13 @@ impl HandedOut {
     }
 
     /// Returns the names of the reference files that are used as the parts when a file is
-    /// substituted: all files except the crate's root and the files that are compiled with the
-    /// submission.
+    /// substituted: all files except the crate's root, the files that are compiled with the
+    /// submission, and the files that use the substituted file.
     pub fn parts(&self, substituted: &SubstitutedFile) -> impl Iterator<Item = &'static str> {
         let given = self.given.iter().skip(1).map(|file| file.name);
         let all = self.file_names().chain(given);
-        all.filter(|name| *name != substituted.file && !substituted.given.contains(name))
+        let SubstitutedFile { file, given, users } = substituted;
+        all.filter(move |name| name != file && !given.contains(name) && !users.contains(name))
     }
 
     /// Returns the task file with exactly this name. A similar name, such as `Bvh.rs`, is a

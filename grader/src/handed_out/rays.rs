@@ -33,5 +33,6 @@ fn main() -> std::process::ExitCode {
     substitutions: &[SubstitutedFile {
         file: "bvh.rs",
         given: &["world.rs"],
+        users: &[],
     }],
 };

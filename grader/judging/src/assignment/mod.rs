@@ -1,6 +1,7 @@
 //! Assignments as data: the tasks of each assignment, with their files and points. Anything that
 //! depends on the number, order or names of the tasks is derived from this data.
 
+mod light;
 mod rays;
 
 use std::fmt;
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::symptom::Symptom;
 
+pub use light::{LIGHT, LIGHT_FILES};
 pub use rays::{RAYS, RAYS_FILES};
 
 /// The maximum length of a task's id, in bytes.
@@ -218,10 +220,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tasks_of_rays_are_worth_100_points_and_have_different_ids() {
-        assert_eq!(RAYS.points(), 100);
-        let ids: std::collections::BTreeSet<_> = RAYS.tasks().collect();
-        assert_eq!(ids.len(), RAYS.tasks.len());
+    fn the_tasks_of_an_assignment_are_worth_100_points_and_have_different_ids() {
+        let mut ids = std::collections::BTreeSet::new();
+        for assignment in [&RAYS, &LIGHT] {
+            assert_eq!(assignment.points(), 100);
+            assert!(assignment.tasks().all(|task| ids.insert(task)));
+        }
     }
 
     #[test]

@@ -85,9 +85,9 @@ pub(crate) fn of<'a>(value: &'a Value<'_>) -> Box<dyn FieldType + 'a> {
         Value::Index(index) => Box::new(index::Index(*index)),
         Value::Shapes(list) => Box::new(shapes::Shapes(list)),
         Value::Color(color) => Box::new(color::Color(*color)),
-        Value::Density(density) => Box::new(portion::Portion(Some(*density))),
-        Value::OptionalDensity(density) => Box::new(portion::Portion(*density)),
-        Value::Fraction(fraction) => Box::new(portion::Portion(Some(*fraction))),
+        Value::Density(density) => Box::new(portion::Density(Some(*density))),
+        Value::OptionalDensity(density) => Box::new(portion::Density(*density)),
+        Value::Fraction(fraction) => Box::new(portion::Fraction(*fraction)),
         Value::Count(_)
         | Value::Angle(_)
         | Value::Ratio(_)

@@ -8,10 +8,17 @@ use crate::symptom::Side;
 /// Tolerance for colours, densities and fractions, relative to the expected value.
 pub(crate) const TOLERANCE: f64 = 1e-3;
 
-/// A density or a fraction. `None` if a sample has no density.
-pub(super) struct Portion(pub(super) Option<f32>);
+/// The smallest fraction that the tolerance is relative to. Smaller fractions, which are differences
+/// of numbers of the order of one, are compared as if they had this size.
+const SMALLEST_FRACTION: f64 = 0.01;
 
-impl FieldType for Portion {
+/// A density. `None` if a sample has no density.
+pub(super) struct Density(pub(super) Option<f32>);
+
+/// A fraction of the light.
+pub(super) struct Fraction(pub(super) f32);
+
+impl FieldType for Density {
     fn text(&self) -> String {
         self.0.map_or("None".to_owned(), number)
     }
@@ -21,34 +28,65 @@ impl FieldType for Portion {
     }
 
     fn error(&self, wanted: &Value, _: f32) -> f64 {
-        match (self.0, expected(wanted)) {
+        match (self.0, expected_density(wanted)) {
             (None, None) => 0.0,
-            (Some(got), Some(wanted)) => {
-                let (got, wanted) = (f64::from(got), f64::from(wanted));
-                in_units_of(TOLERANCE * wanted.abs(), (got - wanted).abs())
-            }
+            (Some(got), Some(wanted)) => relative_error(got, wanted, 0.0),
             (Some(_), None) | (None, Some(_)) => f64::INFINITY,
         }
     }
 
     fn side(&self, wanted: &Value) -> Option<Side> {
-        Side::of(self.0?, expected(wanted)?)
+        Side::of(self.0?, expected_density(wanted)?)
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {
         // Distinguish `None` from every density.
-        self.0
-            .map_or(vec![-1.0], |portion| in_tolerances(&[portion]))
+        self.0.map_or(vec![-1.0], |density| in_tolerances(&[density]))
     }
 }
 
-/// Returns the number in an expected value, if any.
-fn expected(wanted: &Value) -> Option<f32> {
+impl FieldType for Fraction {
+    fn text(&self) -> String {
+        number(self.0)
+    }
+
+    fn tolerance(&self) -> Option<Tolerance> {
+        Some(Tolerance::Relative)
+    }
+
+    fn error(&self, wanted: &Value, _: f32) -> f64 {
+        let Value::Fraction(wanted) = *wanted else {
+            return f64::INFINITY;
+        };
+        relative_error(self.0, wanted, SMALLEST_FRACTION)
+    }
+
+    fn side(&self, wanted: &Value) -> Option<Side> {
+        let Value::Fraction(wanted) = *wanted else {
+            return None;
+        };
+        Side::of(self.0, wanted)
+    }
+
+    fn in_tolerances(&self, _: f32) -> Vec<f32> {
+        vec![self.0 / (TOLERANCE * SMALLEST_FRACTION) as f32]
+    }
+}
+
+/// Returns the density in an expected value, if any.
+fn expected_density(wanted: &Value) -> Option<f32> {
     match *wanted {
-        Value::Density(wanted) | Value::Fraction(wanted) => Some(wanted),
+        Value::Density(wanted) => Some(wanted),
         Value::OptionalDensity(wanted) => wanted,
         _ => None,
     }
+}
+
+/// Returns the error of a number as a multiple of the tolerance, which is relative to the expected
+/// number or to `smallest`, whichever is larger.
+fn relative_error(got: f32, wanted: f32, smallest: f64) -> f64 {
+    let (got, wanted) = (f64::from(got), f64::from(wanted));
+    in_units_of(TOLERANCE * wanted.abs().max(smallest), (got - wanted).abs())
 }
 
 /// Returns the logarithms of numbers, with the numbers' signs, in units of the tolerance. So numbers
@@ -69,7 +107,7 @@ mod tests {
 
     #[test]
     fn densities_are_compared_relative_to_the_expected_one() {
-        let error = |got, wanted| Portion(got).error(&Value::OptionalDensity(wanted), 1.0);
+        let error = |got, wanted| Density(got).error(&Value::OptionalDensity(wanted), 1.0);
         assert!(error(Some(1000.9), Some(1000.0)) <= 1.0);
         assert!(error(Some(1001.1), Some(1000.0)) > 1.0);
         assert!(error(Some(1.1e-6), Some(1e-6)) > 1.0);
@@ -83,5 +121,15 @@ mod tests {
         ] {
             assert_eq!(error(got, wanted), f64::INFINITY, "{got:?}, {wanted:?}");
         }
+    }
+
+    #[test]
+    fn tiny_fractions_are_equal_to_zero() {
+        let error = |got, wanted| Fraction(got).error(&Value::Fraction(wanted), 1.0);
+        assert!(error(5e-6, 0.0) <= 1.0);
+        assert!(error(5e-5, 0.0) > 1.0);
+        assert!(error(0.5004, 0.5) <= 1.0);
+        assert!(error(0.5006, 0.5) > 1.0);
+        assert_eq!(error(f32::NAN, 0.5), f64::INFINITY);
     }
 }

@@ -1,16 +1,18 @@
 //! Assignments as their authors see them. Everything about exams, proofs and packages is derived
 //! from this data, so adding an assignment doesn't change any other module.
 
+mod light;
 mod rays;
 
 use grader::handed_out::HandedOut;
 
 use crate::items::AuthoredTask;
 
+pub use light::LIGHT;
 pub use rays::RAYS;
 
 /// The assignments that `--assignment` selects from. The first is the default.
-pub static ASSIGNMENTS: [&Authoring; 1] = [&RAYS];
+pub static ASSIGNMENTS: [&Authoring; 2] = [&RAYS, &LIGHT];
 
 /// An assignment as its authors see it. Its solutions other than the reference (mistakes, variants
 /// and equivalent mutants) are files in the folder [`HandedOut::solutions`].

@@ -12,6 +12,7 @@ mod complete;
 mod declaration;
 mod distinct;
 mod groups;
+pub mod light;
 pub mod meshes;
 mod paper;
 pub mod picture;

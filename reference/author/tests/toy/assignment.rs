@@ -85,6 +85,7 @@ fn main() -> std::process::ExitCode {
     substitutions: &[SubstitutedFile {
         file: "mirror.rs",
         given: &["world.rs"],
+        users: &[],
     }],
 };
 

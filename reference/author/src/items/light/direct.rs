@@ -1,0 +1,269 @@
+//! The items about direct light.
+
+use glam::{DVec3, dvec3};
+use judging::exam::ExamQuestion;
+use protocol::Table;
+use protocol::light::LightQuestion;
+use protocol::light::transport;
+
+use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
+use super::rooms::{
+    DARK, DirectCase, direct_case, emitter, matte, panel, sky, tilted, walls,
+};
+use super::{color, colors, table};
+use crate::items::{AuthoredTask, Declaration, Group};
+use crate::oracle::light::quad::{Material64, Quad};
+use crate::oracle::light::room::Room;
+use crate::seed::Rng;
+
+/// The number of calls of each kind in a question.
+const CALLS: usize = 10;
+/// The items of other tasks that direct light needs.
+const NEEDS: &[Group] = &[MATTE, MATTE_SAMPLES, LIGHT_SAMPLES, LIGHT_DENSITIES];
+/// Half the size of a closed room.
+const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
+
+/// The task `direct`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
+        SMALL_LIGHT,
+        SKY,
+        BOTH,
+        BLOCKED,
+        TURNED,
+        NO_SAMPLE,
+        OTHER_MATERIALS,
+    ],
+    ..AuthoredTask::NEW
+};
+
+const SMALL_LIGHT: Declaration = Declaration {
+    id: "direct.small_light",
+    points: 2,
+    title: "a small light is found by the direction toward the light",
+    look: "For a sample of the light: which value, which radiance and which densities do you use?",
+    section: "light/direct.md#two-ways-to-find-a-light",
+    tests: &[
+        "Estimates the direct light that a surface scatters back along the path, from one \
+         direction toward a light and one that the material samples.",
+        "The first direction is the one that [`World::sample_light`] returns.",
+        "[`World::light_pdf`] returns the light pdf.",
+    ],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            let mut quads = walls(HALF, || matte(rng));
+            let center = rng.point(1.2);
+            let size = rng.uniform(0.1, 0.2);
+            let material = emitter(rng);
+            quads.push(tilted(rng, center, size, material));
+            Room::new(quads, DARK)
+        }, LIT_AND_DARK)
+    },
+    needs: NEEDS,
+    ..Declaration::in_group(DIRECT)
+};
+
+const SKY: Declaration = Declaration {
+    id: "direct.sky",
+    points: 2,
+    title: "an even sky is found by the direction that the material samples",
+    look: "Without lights, there is no direction toward a light. What is left of the sum?",
+    section: "light/direct.md#an-even-sky-is-found-by-scattering",
+    tests: &[
+        "The second is the one that `Lambertian::scatter` returns for the random numbers \
+         `numbers.direct`.",
+        "The radiance is the light that arrives from this direction, straight from a light or the \
+         environment.",
+    ],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            let mut quads = open(rng);
+            let center = rng.point(1.0);
+            let material = matte(rng);
+            quads.push(tilted(rng, center, 1.5, material));
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        }, LIT_AND_DARK)
+    },
+    needs: NEEDS,
+    ..Declaration::in_group(DIRECT)
+};
+
+const BOTH: Declaration = Declaration {
+    id: "direct.both",
+    points: 3,
+    title: "where both directions find light, each is divided by the sum of both densities",
+    look: "For each of the two directions, work out both densities. What do you divide by?",
+    section: "light/direct.md#the-balance-heuristic",
+    tests: &[
+        "See Veach and Guibas, \"Optimally Combining Sampling Techniques for Monte Carlo \
+         Rendering\", SIGGRAPH 1995, section 3.2.",
+        "The result is the sum, over both directions, of evaluate × radiance / (light pdf + \
+         scattering pdf).",
+        "Each term uses both densities of its own direction, no matter which way that direction \
+         was sampled.",
+    ],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            // The ceiling is a light, so most directions find it.
+            let mut quads = walls(HALF, || matte(rng));
+            quads.pop();
+            let light = emitter(rng);
+            quads[3] = panel(dvec3(0.0, HALF.y, 0.0), 1, -1.0, HALF, light);
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        }, |rng, room| (0..2 * CALLS).map(|_| direct_case(rng, room, |_, light| is_lit(light))).collect())
+    },
+    needs: NEEDS,
+    ..Declaration::in_group(DIRECT)
+};
+
+const BLOCKED: Declaration = Declaration {
+    id: "direct.blocked",
+    points: 2,
+    title: "light that something blocks doesn't arrive",
+    look: "Which function tells you whether anything is between the surface and the light?",
+    section: "light/direct.md#something-in-the-way",
+    tests: &[
+        "It is zero if something is in the way: see [`World::emitted`].",
+        "A direction adds nothing if the sum of its densities is zero, or if `evaluate` is zero.",
+    ],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            let mut quads = walls(HALF, || matte(rng));
+            let light = emitter(rng);
+            let half = dvec3(0.6, 0.0, 0.6);
+            quads.push(panel(dvec3(0.0, 1.9, 0.0), 1, -1.0, half, light));
+            let screen = matte(rng);
+            quads.push(panel(dvec3(0.3, 0.9, 0.2), 1, 1.0, half, screen));
+            Room::new(quads, DARK)
+        }, LIT_AND_DARK)
+    },
+    needs: NEEDS,
+    ..Declaration::in_group(DIRECT)
+};
+
+const TURNED: Declaration = Declaration {
+    id: "direct.turned",
+    points: 2,
+    title: "a tilted surface is lit in its own frame",
+    look: "Which of your directions are in the world, and which are in the surface's frame?",
+    section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
+    tests: &[],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            let mut quads: Vec<Quad> = Vec::new();
+            for _ in 0..5 {
+                let center = rng.point(2.0);
+                let material = matte(rng);
+                quads.push(tilted(rng, center, 1.2, material));
+            }
+            let light = emitter(rng);
+            quads.push(panel(dvec3(0.0, 3.5, 0.0), 1, -1.0, 2.0 * HALF, light));
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        }, LIT_AND_DARK)
+    },
+    needs: NEEDS,
+    ..Declaration::in_group(DIRECT)
+};
+
+const NO_SAMPLE: Declaration = Declaration {
+    id: "direct.no_sample",
+    points: 1,
+    title: "if there is no direction toward a light, the material's direction still counts",
+    look: "What do you do if `World::sample_light` returns `None`?",
+    section: "light/direct.md#without-a-light-sample",
+    tests: &["If it returns `None`, the first term is zero."],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            // The light faces away from nearly everything.
+            let mut quads = open(rng);
+            let light = emitter(rng);
+            quads.push(panel(dvec3(0.0, 1.0, 0.0), 1, 1.0, dvec3(0.7, 0.0, 0.7), light));
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        }, LIT_AND_DARK)
+    },
+    needs: NEEDS,
+    ..Declaration::in_group(DIRECT)
+};
+
+const OTHER_MATERIALS: Declaration = Declaration {
+    id: "direct.other_materials",
+    points: 1,
+    title: "only matte surfaces look for direct light",
+    look: "What do you return for a mirror, for glass, and for a light?",
+    section: "light/direct.md#mirrors-look-for-no-light",
+    tests: &[
+        "Only matte surfaces look for direct light.",
+        "The result is zero for all others, because a direction toward a light is never exactly \
+         one that they reflect or refract to.",
+    ],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            let mirror = Material64::Mirror { reflectance: color(rng) };
+            let ior = rng.uniform(1.3, 1.8);
+            let mut materials = vec![
+                mirror,
+                Material64::Glass { ior },
+                matte(rng),
+                matte(rng),
+                mirror,
+                Material64::Glass { ior },
+            ];
+            let mut quads = walls(HALF, || materials.pop().expect("there are six walls"));
+            let light = emitter(rng);
+            quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.0, 0.0, 1.0), light));
+            Room::new(quads, DARK)
+        }, |rng, room| {
+            let is_matte = |material| matches!(material, Material64::Lambertian { .. });
+            let mut cases: Vec<DirectCase> = (0..CALLS)
+                .map(|_| direct_case(rng, room, |surface, light| is_matte(surface.material) && is_lit(light)))
+                .collect();
+            cases.extend((0..2 * CALLS).map(|_| {
+                direct_case(rng, room, |surface, _| !is_matte(surface.material))
+            }));
+            cases
+        })
+    },
+    needs: NEEDS,
+    ..Declaration::in_group(DIRECT)
+};
+
+fn is_lit(light: DVec3) -> bool {
+    light.max_element() > 1e-3
+}
+
+/// Cases that get light, and as many that get none if the room has any.
+const LIT_AND_DARK: fn(&mut Rng, &Room) -> Vec<DirectCase> = |rng, room| {
+    let mut cases: Vec<DirectCase> = (0..CALLS)
+        .map(|_| direct_case(rng, room, |_, light| is_lit(light)))
+        .collect();
+    cases.extend((0..CALLS).map(|_| direct_case(rng, room, |_, _| true)));
+    cases
+};
+
+/// Returns a floor and two walls.
+fn open(rng: &mut Rng) -> Vec<Quad> {
+    let all = walls(HALF, || matte(rng));
+    vec![all[2], all[0], all[4]]
+}
+
+/// Returns one question for each of two rooms.
+fn rooms(
+    rng: &mut Rng,
+    room: impl Fn(&mut Rng) -> Room,
+    cases: impl Fn(&mut Rng, &Room) -> Vec<DirectCase>,
+) -> Vec<ExamQuestion> {
+    let question = |_| {
+        let room = room(rng);
+        let cases = cases(rng, &room);
+        let cases = rng.shuffled(cases);
+        let rows = colors(cases.iter().map(|case| case.light));
+        let calls = cases.iter().map(|case| case.call).collect();
+        let subject = transport::Room { scene: room.text() };
+        table(LightQuestion::Direct(Table::of_list(subject, calls)), &["value"], rows)
+    };
+    (0..2).map(question).collect()
+}

@@ -1,0 +1,365 @@
+//! The items about environment maps.
+
+use glam::{DVec3, UVec2, Vec2, Vec3, uvec2};
+use judging::exam::{ExamQuestion, Key};
+use protocol::light::LightQuestion;
+use protocol::light::environment::{MapImage, MapSample, RandomPair};
+use protocol::Table;
+
+use super::{color, densities, directions, local, random, random_pair, single, table};
+use crate::items::{AuthoredTask, Declaration};
+use crate::oracle::light::WithMargin;
+use crate::oracle::light::environment::Map64;
+use crate::seed::Rng;
+
+/// The number of calls in each question.
+const CALLS: usize = 16;
+/// How far a random number is from the border between two pixels.
+const BORDER: f64 = 3e-4;
+/// How far a direction is from a pixel's edge, as a fraction of the pixel.
+const EDGE: f64 = 0.02;
+/// The number of directions that must be spread evenly.
+const SPREAD: usize = 8192;
+/// The limit of χ² with 63 degrees of freedom that evenly distributed random numbers exceed with a
+/// probability of 10⁻⁹.
+const MAX_CHI_SQUARED: f64 = 155.07;
+
+/// The task `environment`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
+        UNIFORM,
+        UNIFORM_UNIT,
+        PICK,
+        POSITION,
+        SINE,
+        LUMINANCE,
+        ENDS,
+        BLACK,
+        PDF,
+        SIZES,
+    ],
+    ..AuthoredTask::NEW
+};
+
+const UNIFORM: Declaration = Declaration {
+    id: "environment.uniform",
+    points: 3,
+    title: "uniform directions are spread evenly over the whole sphere",
+    look: "Which of your two coordinates must be uniform: the polar angle or the height?",
+    section: "light/environment.md#directions-spread-evenly",
+    tests: &[
+        "Samples a direction uniformly from all directions, with two random numbers in `[0, 1)`.",
+        "See PBR, section A.5.1.",
+        "Any formula will do, as long as evenly distributed numbers give evenly distributed \
+         directions.",
+    ],
+    questions: |rng| {
+        let pairs = (0..SPREAD).map(|_| RandomPair {
+            random: random_pair(rng),
+        });
+        let question = LightQuestion::UniformSphere(Table::of_list((), pairs.collect()));
+        let key = Key::SpreadEvenly {
+            max_chi_squared: MAX_CHI_SQUARED,
+        };
+        vec![ExamQuestion::new(question.into(), key)]
+    },
+    ..Declaration::ALONE
+};
+
+const UNIFORM_UNIT: Declaration = Declaration {
+    id: "environment.uniform_unit",
+    points: 1,
+    title: "uniform directions have length one, also at the ends of the random numbers",
+    look: "What is under your square root if a random number is 0, or just below 1?",
+    section: "light/environment.md#directions-spread-evenly",
+    tests: &["The direction has length one."],
+    questions: |rng| {
+        let below_one = 1.0 - f32::EPSILON / 2.0;
+        let ends = [0.0, 1e-7, 0.5, below_one];
+        let corners = ends.into_iter().flat_map(|x| ends.map(|y| Vec2::new(x, y)));
+        let mut pairs: Vec<Vec2> = corners.collect();
+        pairs.extend((0..CALLS).map(|_| random_pair(rng)));
+        let pairs: Vec<RandomPair> = pairs.into_iter().map(|random| RandomPair { random }).collect();
+        // Only the length is judged, so any direction will do.
+        let rows = directions(pairs.iter().map(|_| DVec3::Y));
+        let question = LightQuestion::UniformSphere(Table::of_list((), pairs));
+        vec![table(question, &["unit_direction"], rows)]
+    },
+    ..Declaration::ALONE
+};
+
+const PICK: Declaration = Declaration {
+    id: "environment.pick",
+    points: 3,
+    title: "a pixel is picked by its share of the weights, row by row from the top",
+    look: "Add up the weights in the order of the pixels: where does `choice` of the total fall?",
+    section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
+    tests: &[
+        "Prepares a map for sampling.",
+        "See PBR, section 12.5.2.",
+        "Samples a direction where the map is bright, with random numbers in `[0, 1)`.",
+        "`choice` picks the pixel: a pixel's share of `[0, 1)` is its share of the weights, row by \
+         row from the top.",
+        "Numbers at the border between two pixels are not tested.",
+    ],
+    questions: |rng| {
+        let sizes = [uvec2(2, 1), uvec2(4, 3), uvec2(8, 4), uvec2(7, 9)];
+        let questions = sizes.map(|size| {
+            let map = colorful(rng, size);
+            samples(rng, map, |_| true)
+        });
+        questions.into()
+    },
+    ..Declaration::ALONE
+};
+
+const POSITION: Declaration = Declaration {
+    id: "environment.position",
+    points: 2,
+    title: "the other random numbers are the position in the pixel, across and down",
+    look: "Which corner of its pixel do the numbers (0, 0) lead to, and which (1, 1)?",
+    section: "light/environment.md#anywhere-in-the-pixel",
+    tests: &[
+        "`random` is the position in the pixel, from its upper left corner: `random.x` across and \
+         `random.y` down.",
+        "The result is the direction at this position, as a unit vector.",
+    ],
+    questions: |rng| {
+        // In maps with few pixels, the position matters most.
+        let sizes = [uvec2(1, 1), uvec2(2, 2), uvec2(3, 1)];
+        let questions = sizes.map(|size| {
+            let map = colorful(rng, size);
+            samples(rng, map, |_| true)
+        });
+        questions.into()
+    },
+    ..Declaration::ALONE
+};
+
+const SINE: Declaration = Declaration {
+    id: "environment.sine",
+    points: 2,
+    title: "rows near the poles weigh less: by the sine in the middle of the row",
+    look: "Which angle do you take the sine of: is it at the row's edge, or in its middle?",
+    section: "light/environment.md#the-sine-belongs-in-the-weight",
+    tests: &["A pixel's weight is its luminance, times the sine of θ in the middle of its row."],
+    questions: |rng| {
+        let sizes = [uvec2(1, 3), uvec2(1, 8), uvec2(2, 16)];
+        let questions = sizes.map(|size| {
+            let grey = single(DVec3::splat(rng.uniform(0.2, 3.0)));
+            let map = MapImage {
+                size,
+                pixels: vec![grey.as_vec3(); size.element_product() as usize],
+            };
+            samples(rng, map, |_| true)
+        });
+        questions.into()
+    },
+    ..Declaration::ALONE
+};
+
+const LUMINANCE: Declaration = Declaration {
+    id: "environment.luminance",
+    points: 1,
+    title: "a pixel's colour counts by its luminance",
+    look: "How much does a green pixel weigh in your code, compared with a blue one?",
+    section: "light/environment.md#the-weight-of-a-pixel",
+    tests: &[],
+    questions: |rng| {
+        let size = uvec2(6, 2);
+        let pure = [Vec3::X, Vec3::Y, Vec3::Z];
+        let pixels = (0..12).map(|n| pure[n % 3] * rng.uniform(0.5, 2.0) as f32);
+        let map = MapImage {
+            size,
+            pixels: pixels.collect(),
+        };
+        let mut questions = vec![samples(rng, map.clone(), |_| true)];
+        questions.extend([pdfs(rng, map, |_| true)]);
+        questions
+    },
+    ..Declaration::ALONE
+};
+
+const ENDS: Declaration = Declaration {
+    id: "environment.ends",
+    points: 2,
+    title: "the smallest and the largest numbers pick the first and the last bright pixel",
+    look: "What does your search return if `choice` is 0, or if it is just below 1?",
+    section: "light/environment.md#the-search-ends-at-the-last-pixel",
+    tests: &[],
+    questions: |rng| {
+        let sizes = [uvec2(1, 1), uvec2(4, 2), uvec2(16, 8)];
+        let mut questions = Vec::new();
+        for size in sizes {
+            let whole = colorful(rng, size);
+            let mut with_borders = whole.clone();
+            let last = with_borders.pixels.len() - 1;
+            if last > 2 {
+                // The first bright pixel and the last one aren't the first and the last.
+                with_borders.pixels[0] = Vec3::ZERO;
+                with_borders.pixels[last] = Vec3::ZERO;
+            }
+            for map in [whole, with_borders] {
+                let below_one = 1.0 - f32::EPSILON / 2.0;
+                let choices = [0.0, 1e-6, below_one - f32::EPSILON, below_one];
+                let choices = choices.into_iter().chain([random(rng), random(rng)]);
+                let calls = choices.map(|choice| MapSample {
+                    choice,
+                    random: random_pair(rng),
+                });
+                let calls = calls.collect();
+                questions.push(sampled(map, calls));
+            }
+        }
+        questions
+    },
+    ..Declaration::ALONE
+};
+
+const BLACK: Declaration = Declaration {
+    id: "environment.black",
+    points: 2,
+    title: "a black pixel is never picked, and its directions have no density",
+    look: "Which pixel does your search return if several pixels have the same sum?",
+    section: "light/environment.md#black-pixels-are-never-picked",
+    tests: &[
+        "A map can be entirely black.",
+        "In that case, [`Environment::sample`] is never called.",
+        "The result is zero for directions that [`Environment::sample`] never returns.",
+    ],
+    questions: |rng| {
+        let sizes = [uvec2(4, 4), uvec2(8, 4), uvec2(9, 5)];
+        let mut questions = Vec::new();
+        for size in sizes {
+            let mut map = colorful(rng, size);
+            for pixel in &mut map.pixels {
+                if rng.uniform(0.0, 1.0) < 0.6 {
+                    *pixel = Vec3::ZERO;
+                }
+            }
+            // An entire row is black, and two pixels are certainly bright.
+            let width = size.x as usize;
+            map.pixels[width..2 * width].fill(Vec3::ZERO);
+            map.pixels[1] = Vec3::ONE;
+            map.pixels[2 * width] = Vec3::new(0.5, 0.25, 1.0);
+            questions.push(samples(rng, map.clone(), |_| true));
+            questions.push(pdfs(rng, map.clone(), |pdf| pdf == 0.0));
+            questions.push(pdfs(rng, map, |pdf| pdf > 0.0));
+        }
+        let size = uvec2(4, 2);
+        let black = MapImage {
+            size,
+            pixels: vec![Vec3::ZERO; 8],
+        };
+        questions.push(pdfs(rng, black, |_| true));
+        questions
+    },
+    ..Declaration::ALONE
+};
+
+const PDF: Declaration = Declaration {
+    id: "environment.pdf",
+    points: 3,
+    title: "the density is the pixel's share over the solid angle of a pixel at that height",
+    look: "Which sine belongs to the density: of the row's middle, or of the direction itself?",
+    section: "light/environment.md#the-sine-in-the-density",
+    tests: &[
+        "Returns the probability density, per solid angle, with which [`Environment::sample`] \
+         chooses a direction.",
+        "w · h / (2π² sin θ) times the pixel's share of the weights, where w and h are the map's \
+         width and height in pixels, and θ is the angle of the direction itself.",
+        "Directions at the poles (sin θ = 0) and at the edge of a pixel are not tested.",
+    ],
+    questions: |rng| {
+        let sizes = [uvec2(1, 1), uvec2(4, 3), uvec2(8, 4), uvec2(7, 9)];
+        let questions = sizes.map(|size| {
+            let map = colorful(rng, size);
+            pdfs(rng, map, |_| true)
+        });
+        questions.into()
+    },
+    ..Declaration::ALONE
+};
+
+const SIZES: Declaration = Declaration {
+    id: "environment.sizes",
+    points: 1,
+    title: "maps of any shape are sampled, from a single column to a very wide row",
+    look: "Do you mix up the width and the height somewhere?",
+    section: "light/environment.md#three-components-and-two-angles",
+    tests: &[],
+    questions: |rng| {
+        let sizes = [uvec2(1, 24), uvec2(48, 1), uvec2(32, 4), uvec2(5, 20)];
+        let mut questions = Vec::new();
+        for size in sizes {
+            let map = colorful(rng, size);
+            questions.push(samples(rng, map.clone(), |_| true));
+            questions.push(pdfs(rng, map, |_| true));
+        }
+        questions
+    },
+    ..Declaration::ALONE
+};
+
+/// Returns a map whose pixels have random colours, some of which are very bright.
+fn colorful(rng: &mut Rng, size: UVec2) -> MapImage {
+    let pixels = (0..size.element_product()).map(|_| {
+        let brightness = rng.log_uniform(0.1, 10.0);
+        (color(rng) * brightness).as_vec3()
+    });
+    MapImage {
+        size,
+        pixels: pixels.collect(),
+    }
+}
+
+fn oracle(map: &MapImage) -> Map64 {
+    Map64::new(map.size, &map.pixels)
+}
+
+/// Returns a question about samples whose directions fulfil a condition.
+fn samples(rng: &mut Rng, map: MapImage, condition: impl Fn(DVec3) -> bool) -> ExamQuestion {
+    let map64 = oracle(&map);
+    let call = |_| {
+        rng.retry(|rng| {
+            let call = MapSample {
+                choice: random(rng),
+                random: random_pair(rng),
+            };
+            let sample = sample(&map64, &call);
+            let direction = sample.value?;
+            (sample.margin > BORDER && condition(direction)).then_some(call)
+        })
+    };
+    let calls = (0..CALLS).map(call).collect();
+    sampled(map, calls)
+}
+
+fn sample(map: &Map64, call: &MapSample) -> WithMargin<Option<DVec3>> {
+    map.sample(call.choice.into(), call.random.as_dvec2())
+}
+
+fn sampled(map: MapImage, calls: Vec<MapSample>) -> ExamQuestion {
+    let map64 = oracle(&map);
+    let direction = |call| sample(&map64, call).value.expect("the map isn't black");
+    let rows = directions(calls.iter().map(direction));
+    let question = LightQuestion::EnvironmentSample(Table::of_list(map, calls));
+    table(question, &["direction", "unit_direction"], rows)
+}
+
+/// Returns a question about the densities of directions that fulfil a condition.
+fn pdfs(rng: &mut Rng, map: MapImage, condition: fn(f64) -> bool) -> ExamQuestion {
+    let map64 = oracle(&map);
+    let direction = |_| {
+        rng.retry(|rng| {
+            let direction = single(rng.direction());
+            let pdf = map64.pdf(direction);
+            (pdf.margin > EDGE && condition(pdf.value)).then_some(direction)
+        })
+    };
+    let calls: Vec<DVec3> = (0..CALLS).map(direction).collect();
+    let rows = densities(calls.iter().map(|direction| map64.pdf(*direction).value));
+    let calls = calls.into_iter().map(local).collect();
+    let question = LightQuestion::EnvironmentPdf(Table::of_list(map, calls));
+    table(question, &["pdf"], rows)
+}

@@ -1,0 +1,16 @@
+//! The groups of items in the assignment `light`.
+
+use crate::items::Group;
+
+/// What a matte surface scatters, and with which density.
+pub(super) const MATTE: Group = Group("matte surfaces");
+/// The direction in which a matte surface scatters a path.
+pub(super) const MATTE_SAMPLES: Group = Group("samples of matte surfaces");
+/// Mirrors and glass.
+pub(super) const SPECULAR: Group = Group("mirrors and glass");
+/// The directions toward lights.
+pub(super) const LIGHT_SAMPLES: Group = Group("samples of lights");
+/// The densities of those directions.
+pub(super) const LIGHT_DENSITIES: Group = Group("densities of lights");
+/// Direct light.
+pub(super) const DIRECT: Group = Group("direct light");

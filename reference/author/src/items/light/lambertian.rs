@@ -1,0 +1,221 @@
+//! The items about matte surfaces.
+
+use glam::{DVec3, Vec2};
+use judging::exam::ExamQuestion;
+use protocol::light::LightQuestion;
+use protocol::light::lambertian::{DirectionPair, Matte, MatteSample};
+use protocol::Table;
+
+use super::groups::{MATTE, MATTE_SAMPLES};
+use super::{above, below, color, colors, densities, direction_with_height, random_pair};
+use super::{scattered, table};
+use crate::items::{AuthoredTask, Declaration};
+use crate::oracle::light::lambertian;
+use crate::seed::Rng;
+
+/// The number of calls in each question.
+const CALLS: usize = 12;
+
+/// The task `lambertian`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
+        EVALUATE,
+        PDF,
+        BELOW,
+        GRAZING,
+        DIRECTION,
+        ATTENUATION,
+        SAMPLED_PDF,
+    ],
+    ..AuthoredTask::NEW
+};
+
+const EVALUATE: Declaration = Declaration {
+    id: "lambertian.evaluate",
+    points: 2,
+    title: "a matte surface scatters its albedo over π, times the cosine of the incoming light",
+    look: "Which of the two directions does the cosine belong to, and which factor comes before it?",
+    section: "light/materials.md#a-matte-surface",
+    tests: &[
+        "Returns the fraction of the light from `incoming` that is scattered to `out`, per solid \
+         angle: albedo / π · cos θ, where θ is the angle between `incoming` and the normal.",
+        "See PBR, section 9.2, whose f doesn't include the cosine.",
+    ],
+    questions: |rng| surfaces(rng, |rng, matte| vec![evaluations(matte, pairs(rng, above, above))]),
+    ..Declaration::in_group(MATTE)
+};
+
+const PDF: Declaration = Declaration {
+    id: "lambertian.pdf",
+    points: 2,
+    title: "the density of a direction is its cosine over π",
+    look: "Over the hemisphere, the density must add up to 1. What does yours add up to?",
+    section: "light/materials.md#choose-directions-by-their-cosine",
+    tests: &[
+        "Returns the probability density, per solid angle, with which [`Lambertian::scatter`] \
+         chooses `incoming`: cos θ / π.",
+    ],
+    questions: |rng| surfaces(rng, |rng, matte| vec![pdfs(matte, pairs(rng, above, above))]),
+    ..Declaration::in_group(MATTE)
+};
+
+const BELOW: Declaration = Declaration {
+    id: "lambertian.below",
+    points: 2,
+    title: "nothing is scattered if one of the directions is below the surface",
+    look: "What do you return if z is negative in `out`, in `incoming`, or in both?",
+    section: "light/materials.md#light-from-below-is-not-scattered",
+    tests: &["The result is zero unless both directions are above the surface (z > 0)."],
+    questions: |rng| {
+        surfaces(rng, |rng, matte| {
+            let both = [
+                pairs(rng, below, above),
+                pairs(rng, above, below),
+                pairs(rng, below, below),
+                pairs(rng, above, above),
+            ];
+            let mixed = rng.shuffled(both.concat());
+            vec![
+                evaluations(matte, mixed.clone()),
+                pdfs(matte, mixed),
+            ]
+        })
+    },
+    ..Declaration::in_group(MATTE)
+};
+
+const GRAZING: Declaration = Declaration {
+    id: "lambertian.grazing",
+    points: 1,
+    title: "light that grazes the surface is scattered in proportion to its small cosine",
+    look: "Is there a smallest cosine in your code? A cosine of 0.001 isn't zero.",
+    section: "light/materials.md#both-directions-must-be-above-the-surface",
+    tests: &[],
+    questions: |rng| {
+        surfaces(rng, |rng, matte| {
+            let pairs = [pairs(rng, above, grazing), pairs(rng, grazing, above)].concat();
+            vec![evaluations(matte, pairs.clone()), pdfs(matte, pairs)]
+        })
+    },
+    ..Declaration::in_group(MATTE)
+};
+
+const DIRECTION: Declaration = Declaration {
+    id: "lambertian.direction",
+    points: 2,
+    title: "the sampled direction is the given function's for these random numbers",
+    look: "Call the given `sample_cosine_hemisphere` with `random`, and return its direction \
+           unchanged.",
+    section: "light/materials.md#use-the-given-way-to-sample",
+    tests: &[
+        "Samples a direction above the surface with two random numbers in `[0, 1)`.",
+        "`direction` is the one that the given [`sample_cosine_hemisphere`] returns for `random`.",
+        "`out` is above the surface.",
+    ],
+    questions: |rng| {
+        surfaces(rng, |rng, matte| {
+            samples(matte, &["direction", "unit_direction"], randoms(rng), rng)
+        })
+    },
+    ..Declaration::in_group(MATTE_SAMPLES)
+};
+
+const ATTENUATION: Declaration = Declaration {
+    id: "lambertian.attenuation",
+    points: 2,
+    title: "every sample is attenuated by the albedo, even close to the horizon",
+    look: "Simplify `evaluate` divided by `pdf` on paper: what is left?",
+    section: "light/materials.md#the-attenuation-needs-no-division",
+    tests: &[
+        "`attenuation` is [`Lambertian::evaluate`] divided by [`Lambertian::pdf`], simplified so \
+         that it is also right at the horizon, where both are zero.",
+    ],
+    questions: |rng| {
+        surfaces(rng, |rng, matte| {
+            let mut numbers = randoms(rng);
+            // These lead to directions close to the normal and to the horizon.
+            let ends = [0.0, 1e-6, 1.0 - f32::EPSILON, 1.0 - f32::EPSILON / 2.0];
+            numbers.extend(ends.map(|x| Vec2::new(x, random_pair(rng).y)));
+            samples(matte, &["attenuation"], numbers, rng)
+        })
+    },
+    ..Declaration::in_group(MATTE_SAMPLES)
+};
+
+const SAMPLED_PDF: Declaration = Declaration {
+    id: "lambertian.sampled_pdf",
+    points: 1,
+    title: "a sample comes with the density of its own direction",
+    look: "Which direction do you compute the density for: `out`, or the one you return?",
+    section: "light/materials.md#the-density-of-the-sampled-direction",
+    tests: &["`pdf` is the density of this direction."],
+    questions: |rng| surfaces(rng, |rng, matte| samples(matte, &["pdf"], randoms(rng), rng)),
+    ..Declaration::in_group(MATTE_SAMPLES)
+};
+
+/// Returns questions about surfaces with different albedos, including black and white.
+fn surfaces(
+    rng: &mut Rng,
+    questions: impl Fn(&mut Rng, Matte) -> Vec<ExamQuestion>,
+) -> Vec<ExamQuestion> {
+    let albedos = [color(rng), color(rng), DVec3::ONE, DVec3::ZERO];
+    let mattes = albedos.map(|albedo| Matte {
+        albedo: albedo.as_vec3(),
+    });
+    let questions = mattes.into_iter().flat_map(|matte| questions(rng, matte));
+    questions.collect()
+}
+
+fn grazing(rng: &mut Rng) -> DVec3 {
+    let height = rng.log_uniform(1e-3, 0.1);
+    direction_with_height(rng, height, 1.01 * height, 1.0)
+}
+
+/// Returns pairs of directions, each drawn by one of the two functions.
+fn pairs(
+    rng: &mut Rng,
+    out: fn(&mut Rng) -> DVec3,
+    incoming: fn(&mut Rng) -> DVec3,
+) -> Vec<DirectionPair> {
+    let pairs = (0..CALLS).map(|_| DirectionPair {
+        out: out(rng).as_vec3(),
+        incoming: incoming(rng).as_vec3(),
+    });
+    pairs.collect()
+}
+
+fn evaluations(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
+    let albedo = matte.albedo.as_dvec3();
+    let rows = pairs.iter().map(|pair| {
+        lambertian::evaluate(albedo, pair.out.as_dvec3(), pair.incoming.as_dvec3())
+    });
+    let rows = colors(rows);
+    table(LightQuestion::Evaluate(Table::of_list(matte, pairs)), &["value"], rows)
+}
+
+fn pdfs(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
+    let rows = pairs
+        .iter()
+        .map(|pair| lambertian::pdf(pair.out.as_dvec3(), pair.incoming.as_dvec3()));
+    let rows = densities(rows);
+    table(LightQuestion::LambertianPdf(Table::of_list(matte, pairs)), &["pdf"], rows)
+}
+
+fn randoms(rng: &mut Rng) -> Vec<Vec2> {
+    (0..CALLS).map(|_| random_pair(rng)).collect()
+}
+
+fn samples(matte: Matte, judged: &[&str], numbers: Vec<Vec2>, rng: &mut Rng) -> Vec<ExamQuestion> {
+    let calls = numbers.into_iter().map(|random| MatteSample {
+        out: above(rng).as_vec3(),
+        random,
+    });
+    let calls: Vec<MatteSample> = calls.collect();
+    let albedo = matte.albedo.as_dvec3();
+    let rows = calls.iter().map(|call| {
+        lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2())
+    });
+    let rows = scattered(rows);
+    let question = LightQuestion::LambertianScatter(Table::of_list(matte, calls));
+    vec![table(question, judged, rows)]
+}

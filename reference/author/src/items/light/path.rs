@@ -1,0 +1,357 @@
+//! The items about following paths.
+
+use glam::{DVec3, dvec3};
+use judging::exam::ExamQuestion;
+use protocol::Table;
+use protocol::light::LightQuestion;
+use protocol::light::transport;
+
+use super::groups::{DIRECT, MATTE_SAMPLES, SPECULAR};
+use super::rooms::{DARK, PathCase, block, emitter, matte, panel, path_case, sky, walls};
+use super::{color, colors, table};
+use crate::items::{AuthoredTask, Declaration, Group};
+use crate::oracle::light::quad::{Material64, Quad};
+use crate::oracle::light::room::{Room, Surface64};
+use crate::oracle::light::Numbers64;
+use crate::seed::Rng;
+
+/// The number of calls in a question.
+const CALLS: usize = 16;
+/// The items of other tasks that paths need.
+const NEEDS: &[Group] = &[MATTE_SAMPLES, SPECULAR, DIRECT];
+/// Half the size of a closed room.
+const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
+
+/// The task `path`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
+        SEEN,
+        ONE_BOUNCE,
+        BOUNCES,
+        ONCE,
+        THROUGHPUT,
+        MIRROR,
+        GLASS,
+        ROULETTE,
+        SURVIVORS,
+    ],
+    ..AuthoredTask::NEW
+};
+
+const SEEN: Declaration = Declaration {
+    id: "path.seen",
+    points: 2,
+    title: "without bounces, only what the ray hits or the environment is seen",
+    look: "What do you add for the first surface, and what if the ray hits nothing?",
+    section: "light/paths.md#the-first-surface-can-be-a-light",
+    tests: &[
+        "Estimates the radiance that arrives at the origin of a ray, by following one path.",
+        "See Kajiya, \"The Rendering Equation\", SIGGRAPH 1986, and PBR, section 13.4.",
+        "With 0 bounces, the result is only the light emitted by the surface that the ray hits, or \
+         the environment if the ray hits nothing.",
+    ],
+    questions: |rng| {
+        rooms(rng, bright, |rng, room| {
+            let mut cases = cases(rng, room, 0, |surface, _, _| surface.is_none());
+            cases.extend(self::cases(rng, room, 0, |surface, _, light| {
+                surface.is_some() && is_lit(light)
+            }));
+            cases.extend(self::cases(rng, room, 0, |surface, _, light| {
+                surface.is_some() && !is_lit(light)
+            }));
+            cases
+        })
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+const ONE_BOUNCE: Declaration = Declaration {
+    id: "path.one_bounce",
+    points: 2,
+    title: "with one bounce, the direct light on the first surface is added",
+    look: "How often does your loop add direct light if `bounces` is 1?",
+    section: "light/paths.md#the-number-of-bounces",
+    tests: &[
+        "With 1 bounce, direct light is added.",
+        "Bounce 0 is at the first surface.",
+        "Both use the random numbers `sampler.numbers(bounce)`.",
+    ],
+    questions: |rng| rooms(rng, bright, |rng, room| cases(rng, room, 1, lit)),
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+const BOUNCES: Declaration = Declaration {
+    id: "path.bounces",
+    points: 2,
+    title: "a path is scattered at most as often as `bounces` says",
+    look: "Count the surfaces at which your code adds direct light if `bounces` is 3.",
+    section: "light/paths.md#the-number-of-bounces",
+    tests: &["The path is scattered at most `bounces` times."],
+    questions: |rng| {
+        let bounces = [2, 3, 4, 6];
+        let questions = bounces.into_iter().flat_map(|bounces| {
+            rooms(rng, closed, |rng, room| cases(rng, room, bounces, lit))
+        });
+        questions.collect()
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+const ONCE: Declaration = Declaration {
+    id: "path.once",
+    points: 2,
+    title: "after a matte surface, a light or the sky that the path hits isn't counted again",
+    look: "Which code has already counted the light that the path hits after a matte surface?",
+    section: "light/paths.md#only-once",
+    tests: &[
+        "The light that a surface emits, or the environment if the ray hits nothing, is counted \
+         only if the ray comes from the camera, a mirror or glass (whose `pdf` is `None`).",
+        "After a matte surface, `direct` has already counted it.",
+        "A path ends at a surface that scatters nothing, when its throughput is zero, or by \
+         chance: from bounce 3 on (the fourth surface), it survives if `numbers.survive` is less \
+         than q, and its throughput is divided by q.",
+    ],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            // Most paths soon hit the ceiling, which is a light, or the sky.
+            let mut quads = walls(HALF, || matte(rng));
+            quads.pop();
+            let light = emitter(rng);
+            quads[3] = panel(dvec3(0.0, HALF.y, 0.0), 1, -1.0, HALF, light);
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        }, |rng, room| {
+            let mut cases = cases(rng, room, 2, first_is_matte);
+            cases.extend(self::cases(rng, room, 3, first_is_matte));
+            cases
+        })
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+const THROUGHPUT: Declaration = Declaration {
+    id: "path.throughput",
+    points: 2,
+    title: "light from later surfaces is multiplied by the attenuation of every surface before",
+    look: "Follow one path over two coloured walls: which factors does the last light get?",
+    section: "light/paths.md#throughput-is-a-product",
+    tests: &[
+        "At each bounce, the path adds [`direct`] light and continues in the direction that \
+         `Material::scatter` returns.",
+        "Everything after the bounce is multiplied by the attenuation.",
+    ],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            // Some walls are black for two of the three colours.
+            let pure = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE, DVec3::ONE, DVec3::ZERO];
+            let mut walls_left: Vec<Material64> = pure
+                .into_iter()
+                .map(|pure| Material64::Lambertian { albedo: 0.9 * pure })
+                .collect();
+            walls_left = rng.shuffled(walls_left);
+            let mut quads = walls(HALF, || walls_left.pop().expect("there are six walls"));
+            let light = emitter(rng);
+            quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.2, 0.0, 1.2), light));
+            Room::new(quads, DARK)
+        }, |rng, room| {
+            let mut cases = cases(rng, room, 2, |_, _, _| true);
+            cases.extend(self::cases(rng, room, 3, lit));
+            cases
+        })
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+const MIRROR: Declaration = Declaration {
+    id: "path.mirror",
+    points: 2,
+    title: "a mirror shows the lights and the sky",
+    look: "After a mirror, `direct` has counted nothing yet. Which `pdf` tells you so?",
+    section: "light/paths.md#a-mirror-shows-the-light",
+    tests: &[],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            let mirror = Material64::Mirror { reflectance: color(rng) };
+            let mut materials = vec![mirror, matte(rng), mirror, matte(rng), mirror, matte(rng)];
+            let mut quads = walls(HALF, || materials.pop().expect("there are six walls"));
+            quads.pop();
+            let light = emitter(rng);
+            quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.2, 0.0, 1.2), light));
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        }, |rng, room| {
+            let is_mirror = |surface: Option<&Surface64>| {
+                surface.is_some_and(|it| matches!(it.material, Material64::Mirror { .. }))
+            };
+            let mut cases = cases(rng, room, 1, |surface, _, light| {
+                is_mirror(surface) && is_lit(light)
+            });
+            cases.extend(self::cases(rng, room, 3, |surface, _, light| {
+                is_mirror(surface) && is_lit(light)
+            }));
+            cases
+        })
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+const GLASS: Declaration = Declaration {
+    id: "path.glass",
+    points: 1,
+    title: "glass shows what is behind it and inside it",
+    look: "Glass has no density either. Does the path continue on the side that it is scattered \
+           to?",
+    section: "light/paths.md#a-mirror-shows-the-light",
+    tests: &[],
+    questions: |rng| {
+        rooms(rng, |rng| {
+            let mut quads = walls(HALF, || matte(rng));
+            let ior = rng.uniform(1.3, 1.8);
+            let center = rng.point(0.5);
+            quads.extend(block(center, dvec3(0.9, 0.7, 0.8), Material64::Glass { ior }));
+            let light = emitter(rng);
+            quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.5, 0.0, 1.5), light));
+            Room::new(quads, DARK)
+        }, |rng, room| {
+            let bounces = [2, 4];
+            let cases = bounces.map(|bounces| {
+                self::cases(rng, room, bounces, |surface, _, light| {
+                    let is_glass = |it: &Surface64| matches!(it.material, Material64::Glass { .. });
+                    surface.is_some_and(is_glass) && is_lit(light)
+                })
+            });
+            cases.into_iter().flatten().collect()
+        })
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+const ROULETTE: Declaration = Declaration {
+    id: "path.roulette",
+    points: 2,
+    title: "from the fourth surface on, a path survives with the probability q",
+    look: "At which bounce does your roulette begin, and what is compared with `survive`?",
+    section: "light/paths.md#roulette-begins-at-bounce-three",
+    tests: &["This is Russian roulette: see PBR, section 2.2.4."],
+    questions: |rng| {
+        rooms(rng, closed, |rng, room| {
+            // At bounce 3, about half of the paths survive.
+            let mut cases = cases(rng, room, 7, |_, numbers, light| {
+                is_lit(light) && numbers[3].survive > 0.4
+            });
+            cases.extend(self::cases(rng, room, 7, |_, numbers, light| {
+                is_lit(light) && numbers[3].survive < 0.4
+            }));
+            cases
+        })
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+const SURVIVORS: Declaration = Declaration {
+    id: "path.survivors",
+    points: 2,
+    title: "a survivor's throughput is divided by q, which is at least 0.05 and at most 0.95",
+    look: "In a white room and in a dark one: what is q, and what do you divide by?",
+    section: "light/paths.md#survivors-carry-more",
+    tests: &[
+        "q is the largest channel of the throughput after this bounce's attenuation, but at least \
+         0.05 and at most 0.95.",
+    ],
+    questions: |rng| {
+        // In a white room, q is always 0.95, and in a dark one, it is 0.05.
+        let albedos = [DVec3::ONE, DVec3::splat(0.999), DVec3::splat(0.3), dvec3(0.1, 0.35, 0.05)];
+        let questions = albedos.into_iter().map(|albedo| {
+            let room = room_with(rng, || Material64::Lambertian { albedo });
+            let is_dark = albedo.max_element() < 0.5;
+            let cases = cases(rng, &room, 6, |_, numbers, light| {
+                // Few paths survive in a dark room, so look for them.
+                is_lit(light) && (!is_dark || numbers[3].survive < 0.04)
+            });
+            question(&room, cases)
+        });
+        questions.collect()
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
+fn is_lit(light: DVec3) -> bool {
+    light.max_element() > 1e-4
+}
+
+fn lit(_: Option<&Surface64>, _: &[Numbers64], light: DVec3) -> bool {
+    is_lit(light)
+}
+
+fn first_is_matte(surface: Option<&Surface64>, _: &[Numbers64], light: DVec3) -> bool {
+    let is_matte = |surface: &Surface64| matches!(surface.material, Material64::Lambertian { .. });
+    surface.is_some_and(is_matte) && is_lit(light)
+}
+
+/// Returns a room without a ceiling, with lights of which the back is seen, too.
+fn bright(rng: &mut Rng) -> Room {
+    let mut quads: Vec<Quad> = walls(HALF, || matte(rng));
+    quads.remove(3);
+    for (axis, facing) in [(1, -1.0), (0, 1.0), (2, -1.0)] {
+        let center = rng.point(1.2);
+        let light = emitter(rng);
+        quads.push(panel(center, axis, facing, DVec3::splat(0.5), light));
+    }
+    let sky = sky(rng);
+    Room::new(quads, sky)
+}
+
+/// Returns a closed room with bright walls and one light.
+fn closed(rng: &mut Rng) -> Room {
+    let mut colors = (0..6).map(|_| color(rng).lerp(DVec3::ONE, 0.4)).collect::<Vec<_>>();
+    room_with(rng, || Material64::Lambertian {
+        albedo: colors.pop().expect("there are six walls"),
+    })
+}
+
+fn room_with(rng: &mut Rng, material: impl FnMut() -> Material64) -> Room {
+    let mut quads = walls(HALF, material);
+    let light = emitter(rng);
+    quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.0, 0.0, 1.0), light));
+    Room::new(quads, DARK)
+}
+
+fn cases(
+    rng: &mut Rng,
+    room: &Room,
+    bounces: u32,
+    wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
+) -> Vec<PathCase> {
+    let case = |_| path_case(rng, room, bounces, &wanted);
+    (0..CALLS).map(case).collect()
+}
+
+/// Returns one question for each of two rooms.
+fn rooms(
+    rng: &mut Rng,
+    room: impl Fn(&mut Rng) -> Room,
+    cases: impl Fn(&mut Rng, &Room) -> Vec<PathCase>,
+) -> Vec<ExamQuestion> {
+    let question = |_| {
+        let room = room(rng);
+        let cases = cases(rng, &room);
+        question(&room, rng.shuffled(cases))
+    };
+    (0..2).map(question).collect()
+}
+
+fn question(room: &Room, cases: Vec<PathCase>) -> ExamQuestion {
+    let rows = colors(cases.iter().map(|case| case.light));
+    let calls = cases.iter().map(|case| case.call).collect();
+    let subject = transport::Room { scene: room.text() };
+    table(LightQuestion::Radiance(Table::of_list(subject, calls)), &["value"], rows)
+}

@@ -1,0 +1,176 @@
+//! Random rooms of parallelograms, and cases in them whose answers don't depend on rounding.
+
+use glam::DVec3;
+use protocol::Ray;
+use protocol::light::transport::{DirectSample, PathStart};
+use protocol::sampler::{RandomNumbers, Sampler};
+
+use super::{MARGIN, color, random, random_pair};
+use crate::oracle::Ray64;
+use crate::oracle::light::light_sources::Environment64;
+use crate::oracle::light::quad::{Material64, Quad};
+use crate::oracle::light::room::{Room, Surface64};
+use crate::oracle::light::{Numbers64, transport};
+use crate::seed::Rng;
+
+/// A call of `direct` with its answer.
+pub(super) struct DirectCase {
+    pub(super) call: DirectSample,
+    pub(super) light: DVec3,
+}
+
+/// A call of `radiance` with its answer.
+pub(super) struct PathCase {
+    pub(super) call: PathStart,
+    pub(super) light: DVec3,
+}
+
+/// Returns a matte material with a random colour.
+pub(super) fn matte(rng: &mut Rng) -> Material64 {
+    Material64::Lambertian { albedo: color(rng) }
+}
+
+/// Returns a light with a random colour.
+pub(super) fn emitter(rng: &mut Rng) -> Material64 {
+    let radiance = color(rng) * rng.log_uniform(1.0, 20.0);
+    Material64::Emitter { radiance }
+}
+
+/// Returns the six walls of a box between −`half` and `half`. Their fronts face inward.
+pub(super) fn walls(half: DVec3, mut material: impl FnMut() -> Material64) -> Vec<Quad> {
+    let mut walls = Vec::new();
+    for axis in 0..3 {
+        for sign in [-1.0, 1.0] {
+            let mut center = DVec3::ZERO;
+            center[axis] = sign * half[axis];
+            walls.push(panel(center, axis, -sign, half, material()));
+        }
+    }
+    walls
+}
+
+/// Returns a rectangle around a point, perpendicular to an axis. `half` is half of its size along
+/// the other axes, and `facing` the sign of its normal.
+pub(super) fn panel(
+    center: DVec3,
+    axis: usize,
+    facing: f64,
+    half: DVec3,
+    material: Material64,
+) -> Quad {
+    let mut edges = [DVec3::ZERO; 2];
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    edges[0][u] = 2.0 * half[u];
+    edges[1][v] = 2.0 * half[v];
+    // The cross product of the two edges points along the axis.
+    if facing < 0.0 {
+        edges.swap(0, 1);
+    }
+    let corner = center - 0.5 * (edges[0] + edges[1]);
+    Quad::new(corner, edges, material)
+}
+
+/// Returns a tilted rectangle around a point.
+pub(super) fn tilted(rng: &mut Rng, center: DVec3, size: f64, material: Material64) -> Quad {
+    let first = rng.direction();
+    let second = rng.perpendicular_to(first);
+    let edges = [first * size, second * size];
+    Quad::new(center - 0.5 * (edges[0] + edges[1]), edges, material)
+}
+
+/// Returns the six sides of a box around a point. Their fronts face outward.
+pub(super) fn block(center: DVec3, half: DVec3, material: Material64) -> Vec<Quad> {
+    let mut sides = Vec::new();
+    for axis in 0..3 {
+        for sign in [-1.0, 1.0] {
+            let mut at = center;
+            at[axis] += sign * half[axis];
+            sides.push(panel(at, axis, sign, half, material));
+        }
+    }
+    sides
+}
+
+/// Returns an environment with the same random radiance from all directions.
+pub(super) fn sky(rng: &mut Rng) -> Environment64 {
+    Environment64::Constant(color(rng) * 2.0)
+}
+
+/// An environment without light.
+pub(super) const DARK: Environment64 = Environment64::Constant(DVec3::ZERO);
+
+/// Returns a case in which `wanted` is true of the surface that a random ray hits and of its direct
+/// light.
+pub(super) fn direct_case(
+    rng: &mut Rng,
+    room: &Room,
+    wanted: impl Fn(&Surface64, DVec3) -> bool,
+) -> DirectCase {
+    rng.retry(|rng| {
+        let ray = random_ray(rng, 1.5);
+        let hit = room.hit(&Ray64::from(&ray), None);
+        let surface = hit.value?;
+        let call = DirectSample {
+            ray,
+            light: random(rng),
+            on_light: random_pair(rng),
+            direct: random_pair(rng),
+        };
+        let numbers = RandomNumbers {
+            light: call.light,
+            on_light: call.on_light,
+            direct: call.direct,
+            scatter: call.direct,
+            reflect: 0.0,
+            survive: 0.0,
+        };
+        let direct = transport::direct(room, &surface, &Numbers64::from(&numbers));
+        let is_clear = hit.margin.min(direct.margin) > MARGIN;
+        let light = direct.value;
+        (is_clear && wanted(&surface, light)).then_some(DirectCase { call, light })
+    })
+}
+
+/// Returns a case in which `wanted` is true of the surface that a random ray hits first, if any, and
+/// of the radiance along the ray.
+pub(super) fn path_case(
+    rng: &mut Rng,
+    room: &Room,
+    bounces: u32,
+    wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
+) -> PathCase {
+    rng.retry(|rng| {
+        let ray = random_ray(rng, 1.5);
+        let ray64 = Ray64::from(&ray);
+        let seed = rng.integer(0, 1 << 30);
+        let sampler = Sampler::new(seed.into(), glam::UVec2::ZERO, 0);
+        let numbers = (0..bounces).map(|bounce| Numbers64::from(&sampler.numbers(bounce)));
+        let numbers: Vec<Numbers64> = numbers.collect();
+        let radiance = transport::radiance(room, &ray64, &numbers);
+        let hit = room.hit(&ray64, None);
+        let is_clear = radiance.margin.min(hit.margin) > MARGIN;
+        let light = radiance.value;
+        let call = PathStart { ray, seed, bounces };
+        let is_wanted = is_clear && wanted(hit.value.as_ref(), &numbers, light);
+        is_wanted.then_some(PathCase { call, light })
+    })
+}
+
+/// Returns a ray from a random point near the middle of a room in a random direction.
+fn random_ray(rng: &mut Rng, half: f64) -> Ray {
+    Ray::new(rng.point(half).as_vec3(), rng.direction().as_vec3())
+}
+
+impl From<&RandomNumbers> for Numbers64 {
+    fn from(numbers: &RandomNumbers) -> Numbers64 {
+        let RandomNumbers {
+            light,
+            on_light,
+            direct,
+            scatter,
+            reflect,
+            survive,
+        } = *numbers;
+        Numbers64::from_single(light, on_light, direct, scatter, reflect, survive)
+    }
+}

@@ -1,0 +1,464 @@
+//! The items about mirrors and glass.
+
+use glam::DVec3;
+use judging::exam::ExamQuestion;
+use protocol::light::LightQuestion;
+use protocol::light::specular::{GlassSample, Medium, MirrorColor};
+use protocol::{LocalDirection, Table};
+
+use super::groups::SPECULAR;
+use super::{MARGIN, above, below, color, direction_with_height, directions, fractions, local};
+use super::{optional_directions, random, scattered, single, table};
+use crate::items::{AuthoredTask, Declaration};
+use crate::oracle::light::specular;
+use crate::seed::Rng;
+
+/// The number of calls in each question.
+const CALLS: usize = 12;
+
+/// The task `specular`.
+pub static TASK: AuthoredTask = AuthoredTask {
+    items: &[
+        REFLECT,
+        REFLECT_INSIDE,
+        ENTERING,
+        LEAVING,
+        TOTAL,
+        HEAD_ON,
+        LOW_INDEX,
+        FRESNEL_ENTERING,
+        FRESNEL_LEAVING,
+        FRESNEL_TOTAL,
+        FRESNEL_LOW_INDEX,
+        MIRROR,
+        GLASS_CHOICE,
+        GLASS_RADIANCE,
+        GLASS_TOTAL,
+    ],
+    ..AuthoredTask::NEW
+};
+
+const REFLECT: Declaration = Declaration {
+    id: "specular.reflect",
+    points: 1,
+    title: "a mirror turns a direction by half a turn around the normal",
+    look: "Which components change their sign, and which one stays?",
+    section: "light/glass.md#the-mirror-direction",
+    tests: &["Mirrors a direction about the normal."],
+    questions: |rng| vec![reflections(list(rng, above))],
+    ..Declaration::in_group(SPECULAR)
+};
+
+const REFLECT_INSIDE: Declaration = Declaration {
+    id: "specular.reflect_inside",
+    points: 1,
+    title: "a reflected direction stays on its side of the surface",
+    look: "What is the sign of z before and after, if the path is inside the glass?",
+    section: "light/glass.md#the-mirror-keeps-the-side",
+    tests: &[
+        "The result is on the same side of the surface as `out`, which can be on either side.",
+    ],
+    questions: |rng| vec![reflections([list(rng, below), list(rng, above)].concat())],
+    ..Declaration::in_group(SPECULAR)
+};
+
+const ENTERING: Declaration = Declaration {
+    id: "specular.refract_entering",
+    points: 2,
+    title: "a direction outside is refracted toward the normal inside a denser medium",
+    look: "Which side is `out` on, and what does Snell's law divide by what there?",
+    section: "light/glass.md#the-refracted-direction",
+    tests: &[
+        "Returns the direction on the other side of the surface of a medium with index of \
+         refraction `ior`, according to Snell's law, or `None` for total reflection.",
+        "See PBR, section 9.3.3.",
+        "If out.z > 0, the path is outside, where the index is 1, and the result has z < 0.",
+    ],
+    questions: |rng| media(rng, dense, |rng, medium| refractions(medium, rng, above, any)),
+    ..Declaration::in_group(SPECULAR)
+};
+
+const LEAVING: Declaration = Declaration {
+    id: "specular.refract_leaving",
+    points: 2,
+    title: "a direction inside is refracted away from the normal outside",
+    look: "If `out` is inside, the ratio of the indices is turned around, and the result points \
+           up.",
+    section: "light/glass.md#the-side-decides-the-ratio",
+    tests: &["If out.z < 0, the path is inside, and the result has z > 0."],
+    questions: |rng| media(rng, dense, |rng, medium| refractions(medium, rng, below, refracted)),
+    ..Declaration::in_group(SPECULAR)
+};
+
+const TOTAL: Declaration = Declaration {
+    id: "specular.refract_total",
+    points: 2,
+    title: "beyond the critical angle, nothing is refracted",
+    look: "What is the square of the refracted sine there, and what do you do with it?",
+    section: "light/glass.md#total-reflection",
+    tests: &["Directions along the surface (z = 0), and those at the critical angle, are not tested."],
+    questions: |rng| {
+        media(rng, dense, |rng, medium| {
+            let mut out = directions_that(rng, medium, below, total);
+            out.extend(directions_that(rng, medium, below, refracted));
+            out.extend(directions_that(rng, medium, above, any));
+            refraction(medium, rng.shuffled(out))
+        })
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+const HEAD_ON: Declaration = Declaration {
+    id: "specular.refract_head_on",
+    points: 1,
+    title: "along the normal, light goes straight on",
+    look: "Do you divide by a sine or a length that is zero here?",
+    section: "light/glass.md#straight-through-is-not-a-special-case",
+    tests: &["The result has length one, even along the normal."],
+    questions: |rng| {
+        media(rng, dense, |rng, medium| {
+            let tilted = [above(rng), directions_that(rng, medium, below, refracted)[0]];
+            let out = [DVec3::Z, DVec3::NEG_Z].into_iter().chain(tilted);
+            let near = [1.0, -1.0].map(|side| nearly_along_the_normal(rng, side));
+            refraction(medium, out.chain(near).collect())
+        })
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+const LOW_INDEX: Declaration = Declaration {
+    id: "specular.refract_low_index",
+    points: 1,
+    title: "an index of 1 bends nothing, and below 1, total reflection occurs outside",
+    look: "Is there anything in your code that is only right if `ior` is greater than 1?",
+    section: "light/glass.md#an-index-below-one",
+    tests: &[
+        "`ior` can be less than 1, in which case total reflection can occur outside.",
+        "It can also be 1, in which case light isn't bent.",
+    ],
+    questions: |rng| {
+        let mut questions = media(rng, thin, |rng, medium| {
+            let mut out = directions_that(rng, medium, above, total);
+            out.extend(directions_that(rng, medium, above, refracted));
+            out.extend(directions_that(rng, medium, below, any));
+            refraction(medium, rng.shuffled(out))
+        });
+        let same = Medium { ior: 1.0 };
+        let out = [list(rng, above), list(rng, below)].concat();
+        questions.push(refraction(same, out));
+        questions
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+const FRESNEL_ENTERING: Declaration = Declaration {
+    id: "specular.fresnel_entering",
+    points: 2,
+    title: "outside, the reflected fraction is that of the Fresnel equations at every angle",
+    look: "Work out both ratios at 60°: the result is the mean of their squares.",
+    section: "light/glass.md#the-mean-of-two-squares",
+    tests: &[
+        "Returns the fraction of unpolarised light that the surface of a medium with index of \
+         refraction `ior` reflects, according to the Fresnel equations.",
+        "See PBR, section 9.3.5: the mean of the squares of two ratios, one for each polarisation.",
+        "Schlick's approximation isn't accurate enough.",
+    ],
+    questions: |rng| {
+        media(rng, dense, |rng, medium| {
+            let mut out = directions_that(rng, medium, above, any);
+            out.extend((0..CALLS).map(|_| direction_with_height(rng, 0.02, 0.5, 1.0)));
+            out.push(DVec3::Z);
+            fresnel(medium, out)
+        })
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+const FRESNEL_LEAVING: Declaration = Declaration {
+    id: "specular.fresnel_leaving",
+    points: 2,
+    title: "inside, the reflected fraction is that of the refracted direction outside",
+    look: "Which cosine belongs to which index, if the path is inside?",
+    section: "light/glass.md#each-side-has-its-own-angle",
+    tests: &[
+        "`out` can be on either side of the surface, as for [`refract`].",
+        "Two directions that refract into each other have the same fraction.",
+    ],
+    questions: |rng| {
+        media(rng, dense, |rng, medium| {
+            let mut out = directions_that(rng, medium, below, refracted);
+            out.push(DVec3::NEG_Z);
+            fresnel(medium, out)
+        })
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+const FRESNEL_TOTAL: Declaration = Declaration {
+    id: "specular.fresnel_total",
+    points: 1,
+    title: "beyond the critical angle, everything is reflected",
+    look: "What do you return where `refract` returns `None`?",
+    section: "light/glass.md#total-reflection-is-full-reflection",
+    tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
+    questions: |rng| {
+        media(rng, dense, |rng, medium| {
+            let mut out = directions_that(rng, medium, below, total);
+            out.extend(directions_that(rng, medium, below, refracted));
+            fresnel(medium, rng.shuffled(out))
+        })
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+const FRESNEL_LOW_INDEX: Declaration = Declaration {
+    id: "specular.fresnel_low_index",
+    points: 1,
+    title: "an index of 1 reflects nothing, and an index below 1 reflects like its inverse inside",
+    look: "Is there anything in your code that is only right if `ior` is greater than 1?",
+    section: "light/glass.md#an-index-below-one",
+    tests: &[],
+    questions: |rng| {
+        let mut questions = media(rng, thin, |rng, medium| {
+            let mut out = directions_that(rng, medium, above, refracted);
+            out.extend(directions_that(rng, medium, below, any));
+            fresnel(medium, rng.shuffled(out))
+        });
+        let out = [list(rng, above), list(rng, below)].concat();
+        questions.push(fresnel(Medium { ior: 1.0 }, out));
+        questions
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+const MIRROR: Declaration = Declaration {
+    id: "specular.mirror",
+    points: 2,
+    title: "a mirror reflects in one direction, attenuated by its reflectance, without a density",
+    look: "Nothing is divided by a density here: what is left of the attenuation?",
+    section: "light/glass.md#a-mirror-has-no-density",
+    tests: &[
+        "Returns the only direction that reflected light can come from.",
+        "`attenuation` is the reflectance, and `pdf` is `None`.",
+    ],
+    questions: |rng| {
+        let colors = [color(rng), color(rng), DVec3::ONE];
+        let question = |reflectance: DVec3| {
+            let out = list(rng, above);
+            let rows = out
+                .iter()
+                .map(|out| specular::mirror_scatter(reflectance, *out));
+            let rows = scattered(rows);
+            let mirror = MirrorColor {
+                reflectance: reflectance.as_vec3(),
+            };
+            let out = out.into_iter().map(local).collect();
+            let question = LightQuestion::MirrorScatter(Table::of_list(mirror, out));
+            table(question, &["direction", "attenuation", "pdf"], rows)
+        };
+        colors.map(question).into()
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+const GLASS_CHOICE: Declaration = Declaration {
+    id: "specular.glass_choice",
+    points: 2,
+    title: "glass reflects if the random number is less than the fraction, and refracts otherwise",
+    look: "Compare `random` with `fresnel`: which of the two directions is chosen below it?",
+    section: "light/glass.md#below-the-fraction-means-reflected",
+    tests: &[
+        "Chooses between reflection and refraction with a random number in `[0, 1)`: the path is \
+         reflected if and only if the number is less than [`fresnel`].",
+        "`pdf` is `None`.",
+    ],
+    questions: |rng| glass(rng, &["direction", "pdf"]),
+    ..Declaration::in_group(SPECULAR)
+};
+
+const GLASS_RADIANCE: Declaration = Declaration {
+    id: "specular.glass_radiance",
+    points: 2,
+    title: "refraction scales radiance by the squared ratio of the indices, and reflection doesn't",
+    look: "Which index is on the side of `out`, and which on the side that the light comes from?",
+    section: "light/glass.md#the-ratio-of-indices-is-squared",
+    tests: &[
+        "If the path is reflected, `attenuation` is 1: the fraction of the light that is \
+         reflected, divided by the probability of reflection.",
+        "If the path is refracted, that quotient is 1, too, but where light enters a denser \
+         medium, its rays are squeezed into a smaller solid angle, so their radiance grows.",
+        "`attenuation` is (η_out / η_in)², the square of the index on the side of `out` over the \
+         index on the side that the light comes from.",
+        "See PBR, section 9.5.2.",
+    ],
+    questions: |rng| glass(rng, &["attenuation"]),
+    ..Declaration::in_group(SPECULAR)
+};
+
+const GLASS_TOTAL: Declaration = Declaration {
+    id: "specular.glass_total",
+    points: 1,
+    title: "total reflection goes in the mirror direction with an attenuation of 1",
+    look: "What do you return if nothing is refracted, whatever the random number is?",
+    section: "light/glass.md#total-reflection-is-not-scaled",
+    tests: &[],
+    questions: |rng| {
+        media(rng, dense, |rng, medium| {
+            let mut out = directions_that(rng, medium, below, total);
+            out.extend(directions_that(rng, medium, below, refracted));
+            glass_samples(rng, medium, out, &["direction", "attenuation", "pdf"])
+        })
+    },
+    ..Declaration::in_group(SPECULAR)
+};
+
+/// Returns directions that are drawn by a function.
+fn list(rng: &mut Rng, draw: fn(&mut Rng) -> DVec3) -> Vec<DVec3> {
+    (0..CALLS).map(|_| draw(rng)).collect()
+}
+
+/// Returns a direction that leaves the normal by at most a few degrees.
+fn nearly_along_the_normal(rng: &mut Rng, side: f64) -> DVec3 {
+    let tilt = 0.03 * rng.direction();
+    single(DVec3::new(tilt.x, tilt.y, side).normalize())
+}
+
+/// Returns the index of a medium that is denser than air.
+fn dense(rng: &mut Rng) -> f64 {
+    rng.uniform(1.2, 2.5)
+}
+
+/// Returns the index of a medium that is thinner than what surrounds it.
+fn thin(rng: &mut Rng) -> f64 {
+    1.0 / dense(rng)
+}
+
+/// Returns questions about media with different indices.
+fn media(
+    rng: &mut Rng,
+    ior: fn(&mut Rng) -> f64,
+    mut question: impl FnMut(&mut Rng, Medium) -> ExamQuestion,
+) -> Vec<ExamQuestion> {
+    let question = |_| {
+        let ior = ior(rng) as f32;
+        question(rng, Medium { ior })
+    };
+    (0..3).map(question).collect()
+}
+
+fn any(_: DVec3, _: f64) -> bool {
+    true
+}
+
+fn refracted(out: DVec3, ior: f64) -> bool {
+    specular::refract(out, ior).is_some()
+}
+
+fn total(out: DVec3, ior: f64) -> bool {
+    !refracted(out, ior)
+}
+
+/// Returns directions for which a condition is true, not close to the critical angle.
+fn directions_that(
+    rng: &mut Rng,
+    medium: Medium,
+    draw: fn(&mut Rng) -> DVec3,
+    condition: fn(DVec3, f64) -> bool,
+) -> Vec<DVec3> {
+    let ior = medium.ior.into();
+    let direction = |_| {
+        rng.retry(|rng| {
+            let out = draw(rng);
+            let is_clear = specular::critical_margin(out, ior) > 0.02;
+            (is_clear && condition(out, ior)).then_some(out)
+        })
+    };
+    (0..CALLS).map(direction).collect()
+}
+
+fn reflections(out: Vec<DVec3>) -> ExamQuestion {
+    let rows = directions(out.iter().map(|out| specular::reflect(*out)));
+    let question = LightQuestion::Reflect(Table::of_list((), locals(out)));
+    table(question, &["direction", "unit_direction"], rows)
+}
+
+fn refractions(
+    medium: Medium,
+    rng: &mut Rng,
+    draw: fn(&mut Rng) -> DVec3,
+    condition: fn(DVec3, f64) -> bool,
+) -> ExamQuestion {
+    let out = directions_that(rng, medium, draw, condition);
+    refraction(medium, out)
+}
+
+fn refraction(medium: Medium, out: Vec<DVec3>) -> ExamQuestion {
+    let refract = |out: &DVec3| specular::refract(*out, medium.ior.into());
+    let rows = optional_directions(out.iter().map(refract));
+    let question = LightQuestion::Refract(Table::of_list(medium, locals(out)));
+    table(question, &["direction", "unit_direction"], rows)
+}
+
+fn fresnel(medium: Medium, out: Vec<DVec3>) -> ExamQuestion {
+    let fraction = |out: &DVec3| specular::fresnel(*out, medium.ior.into());
+    let rows = fractions(out.iter().map(fraction));
+    let question = LightQuestion::Fresnel(Table::of_list(medium, locals(out)));
+    table(question, &["fraction"], rows)
+}
+
+/// Returns questions about glass in which some paths are reflected and others refracted, from both
+/// sides.
+fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
+    let mut questions = media(rng, dense, |rng, medium| {
+        let mut out = directions_that(rng, medium, above, refracted);
+        out.extend(directions_that(rng, medium, below, refracted));
+        glass_samples(rng, medium, out, judged)
+    });
+    questions.extend(media(rng, thin, |rng, medium| {
+        let out = directions_that(rng, medium, above, refracted);
+        glass_samples(rng, medium, out, judged)
+    }));
+    questions
+}
+
+/// Returns a question in which each direction is asked twice: with a random number on each side of
+/// its reflected fraction.
+fn glass_samples(
+    rng: &mut Rng,
+    medium: Medium,
+    out: Vec<DVec3>,
+    judged: &[&str],
+) -> ExamQuestion {
+    let ior = f64::from(medium.ior);
+    let mut calls = Vec::new();
+    for out in out {
+        let fraction = specular::fresnel(out, ior);
+        for is_below in [true, false] {
+            let sample = rng.attempt(1_000, |rng| {
+                // Numbers close to the fraction are as frequent as others.
+                let distance = rng.log_uniform(2.0 * MARGIN, 1.0);
+                let number = if rng.coin() { fraction + distance } else { fraction - distance };
+                let number = if rng.coin() { number as f32 } else { random(rng) };
+                let is_random = (0.0..1.0).contains(&number);
+                let is_clear = specular::glass_margin(ior, out, number.into()) > MARGIN;
+                let is_wanted = (f64::from(number) < fraction) == is_below;
+                (is_random && is_clear && is_wanted).then_some(number)
+            });
+            calls.extend(sample.map(|random| GlassSample {
+                out: out.as_vec3(),
+                random,
+            }));
+        }
+    }
+    let calls = rng.shuffled(calls);
+    let rows = calls
+        .iter()
+        .map(|call| specular::glass_scatter(ior, call.out.as_dvec3(), call.random.into()));
+    let rows = scattered(rows);
+    let question = LightQuestion::GlassScatter(Table::of_list(medium, calls));
+    table(question, judged, rows)
+}
+
+fn locals(directions: Vec<DVec3>) -> Vec<LocalDirection> {
+    directions.into_iter().map(local).collect()
+}

@@ -1,0 +1,3 @@
+//! The submission's `direct.rs`.
+
+pub use submission::direct::direct;

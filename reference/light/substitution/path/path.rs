@@ -1,0 +1,3 @@
+//! The submission's `path.rs`.
+
+pub use submission::path::radiance;

@@ -90,7 +90,7 @@ pub fn can_be_shown(question: &Question) -> bool {
 #[cfg(test)]
 mod tests {
     use glam::UVec2;
-    use protocol::{Corners, Interval, PinholeCamera, Query, Rows, Table};
+    use protocol::{Corners, Interval, LightQuestion, PinholeCamera, Query, Rows, Table};
 
     use super::*;
     use crate::tests::PART;
@@ -107,7 +107,7 @@ mod tests {
         };
         assert!(!can_be_shown(&Question::SampleRay(camera)));
         let mirror = Table::of_list((), Vec::new());
-        assert!(!can_be_shown(&Question::Reflect(mirror)));
+        assert!(!can_be_shown(&LightQuestion::Reflect(mirror).into()));
         for item in &PART.items {
             let is_shown = item.task.id() != "camera";
             for question in &item.questions {

@@ -32,9 +32,9 @@ use crate::world::World;
 ///   surface, `direct` has already counted it.
 /// - A path ends at a surface that scatters nothing, when its throughput is zero, or by chance:
 ///   from bounce 3 on (the fourth surface), it survives if `numbers.survive` is less than q, and
-///   its throughput is divided by q. This is Russian roulette: see PBR, section 2.2.4. q is the
-///   largest channel of the throughput after this bounce's attenuation, but at least 0.05 and at
-///   most 0.95.
+///   its throughput is divided by q. This is Russian roulette: see PBR, section 2.2.4. Here, q is
+///   the largest channel of the throughput after this bounce's attenuation, but at least 0.05 and
+///   at most 0.95.
 pub fn radiance(world: &World, ray: Ray, sampler: &Sampler, bounces: u32) -> Vec3 {
     let _ = (world, sampler);
     todo!("part two, path: how much light does {ray:?} carry after {bounces} bounces?")

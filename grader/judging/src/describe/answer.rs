@@ -20,10 +20,18 @@ pub fn got(answer: &Answer, element: usize) -> String {
             Some(pixel) => point(*pixel),
             None => format!("{} pixels", pixels.len()),
         }),
-        table => {
-            let rows = table.rows().unwrap_or_default();
+        Answer::Rays(_)
+        | Answer::Hits(_)
+        | Answer::Spans(_)
+        | Answer::Directions(_)
+        | Answer::OptionalDirections(_)
+        | Answer::Scattered(_)
+        | Answer::Colors(_)
+        | Answer::Densities(_)
+        | Answer::Fractions(_) => {
+            let rows = answer.rows().unwrap_or_default();
             outcome(rows.get(element), |record| {
-                returned(table.result_text(), *record)
+                returned(answer.result_text(), *record)
             })
         }
     }

@@ -143,7 +143,10 @@ mod tests {
     fn even_directions_are_right_and_crowded_poles_are_not() {
         let even = spread_by(|x, y| on_sphere(1.0 - 2.0 * x, y));
         assert_eq!(judged(&even), None);
-        let turned = spread_by(|x, y| on_sphere(1.0 - 2.0 * y, x).zxy());
+        let turned = spread_by(|x, y| {
+            let direction = on_sphere(1.0 - 2.0 * y, x);
+            Vec3::new(direction.z, direction.x, direction.y)
+        });
         assert_eq!(judged(&turned), None);
         let crowded = spread_by(|x, y| on_sphere((std::f32::consts::PI * x).cos(), y));
         assert_eq!(judged(&crowded).as_deref(), Some("spread"));

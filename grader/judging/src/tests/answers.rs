@@ -77,6 +77,23 @@ impl Error {
             Answer::Directions(all) => self.spoil(&mut all[index], |local| {
                 local.direction = self.vector(local.direction);
             }),
+            Answer::OptionalDirections(all) => self.spoil(&mut all[index], |local| {
+                if let Some(local) = local {
+                    local.direction = self.vector(local.direction);
+                }
+            }),
+            Answer::Scattered(all) => self.spoil(&mut all[index], |scattered| {
+                scattered.attenuation = self.vector(scattered.attenuation);
+            }),
+            Answer::Colors(all) => self.spoil(&mut all[index], |color| {
+                color.value = self.vector(color.value);
+            }),
+            Answer::Densities(all) => self.spoil(&mut all[index], |density| {
+                density.pdf = self.number(density.pdf);
+            }),
+            Answer::Fractions(all) => self.spoil(&mut all[index], |fraction| {
+                fraction.fraction = self.number(fraction.fraction);
+            }),
             Answer::Picture(outcome) => self.spoil(outcome, |pixels| {
                 pixels[index] = self.vector(pixels[index] + 1.0) - 1.0;
             }),
@@ -86,14 +103,9 @@ impl Error {
 }
 
 pub fn count(answer: &Answer) -> usize {
-    match answer {
-        Answer::Rays(rays) => rays.len(),
-        Answer::Hits(hits) => hits.len(),
-        Answer::Spans(spans) => spans.len(),
-        Answer::Directions(all) => all.len(),
-        Answer::Picture(ElementOutcome::Value(pixels)) => pixels.len(),
-        Answer::Picture(_) | Answer::Tree(_) => {
-            unreachable!("this is not the key's answer to anything")
-        }
+    match (answer, answer.rows()) {
+        (_, Some(rows)) => rows.len(),
+        (Answer::Picture(ElementOutcome::Value(pixels)), None) => pixels.len(),
+        (_, None) => unreachable!("this is not the key's answer to anything"),
     }
 }

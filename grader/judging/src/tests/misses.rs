@@ -28,7 +28,7 @@ fn missed(item: &Item) -> Vec<Answer> {
     let miss = |right: Answer| match right {
         Answer::Spans(all) => Answer::Spans(vec![ElementOutcome::Value(None); all.len()]),
         Answer::Hits(all) => Answer::Hits(vec![ElementOutcome::Value(None); all.len()]),
-        Answer::Rays(_) | Answer::Directions(_) | Answer::Tree(_) | Answer::Picture(_) => right,
+        other => other,
     };
     right(item).into_iter().map(miss).collect()
 }

@@ -41,7 +41,8 @@ impl FieldType for Density {
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {
         // Distinguish `None` from every density.
-        self.0.map_or(vec![-1.0], |density| in_tolerances(&[density]))
+        self.0
+            .map_or(vec![-1.0], |density| in_tolerances(&[density]))
     }
 }
 
@@ -75,11 +76,13 @@ impl FieldType for Fraction {
 
 /// Returns the density in an expected value, if any.
 fn expected_density(wanted: &Value) -> Option<f32> {
-    match *wanted {
-        Value::Density(wanted) => Some(wanted),
-        Value::OptionalDensity(wanted) => wanted,
-        _ => None,
+    if let Value::OptionalDensity(wanted) = *wanted {
+        return wanted;
     }
+    if let Value::Density(wanted) = *wanted {
+        return Some(wanted);
+    }
+    None
 }
 
 /// Returns the error of a number as a multiple of the tolerance, which is relative to the expected

@@ -4,14 +4,14 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use protocol::{Interval, Value};
 
-use super::{Tolerance, direction, in_units_of, length, of, uv};
+use super::{Tolerance, direction, in_units_of, length, of, portion, uv};
 
 /// Generates pairs that consist of a correct value of any type and an arbitrary answer.
 fn pair() -> impl Strategy<Value = (Value<'static>, Value<'static>)> {
     let unit = |at: Vec3| at.try_normalize().unwrap_or(Vec3::X);
     let correct = (point(-1e3..1e3), 0.0..1e3_f32);
     let got = (any::<[f32; 3]>().prop_map(Vec3::from), any::<f32>());
-    (0..7, correct, got).prop_map(move |(kind, (at, length), (any, number))| match kind {
+    (0..11, correct, got).prop_map(move |(kind, (at, length), (any, number))| match kind {
         0 => (Value::Length(length), Value::Length(number)),
         1 => (Value::Point(at), Value::Point(any)),
         2 => (Value::Direction(unit(at)), Value::Direction(any)),
@@ -24,6 +24,14 @@ fn pair() -> impl Strategy<Value = (Value<'static>, Value<'static>)> {
             Value::Range(times(length, f32::INFINITY)),
             Value::Range(times(number, any.x)),
         ),
+        6 => (Value::Color(at), Value::Color(any)),
+        7 => (Value::Density(length), Value::Density(number)),
+        8 => (
+            Value::OptionalDensity(Some(length)),
+            Value::OptionalDensity(Some(number)),
+        ),
+        // Small fractions are compared as if they were larger.
+        9 => (Value::Fraction(0.5 + length / 2e3), Value::Fraction(number)),
         _ => (Value::Index(length as u32), Value::Index(number.to_bits())),
     })
 }
@@ -46,6 +54,7 @@ fn times(min: f32, length: f32) -> Interval {
 
 /// Returns the value with an error of this many tolerances, or `None` if the type has no tolerance.
 fn spoiled(value: &Value, tolerances: f32, scale: f32) -> Option<Value<'static>> {
+    let relative = |at: f32| at + tolerances * portion::TOLERANCE as f32 * at.abs();
     let length = |length: f32| length + tolerances * length::TOLERANCE * length.abs().max(scale);
     Some(match *value {
         Value::Length(correct) => Value::Length(length(correct)),
@@ -63,6 +72,13 @@ fn spoiled(value: &Value, tolerances: f32, scale: f32) -> Option<Value<'static>>
             min: length(times.min),
             ..times
         }),
+        Value::Color(at) => {
+            let error = tolerances * portion::TOLERANCE as f32 * at.abs().max_element();
+            Value::Color(at + Vec3::Z * error)
+        }
+        Value::Density(at) => Value::Density(relative(at)),
+        Value::OptionalDensity(at) => Value::OptionalDensity(Some(relative(at?))),
+        Value::Fraction(at) => Value::Fraction(relative(at)),
         Value::Index(_)
         | Value::Count(_)
         | Value::Angle(_)
@@ -71,7 +87,12 @@ fn spoiled(value: &Value, tolerances: f32, scale: f32) -> Option<Value<'static>>
         | Value::Pixel(_)
         | Value::Offset(_)
         | Value::Shapes(_)
-        | Value::Nodes(_) => return None,
+        | Value::Nodes(_)
+        | Value::Random(_)
+        | Value::RandomPair(_)
+        | Value::Lights(_)
+        | Value::Scene(_)
+        | Value::Map(_) => return None,
     })
 }
 

@@ -3,13 +3,20 @@
 use grader::handed_out::find_method;
 use judging::assignment::TaskInfo;
 
-/// Returns the sentences that document a task's methods, given the text of its file.
+/// Returns the sentences that document a task's methods, given the text of its file. A sentence that
+/// documents several methods is returned once.
 pub(super) fn sentences(file: &str, task: &TaskInfo) -> Vec<String> {
     let documented = task.methods.iter().flat_map(|path| {
         let documentation = documentation(file, path);
         split(&paragraphs(&documentation))
     });
-    documented.collect()
+    let mut sentences: Vec<String> = Vec::new();
+    for sentence in documented {
+        if !sentences.contains(&sentence) {
+            sentences.push(sentence);
+        }
+    }
+    sentences
 }
 
 /// Returns the lines that document a method with this full name, without their slashes.

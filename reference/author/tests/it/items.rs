@@ -2,16 +2,25 @@
 
 use std::collections::BTreeSet;
 
+use author::authoring;
+use author::exams::assemble;
 use author::items::shares_a_question;
 use author::seed::Seed;
 use glam::Vec3;
-use judging::assignment::RAYS;
-use judging::exam::{ExpectedRows, Item, Key, TreeCheck};
+use judging::assignment::{Assignment, LIGHT, RAYS};
+use judging::exam::{Exam, ExpectedRows, Item, Key, TreeCheck};
 use judging::scene::{self, QuestionScene};
 use judging::symptom::{Side, Symptom};
 use protocol::{Question, Ray, Shape};
 
 use crate::harness::{SEEDS, exam_of};
+
+/// Returns an exam of each assignment.
+fn exam_of_each() -> [(&'static Assignment, Exam); 2] {
+    let light = assemble(&authoring::LIGHT, "test", Seed(SEEDS[0]));
+    let light = light.expect("the practice exam can be read");
+    [(&RAYS, exam_of(SEEDS[0]).clone()), (&LIGHT, light)]
+}
 
 fn rays(question: &Question) -> impl Iterator<Item = Ray> {
     (0..question.count()).filter_map(|row| scene::ray(question, row))
@@ -19,42 +28,46 @@ fn rays(question: &Question) -> impl Iterator<Item = Ray> {
 
 #[test]
 fn ids_are_unique_and_begin_with_their_task() {
-    let exam = exam_of(SEEDS[0]);
-    let ids: BTreeSet<&String> = exam.items.iter().map(|item| &item.id).collect();
-    assert_eq!(ids.len(), exam.items.len());
-    assert!(exam.items.len() >= 60, "{}", exam.items.len());
-    for item in &exam.items {
-        let task = format!("{}.", item.task);
-        assert!(item.id.starts_with(&task), "{}", item.id);
+    for (_, exam) in exam_of_each() {
+        let ids: BTreeSet<&String> = exam.items.iter().map(|item| &item.id).collect();
+        assert_eq!(ids.len(), exam.items.len());
+        assert!(exam.items.len() >= 50, "{}", exam.items.len());
+        for item in &exam.items {
+            let task = format!("{}.", item.task);
+            assert!(item.id.starts_with(&task), "{}", item.id);
+        }
     }
 }
 
 #[test]
 fn points_add_up_per_task() {
-    let exam = exam_of(SEEDS[0]);
-    for task in RAYS.tasks() {
-        let of_task = exam.items.iter().filter(|item| item.task == task);
-        let points: u32 = of_task.map(|item| item.points).sum();
-        assert_eq!(points, RAYS.info(task).points, "{task}");
+    for (assignment, exam) in exam_of_each() {
+        for task in assignment.tasks() {
+            let of_task = exam.items.iter().filter(|item| item.task == task);
+            let points: u32 = of_task.map(|item| item.points).sum();
+            assert_eq!(points, assignment.info(task).points, "{task}");
+        }
+        assert!(exam.items.iter().all(|item| item.points >= 1));
     }
-    assert!(exam.items.iter().all(|item| item.points >= 1));
 }
 
 #[test]
 fn items_come_after_their_dependencies_which_are_of_other_tasks() {
-    let exam = exam_of(SEEDS[0]);
-    for (index, item) in exam.items.iter().enumerate() {
-        for needed in &item.needs {
-            let found = exam.items[..index].iter().find(|other| other.id == *needed);
-            let found = found.unwrap_or_else(|| panic!("{} needs {needed}", item.id));
-            assert_ne!(found.task, item.task, "{} needs {needed}", item.id);
+    for (_, exam) in exam_of_each() {
+        for (index, item) in exam.items.iter().enumerate() {
+            for needed in &item.needs {
+                let found = exam.items[..index].iter().find(|other| other.id == *needed);
+                let found = found.unwrap_or_else(|| panic!("{} needs {needed}", item.id));
+                assert_ne!(found.task, item.task, "{} needs {needed}", item.id);
+            }
         }
     }
 }
 
 #[test]
 fn titles_and_advice_are_sentences_without_code() {
-    for item in &exam_of(SEEDS[0]).items {
+    let exams = exam_of_each();
+    for item in exams.iter().flat_map(|(_, exam)| &exam.items) {
         let (title, look) = (&item.title, &item.look);
         assert!(title.chars().count() <= 80, "{title}");
         assert!(!title.ends_with('.'), "{title}");
@@ -78,7 +91,8 @@ fn possible_symptoms(key: &Key) -> Vec<Symptom> {
         Key::Table { judged, rows, .. } => {
             let presence = match rows {
                 ExpectedRows::Hits(_) | ExpectedRows::Spans(_) => vec![Symptom::MISS, Symptom::HIT],
-                ExpectedRows::Rays(_) | ExpectedRows::Directions(_) => Vec::new(),
+                ExpectedRows::OptionalDirections(_) => vec![Symptom::MISS, Symptom::HIT],
+                _ => Vec::new(),
             };
             let directions = judged
                 .iter()
@@ -113,13 +127,18 @@ fn possible_symptoms(key: &Key) -> Vec<Symptom> {
             always.into_iter().chain(cost).chain(checks).collect()
         }
         Key::Radiance { .. } => vec![Symptom::of("radiance")],
+        Key::SpreadEvenly { .. } => vec![Symptom::of("spread")],
     }
 }
 
 #[test]
 fn there_is_advice_for_every_symptom() {
-    for item in &exam_of(SEEDS[0]).items {
-        let clues = &RAYS.info(item.task).clues;
+    let exams = exam_of_each();
+    let items = exams
+        .iter()
+        .flat_map(|(assignment, exam)| exam.items.iter().map(move |item| (assignment, item)));
+    for (assignment, item) in items {
+        let clues = &assignment.info(item.task).clues;
         let keys = item.questions.iter().map(|question| &question.key);
         for symptom in keys.flat_map(possible_symptoms) {
             let has_advice = item.has_look_for(&symptom) || clues.of_symptom(&symptom).is_some();
@@ -170,12 +189,16 @@ fn has_opposites(item: &Item) -> bool {
                     let is_other = |dir: &Vec3| dir.distance(directions[0]) > 0.1;
                     directions.iter().map(is_other).collect()
                 }
-                ExpectedRows::Hits(_) | ExpectedRows::Spans(_) | ExpectedRows::Directions(_) => {
+                ExpectedRows::Hits(_) | ExpectedRows::Spans(_) => {
                     (0..rows.count()).map(|row| rows.is_present(row)).collect()
+                }
+                rows => {
+                    let text = |row| format!("{:?}", rows.record(row));
+                    (0..rows.count()).map(|row| text(row) == text(0)).collect()
                 }
             },
             Key::FirstHits { hits, .. } => hits.iter().map(Option::is_some).collect(),
-            Key::Tree { .. } => vec![true, false],
+            Key::Tree { .. } | Key::SpreadEvenly { .. } => vec![true, false],
             Key::Radiance { .. } => Vec::new(),
         }
     };
@@ -190,6 +213,10 @@ fn every_item_has_opposite_answers() {
         for item in &exam_of(seed).items {
             assert!(has_opposites(item), "seed {seed}, {}", item.id);
         }
+    }
+    let [_, (_, light)] = exam_of_each();
+    for item in &light.items {
+        assert!(has_opposites(item), "{}", item.id);
     }
 }
 

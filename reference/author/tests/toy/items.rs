@@ -7,7 +7,7 @@ use author::seed::Rng;
 use author::tree::{Tree, construction, decoy};
 use glam::DVec3;
 use judging::exam::{ExamQuestion, ExpectedRows, Key};
-use protocol::{Geometry, LocalDirection, Question, Ray, Shape, Table};
+use protocol::{Geometry, LightQuestion, LocalDirection, Question, Ray, Shape, Table};
 
 /// The items about a single ball, which the items about lists of balls need.
 const BALLS: Group = Group("balls");
@@ -70,8 +70,8 @@ const REFLECTS: Declaration = Declaration {
         let rows = ExpectedRows::Directions(reflected.map(local).collect());
         let key = Key::table(&["direction", "unit_direction"], rows);
         let rows = directions.into_iter().map(local).collect();
-        let question = Question::Reflect(Table::of_list((), rows));
-        vec![ExamQuestion::new(question, key)]
+        let question = LightQuestion::Reflect(Table::of_list((), rows));
+        vec![ExamQuestion::new(question.into(), key)]
     },
     ..Declaration::ALONE
 };
@@ -92,7 +92,7 @@ static DIRECTIONS: FunctionDomain<LocalDirection> = FunctionDomain {
     }],
     pairs: &[],
     calls: |question| {
-        let Question::Reflect(table) = question else {
+        let Question::Light(LightQuestion::Reflect(table)) = question else {
             return Vec::new();
         };
         table.rows.to_vec().into_owned()

@@ -7,9 +7,7 @@ use protocol::light::LightQuestion;
 use protocol::light::transport;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
-use super::rooms::{
-    DARK, DirectCase, direct_case, emitter, matte, panel, sky, tilted, walls,
-};
+use super::rooms::{DARK, DirectCase, direct_case, emitter, matte, panel, sky, tilted, walls};
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
 use crate::oracle::light::quad::{Material64, Quad};
@@ -50,14 +48,18 @@ const SMALL_LIGHT: Declaration = Declaration {
         "[`World::light_pdf`] returns the light pdf.",
     ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            let mut quads = walls(HALF, || matte(rng));
-            let center = rng.point(1.2);
-            let size = rng.uniform(0.1, 0.2);
-            let material = emitter(rng);
-            quads.push(tilted(rng, center, size, material));
-            Room::new(quads, DARK)
-        }, LIT_AND_DARK)
+        rooms(
+            rng,
+            |rng| {
+                let mut quads = walls(HALF, || matte(rng));
+                let center = rng.point(1.2);
+                let size = rng.uniform(0.1, 0.2);
+                let material = emitter(rng);
+                quads.push(tilted(rng, center, size, material));
+                Room::new(quads, DARK)
+            },
+            LIT_AND_DARK,
+        )
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -76,14 +78,18 @@ const SKY: Declaration = Declaration {
          environment.",
     ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            let mut quads = open(rng);
-            let center = rng.point(1.0);
-            let material = matte(rng);
-            quads.push(tilted(rng, center, 1.5, material));
-            let sky = sky(rng);
-            Room::new(quads, sky)
-        }, LIT_AND_DARK)
+        rooms(
+            rng,
+            |rng| {
+                let mut quads = open(rng);
+                let center = rng.point(1.0);
+                let material = matte(rng);
+                quads.push(tilted(rng, center, 1.5, material));
+                let sky = sky(rng);
+                Room::new(quads, sky)
+            },
+            LIT_AND_DARK,
+        )
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -104,15 +110,23 @@ const BOTH: Declaration = Declaration {
          was sampled.",
     ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            // The ceiling is a light, so most directions find it.
-            let mut quads = walls(HALF, || matte(rng));
-            quads.pop();
-            let light = emitter(rng);
-            quads[3] = panel(dvec3(0.0, HALF.y, 0.0), 1, -1.0, HALF, light);
-            let sky = sky(rng);
-            Room::new(quads, sky)
-        }, |rng, room| (0..2 * CALLS).map(|_| direct_case(rng, room, |_, light| is_lit(light))).collect())
+        rooms(
+            rng,
+            |rng| {
+                // The ceiling is a light, so most directions find it.
+                let mut quads = walls(HALF, || matte(rng));
+                quads.pop();
+                let light = emitter(rng);
+                quads[3] = panel(dvec3(0.0, HALF.y, 0.0), 1, -1.0, HALF, light);
+                let sky = sky(rng);
+                Room::new(quads, sky)
+            },
+            |rng, room| {
+                (0..2 * CALLS)
+                    .map(|_| direct_case(rng, room, |_, light| is_lit(light)))
+                    .collect()
+            },
+        )
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -129,15 +143,19 @@ const BLOCKED: Declaration = Declaration {
         "A direction adds nothing if the sum of its densities is zero, or if `evaluate` is zero.",
     ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            let mut quads = walls(HALF, || matte(rng));
-            let light = emitter(rng);
-            let half = dvec3(0.6, 0.0, 0.6);
-            quads.push(panel(dvec3(0.0, 1.9, 0.0), 1, -1.0, half, light));
-            let screen = matte(rng);
-            quads.push(panel(dvec3(0.3, 0.9, 0.2), 1, 1.0, half, screen));
-            Room::new(quads, DARK)
-        }, LIT_AND_DARK)
+        rooms(
+            rng,
+            |rng| {
+                let mut quads = walls(HALF, || matte(rng));
+                let light = emitter(rng);
+                let half = dvec3(0.6, 0.0, 0.6);
+                quads.push(panel(dvec3(0.0, 1.9, 0.0), 1, -1.0, half, light));
+                let screen = matte(rng);
+                quads.push(panel(dvec3(0.3, 0.9, 0.2), 1, 1.0, half, screen));
+                Room::new(quads, DARK)
+            },
+            LIT_AND_DARK,
+        )
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -149,20 +167,24 @@ const TURNED: Declaration = Declaration {
     title: "a tilted surface is lit in its own frame",
     look: "Which of your directions are in the world, and which are in the surface's frame?",
     section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
-    tests: &[],
+    tests: &["The result is the sum, over both directions, of evaluate × radiance / …"],
     questions: |rng| {
-        rooms(rng, |rng| {
-            let mut quads: Vec<Quad> = Vec::new();
-            for _ in 0..5 {
-                let center = rng.point(2.0);
-                let material = matte(rng);
-                quads.push(tilted(rng, center, 1.2, material));
-            }
-            let light = emitter(rng);
-            quads.push(panel(dvec3(0.0, 3.5, 0.0), 1, -1.0, 2.0 * HALF, light));
-            let sky = sky(rng);
-            Room::new(quads, sky)
-        }, LIT_AND_DARK)
+        rooms(
+            rng,
+            |rng| {
+                let mut quads: Vec<Quad> = Vec::new();
+                for _ in 0..5 {
+                    let center = rng.point(2.0);
+                    let material = matte(rng);
+                    quads.push(tilted(rng, center, 1.2, material));
+                }
+                let light = emitter(rng);
+                quads.push(panel(dvec3(0.0, 3.5, 0.0), 1, -1.0, 2.0 * HALF, light));
+                let sky = sky(rng);
+                Room::new(quads, sky)
+            },
+            LIT_AND_DARK,
+        )
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -176,14 +198,24 @@ const NO_SAMPLE: Declaration = Declaration {
     section: "light/direct.md#without-a-light-sample",
     tests: &["If it returns `None`, the first term is zero."],
     questions: |rng| {
-        rooms(rng, |rng| {
-            // The light faces away from nearly everything.
-            let mut quads = open(rng);
-            let light = emitter(rng);
-            quads.push(panel(dvec3(0.0, 1.0, 0.0), 1, 1.0, dvec3(0.7, 0.0, 0.7), light));
-            let sky = sky(rng);
-            Room::new(quads, sky)
-        }, LIT_AND_DARK)
+        rooms(
+            rng,
+            |rng| {
+                // The light faces away from nearly everything.
+                let mut quads = open(rng);
+                let light = emitter(rng);
+                quads.push(panel(
+                    dvec3(0.0, 1.0, 0.0),
+                    1,
+                    1.0,
+                    dvec3(0.7, 0.0, 0.7),
+                    light,
+                ));
+                let sky = sky(rng);
+                Room::new(quads, sky)
+            },
+            LIT_AND_DARK,
+        )
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -201,31 +233,48 @@ const OTHER_MATERIALS: Declaration = Declaration {
          one that they reflect or refract to.",
     ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            let mirror = Material64::Mirror { reflectance: color(rng) };
-            let ior = rng.uniform(1.3, 1.8);
-            let mut materials = vec![
-                mirror,
-                Material64::Glass { ior },
-                matte(rng),
-                matte(rng),
-                mirror,
-                Material64::Glass { ior },
-            ];
-            let mut quads = walls(HALF, || materials.pop().expect("there are six walls"));
-            let light = emitter(rng);
-            quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.0, 0.0, 1.0), light));
-            Room::new(quads, DARK)
-        }, |rng, room| {
-            let is_matte = |material| matches!(material, Material64::Lambertian { .. });
-            let mut cases: Vec<DirectCase> = (0..CALLS)
-                .map(|_| direct_case(rng, room, |surface, light| is_matte(surface.material) && is_lit(light)))
-                .collect();
-            cases.extend((0..2 * CALLS).map(|_| {
-                direct_case(rng, room, |surface, _| !is_matte(surface.material))
-            }));
-            cases
-        })
+        rooms(
+            rng,
+            |rng| {
+                let mirror = Material64::Mirror {
+                    reflectance: color(rng),
+                };
+                let ior = rng.uniform(1.3, 1.8);
+                let mut materials = vec![
+                    mirror,
+                    Material64::Glass { ior },
+                    matte(rng),
+                    matte(rng),
+                    mirror,
+                    Material64::Glass { ior },
+                ];
+                let mut quads = walls(HALF, || materials.pop().expect("there are six walls"));
+                let light = emitter(rng);
+                quads.push(panel(
+                    dvec3(0.0, 1.8, 0.0),
+                    1,
+                    -1.0,
+                    dvec3(1.0, 0.0, 1.0),
+                    light,
+                ));
+                Room::new(quads, DARK)
+            },
+            |rng, room| {
+                let is_matte = |material| matches!(material, Material64::Lambertian { .. });
+                let mut cases: Vec<DirectCase> = (0..CALLS)
+                    .map(|_| {
+                        direct_case(rng, room, |surface, light| {
+                            is_matte(surface.material) && is_lit(light)
+                        })
+                    })
+                    .collect();
+                cases.extend(
+                    (0..2 * CALLS)
+                        .map(|_| direct_case(rng, room, |surface, _| !is_matte(surface.material))),
+                );
+                cases
+            },
+        )
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -263,7 +312,11 @@ fn rooms(
         let rows = colors(cases.iter().map(|case| case.light));
         let calls = cases.iter().map(|case| case.call).collect();
         let subject = transport::Room { scene: room.text() };
-        table(LightQuestion::Direct(Table::of_list(subject, calls)), &["value"], rows)
+        table(
+            LightQuestion::Direct(Table::of_list(subject, calls)),
+            &["value"],
+            rows,
+        )
     };
     (0..2).map(question).collect()
 }

@@ -2,9 +2,9 @@
 
 use glam::{DVec3, UVec2, Vec2, Vec3, uvec2};
 use judging::exam::{ExamQuestion, Key};
+use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::environment::{MapImage, MapSample, RandomPair};
-use protocol::Table;
 
 use super::{color, densities, directions, local, random, random_pair, single, table};
 use crate::items::{AuthoredTask, Declaration};
@@ -79,7 +79,10 @@ const UNIFORM_UNIT: Declaration = Declaration {
         let corners = ends.into_iter().flat_map(|x| ends.map(|y| Vec2::new(x, y)));
         let mut pairs: Vec<Vec2> = corners.collect();
         pairs.extend((0..CALLS).map(|_| random_pair(rng)));
-        let pairs: Vec<RandomPair> = pairs.into_iter().map(|random| RandomPair { random }).collect();
+        let pairs: Vec<RandomPair> = pairs
+            .into_iter()
+            .map(|random| RandomPair { random })
+            .collect();
         // Only the length is judged, so any direction will do.
         let rows = directions(pairs.iter().map(|_| DVec3::Y));
         let question = LightQuestion::UniformSphere(Table::of_list((), pairs));
@@ -103,7 +106,7 @@ const PICK: Declaration = Declaration {
         "Numbers at the border between two pixels are not tested.",
     ],
     questions: |rng| {
-        let sizes = [uvec2(2, 1), uvec2(4, 3), uvec2(8, 4), uvec2(7, 9)];
+        let sizes = [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)];
         let questions = sizes.map(|size| {
             let map = colorful(rng, size);
             samples(rng, map, |_| true)
@@ -126,7 +129,7 @@ const POSITION: Declaration = Declaration {
     ],
     questions: |rng| {
         // In maps with few pixels, the position matters most.
-        let sizes = [uvec2(1, 1), uvec2(2, 2), uvec2(3, 1)];
+        let sizes = [uvec2(2, 1), uvec2(2, 1), uvec2(4, 2)];
         let questions = sizes.map(|size| {
             let map = colorful(rng, size);
             samples(rng, map, |_| true)
@@ -144,7 +147,7 @@ const SINE: Declaration = Declaration {
     section: "light/environment.md#the-sine-belongs-in-the-weight",
     tests: &["A pixel's weight is its luminance, times the sine of θ in the middle of its row."],
     questions: |rng| {
-        let sizes = [uvec2(1, 3), uvec2(1, 8), uvec2(2, 16)];
+        let sizes = [uvec2(4, 2), uvec2(6, 3), uvec2(16, 8)];
         let questions = sizes.map(|size| {
             let grey = single(DVec3::splat(rng.uniform(0.2, 3.0)));
             let map = MapImage {
@@ -164,11 +167,11 @@ const LUMINANCE: Declaration = Declaration {
     title: "a pixel's colour counts by its luminance",
     look: "How much does a green pixel weigh in your code, compared with a blue one?",
     section: "light/environment.md#the-weight-of-a-pixel",
-    tests: &[],
+    tests: &["A pixel's weight is its luminance, …"],
     questions: |rng| {
-        let size = uvec2(6, 2);
+        let size = uvec2(4, 2);
         let pure = [Vec3::X, Vec3::Y, Vec3::Z];
-        let pixels = (0..12).map(|n| pure[n % 3] * rng.uniform(0.5, 2.0) as f32);
+        let pixels = (0..8).map(|n| pure[n % 3] * rng.uniform(0.5, 2.0) as f32);
         let map = MapImage {
             size,
             pixels: pixels.collect(),
@@ -186,9 +189,9 @@ const ENDS: Declaration = Declaration {
     title: "the smallest and the largest numbers pick the first and the last bright pixel",
     look: "What does your search return if `choice` is 0, or if it is just below 1?",
     section: "light/environment.md#the-search-ends-at-the-last-pixel",
-    tests: &[],
+    tests: &["`choice` picks the pixel: …"],
     questions: |rng| {
-        let sizes = [uvec2(1, 1), uvec2(4, 2), uvec2(16, 8)];
+        let sizes = [uvec2(2, 1), uvec2(4, 2), uvec2(16, 8)];
         let mut questions = Vec::new();
         for size in sizes {
             let whole = colorful(rng, size);
@@ -225,10 +228,10 @@ const BLACK: Declaration = Declaration {
     tests: &[
         "A map can be entirely black.",
         "In that case, [`Environment::sample`] is never called.",
-        "The result is zero for directions that [`Environment::sample`] never returns.",
+        "The result is zero for a black pixel, and everywhere if all pixels are black.",
     ],
     questions: |rng| {
-        let sizes = [uvec2(4, 4), uvec2(8, 4), uvec2(9, 5)];
+        let sizes = [uvec2(6, 3), uvec2(8, 4), uvec2(10, 5)];
         let mut questions = Vec::new();
         for size in sizes {
             let mut map = colorful(rng, size);
@@ -265,13 +268,15 @@ const PDF: Declaration = Declaration {
     section: "light/environment.md#the-sine-in-the-density",
     tests: &[
         "Returns the probability density, per solid angle, with which [`Environment::sample`] \
-         chooses a direction.",
-        "w · h / (2π² sin θ) times the pixel's share of the weights, where w and h are the map's \
-         width and height in pixels, and θ is the angle of the direction itself.",
+         chooses a direction: share · width · height / (2π² · sin θ).",
+        "Here, `share` is the pixel's share of the weights, and θ is the angle of the direction \
+         itself, not that of the pixel's middle.",
+        "The direction must be a unit vector.",
+        "The given [`Environment::index`] finds the pixel.",
         "Directions at the poles (sin θ = 0) and at the edge of a pixel are not tested.",
     ],
     questions: |rng| {
-        let sizes = [uvec2(1, 1), uvec2(4, 3), uvec2(8, 4), uvec2(7, 9)];
+        let sizes = [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)];
         let questions = sizes.map(|size| {
             let map = colorful(rng, size);
             pdfs(rng, map, |_| true)
@@ -284,12 +289,15 @@ const PDF: Declaration = Declaration {
 const SIZES: Declaration = Declaration {
     id: "environment.sizes",
     points: 1,
-    title: "maps of any shape are sampled, from a single column to a very wide row",
-    look: "Do you mix up the width and the height somewhere?",
+    title: "maps of any size are sampled, from two pixels to many",
+    look: "Do you mix up the width and the height, or rows and columns?",
     section: "light/environment.md#three-components-and-two-angles",
-    tests: &[],
+    tests: &[
+        "`choice` picks the pixel: …",
+        "Here, `share` is the pixel's share of the weights, …",
+    ],
     questions: |rng| {
-        let sizes = [uvec2(1, 24), uvec2(48, 1), uvec2(32, 4), uvec2(5, 20)];
+        let sizes = [uvec2(2, 1), uvec2(24, 12), uvec2(32, 16)];
         let mut questions = Vec::new();
         for size in sizes {
             let map = colorful(rng, size);

@@ -2,9 +2,9 @@
 
 use glam::{DVec3, Vec2};
 use judging::exam::ExamQuestion;
+use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::lambertian::{DirectionPair, Matte, MatteSample};
-use protocol::Table;
 
 use super::groups::{MATTE, MATTE_SAMPLES};
 use super::{above, below, color, colors, densities, direction_with_height, random_pair};
@@ -41,7 +41,11 @@ const EVALUATE: Declaration = Declaration {
          angle: albedo / π · cos θ, where θ is the angle between `incoming` and the normal.",
         "See PBR, section 9.2, whose f doesn't include the cosine.",
     ],
-    questions: |rng| surfaces(rng, |rng, matte| vec![evaluations(matte, pairs(rng, above, above))]),
+    questions: |rng| {
+        surfaces(rng, |rng, matte| {
+            vec![evaluations(matte, pairs(rng, above, above))]
+        })
+    },
     ..Declaration::in_group(MATTE)
 };
 
@@ -55,7 +59,11 @@ const PDF: Declaration = Declaration {
         "Returns the probability density, per solid angle, with which [`Lambertian::scatter`] \
          chooses `incoming`: cos θ / π.",
     ],
-    questions: |rng| surfaces(rng, |rng, matte| vec![pdfs(matte, pairs(rng, above, above))]),
+    questions: |rng| {
+        surfaces(rng, |rng, matte| {
+            vec![pdfs(matte, pairs(rng, above, above))]
+        })
+    },
     ..Declaration::in_group(MATTE)
 };
 
@@ -75,10 +83,7 @@ const BELOW: Declaration = Declaration {
                 pairs(rng, above, above),
             ];
             let mixed = rng.shuffled(both.concat());
-            vec![
-                evaluations(matte, mixed.clone()),
-                pdfs(matte, mixed),
-            ]
+            vec![evaluations(matte, mixed.clone()), pdfs(matte, mixed)]
         })
     },
     ..Declaration::in_group(MATTE)
@@ -90,7 +95,7 @@ const GRAZING: Declaration = Declaration {
     title: "light that grazes the surface is scattered in proportion to its small cosine",
     look: "Is there a smallest cosine in your code? A cosine of 0.001 isn't zero.",
     section: "light/materials.md#both-directions-must-be-above-the-surface",
-    tests: &[],
+    tests: &["The result is zero unless both directions are above the surface (z > 0)."],
     questions: |rng| {
         surfaces(rng, |rng, matte| {
             let pairs = [pairs(rng, above, grazing), pairs(rng, grazing, above)].concat();
@@ -149,7 +154,11 @@ const SAMPLED_PDF: Declaration = Declaration {
     look: "Which direction do you compute the density for: `out`, or the one you return?",
     section: "light/materials.md#the-density-of-the-sampled-direction",
     tests: &["`pdf` is the density of this direction."],
-    questions: |rng| surfaces(rng, |rng, matte| samples(matte, &["pdf"], randoms(rng), rng)),
+    questions: |rng| {
+        surfaces(rng, |rng, matte| {
+            samples(matte, &["pdf"], randoms(rng), rng)
+        })
+    },
     ..Declaration::in_group(MATTE_SAMPLES)
 };
 
@@ -186,11 +195,15 @@ fn pairs(
 
 fn evaluations(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
     let albedo = matte.albedo.as_dvec3();
-    let rows = pairs.iter().map(|pair| {
-        lambertian::evaluate(albedo, pair.out.as_dvec3(), pair.incoming.as_dvec3())
-    });
+    let rows = pairs
+        .iter()
+        .map(|pair| lambertian::evaluate(albedo, pair.out.as_dvec3(), pair.incoming.as_dvec3()));
     let rows = colors(rows);
-    table(LightQuestion::Evaluate(Table::of_list(matte, pairs)), &["value"], rows)
+    table(
+        LightQuestion::Evaluate(Table::of_list(matte, pairs)),
+        &["value"],
+        rows,
+    )
 }
 
 fn pdfs(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
@@ -198,7 +211,11 @@ fn pdfs(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
         .iter()
         .map(|pair| lambertian::pdf(pair.out.as_dvec3(), pair.incoming.as_dvec3()));
     let rows = densities(rows);
-    table(LightQuestion::LambertianPdf(Table::of_list(matte, pairs)), &["pdf"], rows)
+    table(
+        LightQuestion::LambertianPdf(Table::of_list(matte, pairs)),
+        &["pdf"],
+        rows,
+    )
 }
 
 fn randoms(rng: &mut Rng) -> Vec<Vec2> {
@@ -212,9 +229,9 @@ fn samples(matte: Matte, judged: &[&str], numbers: Vec<Vec2>, rng: &mut Rng) -> 
     });
     let calls: Vec<MatteSample> = calls.collect();
     let albedo = matte.albedo.as_dvec3();
-    let rows = calls.iter().map(|call| {
-        lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2())
-    });
+    let rows = calls
+        .iter()
+        .map(|call| lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2()));
     let rows = scattered(rows);
     let question = LightQuestion::LambertianScatter(Table::of_list(matte, calls));
     vec![table(question, judged, rows)]

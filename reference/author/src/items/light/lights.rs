@@ -19,16 +19,7 @@ const CALLS: usize = 12;
 /// The task `lights`.
 pub static TASK: AuthoredTask = AuthoredTask {
     items: &[
-        DENSITY,
-        TRIANGLE,
-        BEHIND,
-        PAST,
-        GRAZING,
-        DIRECTION,
-        PICK,
-        FACES_AWAY,
-        SHARES,
-        OVERLAP,
+        DENSITY, TRIANGLE, BEHIND, PAST, GRAZING, DIRECTION, PICK, FACES_AWAY, SHARES, OVERLAP,
     ],
     ..AuthoredTask::NEW
 };
@@ -48,7 +39,11 @@ const DENSITY: Declaration = Declaration {
         "`direction` has length one.",
         "The given [`AreaLight::intersect`] finds the distance.",
     ],
-    questions: |rng| one_light(rng, false, |rng, light| toward(rng, light, Side::Front, CALLS)),
+    questions: |rng| {
+        one_light(rng, false, |rng, light| {
+            toward(rng, light, Side::Front, CALLS)
+        })
+    },
     ..Declaration::in_group(LIGHT_DENSITIES)
 };
 
@@ -58,8 +53,15 @@ const TRIANGLE: Declaration = Declaration {
     title: "the density of a triangle's directions uses the triangle's own area",
     look: "The given `area` is right for both shapes. Do you compute your own?",
     section: "light/lights.md#the-density-of-an-area-light",
-    tests: &[],
-    questions: |rng| one_light(rng, true, |rng, light| toward(rng, light, Side::Front, CALLS)),
+    tests: &[
+        "Returns the probability density, per solid angle, of a direction from a point to the \
+         light if points on the light are sampled uniformly: …",
+    ],
+    questions: |rng| {
+        one_light(rng, true, |rng, light| {
+            toward(rng, light, Side::Front, CALLS)
+        })
+    },
     ..Declaration::in_group(LIGHT_DENSITIES)
 };
 
@@ -69,7 +71,7 @@ const BEHIND: Declaration = Declaration {
     title: "from behind, a light has no density",
     look: "What is the sign of your cosine if the point is behind the light?",
     section: "light/lights.md#the-back-of-a-light-is-dark",
-    tests: &[],
+    tests: &["The result is zero if the direction misses the light, and from behind, …"],
     questions: |rng| {
         one_light(rng, false, |rng, light| {
             let mut calls = toward(rng, light, Side::Back, CALLS);
@@ -111,8 +113,15 @@ const GRAZING: Declaration = Declaration {
     title: "a light that is seen nearly from the side has a high density",
     look: "Is there a smallest cosine in your code?",
     section: "light/lights.md#the-cosine-divides",
-    tests: &[],
-    questions: |rng| one_light(rng, false, |rng, light| toward(rng, light, Side::Grazing, CALLS)),
+    tests: &[
+        "Returns the probability density, per solid angle, of a direction from a point to the \
+         light if points on the light are sampled uniformly: …",
+    ],
+    questions: |rng| {
+        one_light(rng, false, |rng, light| {
+            toward(rng, light, Side::Grazing, CALLS)
+        })
+    },
     ..Declaration::in_group(LIGHT_DENSITIES)
 };
 
@@ -306,9 +315,9 @@ fn one_light(
     let question = |_| {
         let light = light(rng, is_triangle);
         let calls = clear(&[light], calls(rng, &light));
-        let rows = calls.iter().map(|call| {
-            light.pdf(call.from.as_dvec3(), call.direction.as_dvec3())
-        });
+        let rows = calls
+            .iter()
+            .map(|call| light.pdf(call.from.as_dvec3(), call.direction.as_dvec3()));
         let rows = densities(rows);
         let question = LightQuestion::AreaLightPdf(Table::of_list(subject(&[light]), calls));
         table(question, &["pdf"], rows)
@@ -379,9 +388,10 @@ fn clear(lights: &[FlatLight64], calls: Vec<Toward>) -> Vec<Toward> {
 
 fn list_densities(lights: &[FlatLight64], calls: Vec<Toward>) -> ExamQuestion {
     let all = Lights64::new(lights.iter().copied());
-    let rows = calls
-        .iter()
-        .map(|call| all.pdf(call.from.as_dvec3(), call.direction.as_dvec3()).value);
+    let rows = calls.iter().map(|call| {
+        all.pdf(call.from.as_dvec3(), call.direction.as_dvec3())
+            .value
+    });
     let rows = densities(rows);
     let question = LightQuestion::LightsPdf(Table::of_list(subject(lights), calls));
     table(question, &["pdf"], rows)
@@ -414,7 +424,11 @@ fn sample(
     lights: &Lights64,
     call: &LightSample,
 ) -> crate::oracle::light::WithMargin<Option<DVec3>> {
-    lights.sample(call.from.as_dvec3(), call.choice.into(), call.random.as_dvec2())
+    lights.sample(
+        call.from.as_dvec3(),
+        call.choice.into(),
+        call.random.as_dvec2(),
+    )
 }
 
 fn sampled(lights: &[FlatLight64], calls: Vec<LightSample>) -> ExamQuestion {

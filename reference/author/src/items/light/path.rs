@@ -10,9 +10,9 @@ use super::groups::{DIRECT, MATTE_SAMPLES, SPECULAR};
 use super::rooms::{DARK, PathCase, block, emitter, matte, panel, path_case, sky, walls};
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
+use crate::oracle::light::Numbers64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::Numbers64;
 use crate::seed::Rng;
 
 /// The number of calls in a question.
@@ -25,15 +25,7 @@ const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
 /// The task `path`.
 pub static TASK: AuthoredTask = AuthoredTask {
     items: &[
-        SEEN,
-        ONE_BOUNCE,
-        BOUNCES,
-        ONCE,
-        THROUGHPUT,
-        MIRROR,
-        GLASS,
-        ROULETTE,
-        SURVIVORS,
+        SEEN, ONE_BOUNCE, BOUNCES, ONCE, THROUGHPUT, MIRROR, GLASS, ROULETTE, SURVIVORS,
     ],
     ..AuthoredTask::NEW
 };
@@ -91,9 +83,9 @@ const BOUNCES: Declaration = Declaration {
     tests: &["The path is scattered at most `bounces` times."],
     questions: |rng| {
         let bounces = [2, 3, 4, 6];
-        let questions = bounces.into_iter().flat_map(|bounces| {
-            rooms(rng, closed, |rng, room| cases(rng, room, bounces, lit))
-        });
+        let questions = bounces
+            .into_iter()
+            .flat_map(|bounces| rooms(rng, closed, |rng, room| cases(rng, room, bounces, lit)));
         questions.collect()
     },
     needs: NEEDS,
@@ -115,19 +107,23 @@ const ONCE: Declaration = Declaration {
          than q, and its throughput is divided by q.",
     ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            // Most paths soon hit the ceiling, which is a light, or the sky.
-            let mut quads = walls(HALF, || matte(rng));
-            quads.pop();
-            let light = emitter(rng);
-            quads[3] = panel(dvec3(0.0, HALF.y, 0.0), 1, -1.0, HALF, light);
-            let sky = sky(rng);
-            Room::new(quads, sky)
-        }, |rng, room| {
-            let mut cases = cases(rng, room, 2, first_is_matte);
-            cases.extend(self::cases(rng, room, 3, first_is_matte));
-            cases
-        })
+        rooms(
+            rng,
+            |rng| {
+                // Most paths soon hit the ceiling, which is a light, or the sky.
+                let mut quads = walls(HALF, || matte(rng));
+                quads.pop();
+                let light = emitter(rng);
+                quads[3] = panel(dvec3(0.0, HALF.y, 0.0), 1, -1.0, HALF, light);
+                let sky = sky(rng);
+                Room::new(quads, sky)
+            },
+            |rng, room| {
+                let mut cases = cases(rng, room, 2, first_is_matte);
+                cases.extend(self::cases(rng, room, 3, first_is_matte));
+                cases
+            },
+        )
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -145,23 +141,40 @@ const THROUGHPUT: Declaration = Declaration {
         "Everything after the bounce is multiplied by the attenuation.",
     ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            // Some walls are black for two of the three colours.
-            let pure = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE, DVec3::ONE, DVec3::ZERO];
-            let mut walls_left: Vec<Material64> = pure
-                .into_iter()
-                .map(|pure| Material64::Lambertian { albedo: 0.9 * pure })
-                .collect();
-            walls_left = rng.shuffled(walls_left);
-            let mut quads = walls(HALF, || walls_left.pop().expect("there are six walls"));
-            let light = emitter(rng);
-            quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.2, 0.0, 1.2), light));
-            Room::new(quads, DARK)
-        }, |rng, room| {
-            let mut cases = cases(rng, room, 2, |_, _, _| true);
-            cases.extend(self::cases(rng, room, 3, lit));
-            cases
-        })
+        rooms(
+            rng,
+            |rng| {
+                // Some walls are black for two of the three colours.
+                let pure = [
+                    DVec3::X,
+                    DVec3::Y,
+                    DVec3::Z,
+                    DVec3::ONE,
+                    DVec3::ONE,
+                    DVec3::ZERO,
+                ];
+                let mut walls_left: Vec<Material64> = pure
+                    .into_iter()
+                    .map(|pure| Material64::Lambertian { albedo: 0.9 * pure })
+                    .collect();
+                walls_left = rng.shuffled(walls_left);
+                let mut quads = walls(HALF, || walls_left.pop().expect("there are six walls"));
+                let light = emitter(rng);
+                quads.push(panel(
+                    dvec3(0.0, 1.8, 0.0),
+                    1,
+                    -1.0,
+                    dvec3(1.2, 0.0, 1.2),
+                    light,
+                ));
+                Room::new(quads, DARK)
+            },
+            |rng, room| {
+                let mut cases = cases(rng, room, 2, |_, _, _| true);
+                cases.extend(self::cases(rng, room, 3, lit));
+                cases
+            },
+        )
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -173,29 +186,45 @@ const MIRROR: Declaration = Declaration {
     title: "a mirror shows the lights and the sky",
     look: "After a mirror, `direct` has counted nothing yet. Which `pdf` tells you so?",
     section: "light/paths.md#a-mirror-shows-the-light",
-    tests: &[],
+    tests: &[
+        "The light that a surface emits, or the environment if the ray hits nothing, is counted \
+         only if …",
+    ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            let mirror = Material64::Mirror { reflectance: color(rng) };
-            let mut materials = vec![mirror, matte(rng), mirror, matte(rng), mirror, matte(rng)];
-            let mut quads = walls(HALF, || materials.pop().expect("there are six walls"));
-            quads.pop();
-            let light = emitter(rng);
-            quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.2, 0.0, 1.2), light));
-            let sky = sky(rng);
-            Room::new(quads, sky)
-        }, |rng, room| {
-            let is_mirror = |surface: Option<&Surface64>| {
-                surface.is_some_and(|it| matches!(it.material, Material64::Mirror { .. }))
-            };
-            let mut cases = cases(rng, room, 1, |surface, _, light| {
-                is_mirror(surface) && is_lit(light)
-            });
-            cases.extend(self::cases(rng, room, 3, |surface, _, light| {
-                is_mirror(surface) && is_lit(light)
-            }));
-            cases
-        })
+        rooms(
+            rng,
+            |rng| {
+                let mirror = Material64::Mirror {
+                    reflectance: color(rng),
+                };
+                let mut materials =
+                    vec![mirror, matte(rng), mirror, matte(rng), mirror, matte(rng)];
+                let mut quads = walls(HALF, || materials.pop().expect("there are six walls"));
+                quads.pop();
+                let light = emitter(rng);
+                quads.push(panel(
+                    dvec3(0.0, 1.8, 0.0),
+                    1,
+                    -1.0,
+                    dvec3(1.2, 0.0, 1.2),
+                    light,
+                ));
+                let sky = sky(rng);
+                Room::new(quads, sky)
+            },
+            |rng, room| {
+                let is_mirror = |surface: Option<&Surface64>| {
+                    surface.is_some_and(|it| matches!(it.material, Material64::Mirror { .. }))
+                };
+                let mut cases = cases(rng, room, 1, |surface, _, light| {
+                    is_mirror(surface) && is_lit(light)
+                });
+                cases.extend(self::cases(rng, room, 3, |surface, _, light| {
+                    is_mirror(surface) && is_lit(light)
+                }));
+                cases
+            },
+        )
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -208,26 +237,44 @@ const GLASS: Declaration = Declaration {
     look: "Glass has no density either. Does the path continue on the side that it is scattered \
            to?",
     section: "light/paths.md#a-mirror-shows-the-light",
-    tests: &[],
+    tests: &[
+        "The light that a surface emits, or the environment if the ray hits nothing, is counted \
+         only if …",
+    ],
     questions: |rng| {
-        rooms(rng, |rng| {
-            let mut quads = walls(HALF, || matte(rng));
-            let ior = rng.uniform(1.3, 1.8);
-            let center = rng.point(0.5);
-            quads.extend(block(center, dvec3(0.9, 0.7, 0.8), Material64::Glass { ior }));
-            let light = emitter(rng);
-            quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.5, 0.0, 1.5), light));
-            Room::new(quads, DARK)
-        }, |rng, room| {
-            let bounces = [2, 4];
-            let cases = bounces.map(|bounces| {
-                self::cases(rng, room, bounces, |surface, _, light| {
-                    let is_glass = |it: &Surface64| matches!(it.material, Material64::Glass { .. });
-                    surface.is_some_and(is_glass) && is_lit(light)
-                })
-            });
-            cases.into_iter().flatten().collect()
-        })
+        rooms(
+            rng,
+            |rng| {
+                let mut quads = walls(HALF, || matte(rng));
+                let ior = rng.uniform(1.3, 1.8);
+                let center = rng.point(0.5);
+                quads.extend(block(
+                    center,
+                    dvec3(0.9, 0.7, 0.8),
+                    Material64::Glass { ior },
+                ));
+                let light = emitter(rng);
+                quads.push(panel(
+                    dvec3(0.0, 1.8, 0.0),
+                    1,
+                    -1.0,
+                    dvec3(1.5, 0.0, 1.5),
+                    light,
+                ));
+                Room::new(quads, DARK)
+            },
+            |rng, room| {
+                let bounces = [2, 4];
+                let cases = bounces.map(|bounces| {
+                    self::cases(rng, room, bounces, |surface, _, light| {
+                        let is_glass =
+                            |it: &Surface64| matches!(it.material, Material64::Glass { .. });
+                        surface.is_some_and(is_glass) && is_lit(light)
+                    })
+                });
+                cases.into_iter().flatten().collect()
+            },
+        )
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -263,12 +310,17 @@ const SURVIVORS: Declaration = Declaration {
     look: "In a white room and in a dark one: what is q, and what do you divide by?",
     section: "light/paths.md#survivors-carry-more",
     tests: &[
-        "q is the largest channel of the throughput after this bounce's attenuation, but at least \
-         0.05 and at most 0.95.",
+        "Here, q is the largest channel of the throughput after this bounce's attenuation, but at \
+         least 0.05 and at most 0.95.",
     ],
     questions: |rng| {
         // In a white room, q is always 0.95, and in a dark one, it is 0.05.
-        let albedos = [DVec3::ONE, DVec3::splat(0.999), DVec3::splat(0.3), dvec3(0.1, 0.35, 0.05)];
+        let albedos = [
+            DVec3::ONE,
+            DVec3::splat(0.999),
+            DVec3::splat(0.3),
+            dvec3(0.1, 0.35, 0.05),
+        ];
         let questions = albedos.into_iter().map(|albedo| {
             let room = room_with(rng, || Material64::Lambertian { albedo });
             let is_dark = albedo.max_element() < 0.5;
@@ -312,7 +364,9 @@ fn bright(rng: &mut Rng) -> Room {
 
 /// Returns a closed room with bright walls and one light.
 fn closed(rng: &mut Rng) -> Room {
-    let mut colors = (0..6).map(|_| color(rng).lerp(DVec3::ONE, 0.4)).collect::<Vec<_>>();
+    let mut colors = (0..6)
+        .map(|_| color(rng).lerp(DVec3::ONE, 0.4))
+        .collect::<Vec<_>>();
     room_with(rng, || Material64::Lambertian {
         albedo: colors.pop().expect("there are six walls"),
     })
@@ -321,7 +375,13 @@ fn closed(rng: &mut Rng) -> Room {
 fn room_with(rng: &mut Rng, material: impl FnMut() -> Material64) -> Room {
     let mut quads = walls(HALF, material);
     let light = emitter(rng);
-    quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, dvec3(1.0, 0.0, 1.0), light));
+    quads.push(panel(
+        dvec3(0.0, 1.8, 0.0),
+        1,
+        -1.0,
+        dvec3(1.0, 0.0, 1.0),
+        light,
+    ));
     Room::new(quads, DARK)
 }
 
@@ -353,5 +413,9 @@ fn question(room: &Room, cases: Vec<PathCase>) -> ExamQuestion {
     let rows = colors(cases.iter().map(|case| case.light));
     let calls = cases.iter().map(|case| case.call).collect();
     let subject = transport::Room { scene: room.text() };
-    table(LightQuestion::Radiance(Table::of_list(subject, calls)), &["value"], rows)
+    table(
+        LightQuestion::Radiance(Table::of_list(subject, calls)),
+        &["value"],
+        rows,
+    )
 }

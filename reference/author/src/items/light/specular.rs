@@ -74,7 +74,11 @@ const ENTERING: Declaration = Declaration {
         "See PBR, section 9.3.3.",
         "If out.z > 0, the path is outside, where the index is 1, and the result has z < 0.",
     ],
-    questions: |rng| media(rng, dense, |rng, medium| refractions(medium, rng, above, any)),
+    questions: |rng| {
+        media(rng, dense, |rng, medium| {
+            refractions(medium, rng, above, any)
+        })
+    },
     ..Declaration::in_group(SPECULAR)
 };
 
@@ -86,7 +90,11 @@ const LEAVING: Declaration = Declaration {
            up.",
     section: "light/glass.md#the-side-decides-the-ratio",
     tests: &["If out.z < 0, the path is inside, and the result has z > 0."],
-    questions: |rng| media(rng, dense, |rng, medium| refractions(medium, rng, below, refracted)),
+    questions: |rng| {
+        media(rng, dense, |rng, medium| {
+            refractions(medium, rng, below, refracted)
+        })
+    },
     ..Declaration::in_group(SPECULAR)
 };
 
@@ -96,7 +104,9 @@ const TOTAL: Declaration = Declaration {
     title: "beyond the critical angle, nothing is refracted",
     look: "What is the square of the refracted sine there, and what do you do with it?",
     section: "light/glass.md#total-reflection",
-    tests: &["Directions along the surface (z = 0), and those at the critical angle, are not tested."],
+    tests: &[
+        "Directions along the surface (z = 0), and those at the critical angle, are not tested.",
+    ],
     questions: |rng| {
         media(rng, dense, |rng, medium| {
             let mut out = directions_that(rng, medium, below, total);
@@ -117,7 +127,10 @@ const HEAD_ON: Declaration = Declaration {
     tests: &["The result has length one, even along the normal."],
     questions: |rng| {
         media(rng, dense, |rng, medium| {
-            let tilted = [above(rng), directions_that(rng, medium, below, refracted)[0]];
+            let tilted = [
+                above(rng),
+                directions_that(rng, medium, below, refracted)[0],
+            ];
             let out = [DVec3::Z, DVec3::NEG_Z].into_iter().chain(tilted);
             let near = [1.0, -1.0].map(|side| nearly_along_the_normal(rng, side));
             refraction(medium, out.chain(near).collect())
@@ -217,7 +230,7 @@ const FRESNEL_LOW_INDEX: Declaration = Declaration {
     title: "an index of 1 reflects nothing, and an index below 1 reflects like its inverse inside",
     look: "Is there anything in your code that is only right if `ior` is greater than 1?",
     section: "light/glass.md#an-index-below-one",
-    tests: &[],
+    tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
     questions: |rng| {
         let mut questions = media(rng, thin, |rng, medium| {
             let mut out = directions_that(rng, medium, above, refracted);
@@ -301,7 +314,7 @@ const GLASS_TOTAL: Declaration = Declaration {
     title: "total reflection goes in the mirror direction with an attenuation of 1",
     look: "What do you return if nothing is refracted, whatever the random number is?",
     section: "light/glass.md#total-reflection-is-not-scaled",
-    tests: &[],
+    tests: &["If the path is reflected, `attenuation` is 1: …"],
     questions: |rng| {
         media(rng, dense, |rng, medium| {
             let mut out = directions_that(rng, medium, below, total);
@@ -423,12 +436,7 @@ fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
 
 /// Returns a question in which each direction is asked twice: with a random number on each side of
 /// its reflected fraction.
-fn glass_samples(
-    rng: &mut Rng,
-    medium: Medium,
-    out: Vec<DVec3>,
-    judged: &[&str],
-) -> ExamQuestion {
+fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]) -> ExamQuestion {
     let ior = f64::from(medium.ior);
     let mut calls = Vec::new();
     for out in out {
@@ -437,8 +445,16 @@ fn glass_samples(
             let sample = rng.attempt(1_000, |rng| {
                 // Numbers close to the fraction are as frequent as others.
                 let distance = rng.log_uniform(2.0 * MARGIN, 1.0);
-                let number = if rng.coin() { fraction + distance } else { fraction - distance };
-                let number = if rng.coin() { number as f32 } else { random(rng) };
+                let number = if rng.coin() {
+                    fraction + distance
+                } else {
+                    fraction - distance
+                };
+                let number = if rng.coin() {
+                    number as f32
+                } else {
+                    random(rng)
+                };
                 let is_random = (0.0..1.0).contains(&number);
                 let is_clear = specular::glass_margin(ior, out, number.into()) > MARGIN;
                 let is_wanted = (f64::from(number) < fraction) == is_below;

@@ -88,46 +88,73 @@ impl From<LightQuestion> for Question {
 }
 
 /// A submission's functions for part two, called through a given file that implements this trait.
-/// Directions at a surface are in its frame, where +z is the normal.
+/// Directions at a surface are in its frame, where +z is the normal. An assignment implements the
+/// methods for its own functions.
 pub trait LightFunctions: Sync {
     /// Calls `Lambertian::evaluate`.
-    fn evaluate_matte(&self, albedo: Vec3, out: Vec3, incoming: Vec3) -> Vec3;
+    fn evaluate_matte(&self, _albedo: Vec3, _out: Vec3, _incoming: Vec3) -> Vec3 {
+        unimplemented!()
+    }
 
     /// Calls `Lambertian::pdf`.
-    fn matte_pdf(&self, albedo: Vec3, out: Vec3, incoming: Vec3) -> f32;
+    fn matte_pdf(&self, _albedo: Vec3, _out: Vec3, _incoming: Vec3) -> f32 {
+        unimplemented!()
+    }
 
     /// Calls `Lambertian::scatter`.
-    fn scatter_matte(&self, albedo: Vec3, out: Vec3, random: Vec2) -> Scattered;
+    fn scatter_matte(&self, _albedo: Vec3, _out: Vec3, _random: Vec2) -> Scattered {
+        unimplemented!()
+    }
 
     /// Calls `reflect`.
-    fn reflection(&self, out: Vec3) -> Vec3;
+    fn reflection(&self, _out: Vec3) -> Vec3 {
+        unimplemented!()
+    }
 
     /// Calls `refract`.
-    fn refraction(&self, out: Vec3, ior: f32) -> Option<Vec3>;
+    fn refraction(&self, _out: Vec3, _ior: f32) -> Option<Vec3> {
+        unimplemented!()
+    }
 
     /// Calls `fresnel`.
-    fn reflected_fraction(&self, out: Vec3, ior: f32) -> f32;
+    fn reflected_fraction(&self, _out: Vec3, _ior: f32) -> f32 {
+        unimplemented!()
+    }
 
     /// Calls `Mirror::scatter`.
-    fn scatter_mirror(&self, reflectance: Vec3, out: Vec3) -> Scattered;
+    fn scatter_mirror(&self, _reflectance: Vec3, _out: Vec3) -> Scattered {
+        unimplemented!()
+    }
 
     /// Calls `Glass::scatter`.
-    fn scatter_glass(&self, ior: f32, out: Vec3, random: f32) -> Scattered;
+    fn scatter_glass(&self, _ior: f32, _out: Vec3, _random: f32) -> Scattered {
+        unimplemented!()
+    }
 
     /// Calls `AreaLight::pdf`.
-    fn area_light_pdf(&self, light: &FlatLight, from: Vec3, direction: Vec3) -> f32;
+    fn area_light_pdf(&self, _light: &FlatLight, _from: Vec3, _direction: Vec3) -> f32 {
+        unimplemented!()
+    }
 
     /// Calls `Lights::new`.
-    fn lights(&self, lights: &[FlatLight]) -> Box<dyn DirectionSampler>;
+    fn lights(&self, _lights: &[FlatLight]) -> Box<dyn DirectionSampler> {
+        unimplemented!()
+    }
 
     /// Creates a scene of rectangles from the text of a scene file.
-    fn room(&self, scene: &str) -> Box<dyn LitRoom>;
+    fn room(&self, _scene: &str) -> Box<dyn LitRoom> {
+        unimplemented!()
+    }
 
     /// Calls `uniform_sphere`.
-    fn uniform_direction(&self, random: Vec2) -> Vec3;
+    fn uniform_direction(&self, _random: Vec2) -> Vec3 {
+        unimplemented!()
+    }
 
     /// Calls `Environment::new`.
-    fn environment(&self, map: &MapImage) -> Box<dyn MapSampler>;
+    fn environment(&self, _map: &MapImage) -> Box<dyn MapSampler> {
+        unimplemented!()
+    }
 }
 
 /// A submission's lights.

@@ -1,8 +1,8 @@
 //! Given: connects the two files to the framework.
 
-use framework::submission::{Aggregate, CameraRays, Hierarchy, Submission};
+use framework::submission::{Aggregate, Hierarchy, Submission};
 use glam::Vec3;
-use protocol::{Interval, PinholeCamera, Ray, Shape, Trace, TreeNode};
+use protocol::{LightFunctions, Ray, Shape, Trace, TreeNode};
 
 use crate::ball::Ball;
 use crate::mirror::{Mirror, nearest};
@@ -11,28 +11,22 @@ use crate::mirror::{Mirror, nearest};
 pub struct Student;
 
 impl Submission for Student {
-    fn camera(&self, _: &PinholeCamera) -> Box<dyn CameraRays> {
-        unimplemented!("the toy has no camera")
-    }
-
     fn primitive_list(&self, shapes: &[Shape]) -> Box<dyn Aggregate> {
         Box::new(One(balls(shapes).remove(0)))
     }
 
-    fn intersect_box(&self, _: Vec3, _: Vec3, _: &Ray, _: Interval) -> Option<Interval> {
-        unimplemented!("the toy has no boxes")
-    }
-
-    fn reflect(&self, toward_viewer: Vec3) -> Vec3 {
-        Mirror.reflect(toward_viewer)
-    }
-
-    fn build(&self, _: &[Shape], _: usize) -> Box<dyn Hierarchy> {
-        unimplemented!("the toy builds no tree")
-    }
-
     fn prebuilt_tree(&self, shapes: &[Shape], _: &[TreeNode], _: usize) -> Box<dyn Hierarchy> {
         Box::new(All(balls(shapes)))
+    }
+
+    fn light(&self) -> &dyn LightFunctions {
+        self
+    }
+}
+
+impl LightFunctions for Student {
+    fn reflection(&self, out: Vec3) -> Vec3 {
+        Mirror.reflect(out)
     }
 }
 

@@ -176,7 +176,7 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
     let expected = [
         "Draft: the status in Moodle's worksheet",
         "2 without final points, because it is unclear when they were submitted",
-        "1 only saved as a draft, no final points",
+        "1 saved only as a draft, so there are no final points yet",
     ];
     assert_contains(&text, &expected);
 }

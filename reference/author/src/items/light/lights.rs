@@ -37,7 +37,7 @@ const DENSITY: Declaration = Declaration {
     id: "lights.density",
     points: 3,
     title: "the density of directions to a light is distance² / (cos θ · area)",
-    look: "Move the point twice as far away: by which factor does the density change?",
+    look: "Move the point twice as far away: by what factor does the density change?",
     section: "light/lights.md#the-density-of-an-area-light",
     tests: &[
         "Returns the probability density, per solid angle, of a direction from a point to the \

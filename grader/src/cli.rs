@@ -66,8 +66,8 @@ pub enum Command {
 
 /// Grades a path-tracing submission: builds it, runs the exam and writes a score
 ///
-/// Exit codes: 0 graded, whatever the score; 1 graded, but below --require; 2 invalid command line,
-/// submission or exam; 3 the grader itself failed.
+/// Exit codes: 0 graded, regardless of the score; 1 graded, but below --require; 2 invalid command
+/// line, submission or exam; 3 the grader itself failed.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo grade", bin_name = "cargo grade", version)]
 pub struct Arguments {

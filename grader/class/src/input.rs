@@ -97,9 +97,9 @@ impl Input {
             let unpack = archive.map_or("", |_| "; unpack the archive first");
             let why = sanitize_line(&why, MAX_CHARS);
             return refused(&format!(
-                "cannot be read as a class: {why}{unpack}; or choose how to read it: with --layout \
-                 tutorials, each folder contains several students' folders; with --layout folders, \
-                 each folder is one submission"
+                "cannot be read as a class: {why}{unpack}. Alternatively, pass --layout tutorials \
+                 if each folder contains several students' folders, or --layout folders if each \
+                 folder is one submission"
             ));
         }
         if class.entries.is_empty() {

@@ -146,8 +146,8 @@ fn extensions(
     let status = MoodleStatus::parse(&person.status);
     if let Some(unknown) = status.unknown {
         return Err(UnclearTime::new(format!(
-            "Moodle's worksheet contains the unknown status {unknown:?}, which could mean a draft \
-             or an extension: switch Moodle to English, then download the worksheet again"
+            "Moodle's worksheet contains an unrecognised status, {unknown:?}, which could mean a \
+             draft or an extension: switch Moodle to English, then download the worksheet again"
         )));
     }
     // A partner's draft is a different submission.

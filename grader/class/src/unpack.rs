@@ -174,7 +174,7 @@ fn extract_to(
 ) -> Result<Option<String>, PathError> {
     let mut parts = Path::new(path).components();
     if !parts.all(|part| matches!(part, Component::Normal(_))) {
-        return Ok(Some(format!("it contains the invalid path {path}")));
+        return Ok(Some(format!("it contains an invalid path: {path}")));
     }
     match put(&folder.join(path)) {
         Ok(()) => Ok(None),

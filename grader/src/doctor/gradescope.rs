@@ -94,8 +94,8 @@ impl PackageContents {
             ),
             (
                 is_floating,
-                "installs the newest Rust, so scores may differ between images: pin a version, \
-                 such as 1.95.0",
+                "installs the latest Rust version, so scores may differ between images: pin a \
+                 version, such as 1.95.0",
             ),
             (
                 text.contains(&b'\r'),

@@ -140,10 +140,10 @@ impl FinalPoints {
                     0 => ", so".to_owned(),
                     days => format!("; after {},", counted(days as usize, "free day")),
                 };
-                format!("{late}{after} {percent} % of {base} are deducted")
+                format!("{late}{after} {percent}% of {base} are deducted")
             }
             Deduction::Limit(percent) => {
-                format!("{late}, and late work can earn at most {percent} % of the points")
+                format!("{late}, and late work can earn at most {percent}% of the points")
             }
             Deduction::Closed { after_days: 0 } => {
                 format!("{late}, and late work earns no points")
@@ -220,7 +220,7 @@ mod tests {
             (
                 "[points]\nout_of = 50\n[late]\npercent_per_day = 10",
                 1,
-                "100 points are scaled to 50; handed in 1 day late, so 10 % of the points earned are \
+                "100 points are scaled to 50; handed in 1 day late, so 10% of the points earned are \
                  deducted.",
             ),
         ] {

@@ -184,7 +184,7 @@ mod tests {
             (out_of("nearest"), 87, 0, 44),
             (out_of("up"), 87, 0, 44),
             (out_of("up"), 100, 0, 50),
-            // 10 % of 87 is 8.7, which leaves 78.3. Half of that is 39.15. Nothing is rounded in
+            // 10% of 87 is 8.7, which leaves 78.3. Half of that is 39.15. Nothing is rounded in
             // between.
             (format!("{}\n{}", out_of("down"), late("")), 87, 1, 39),
             (late(""), 80, 25, 64),

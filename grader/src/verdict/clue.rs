@@ -85,12 +85,12 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
              was the index meant for a different list?"
         }
         PanicKind::Arithmetic if is_too_large => {
-            "The result is too large for the type of these whole numbers. Convert them to `f32`, or to a larger \
-             type, before you calculate with them."
+            "The result is too large for the type of these integers. Convert them to `f32`, or to \
+             a larger type, before you calculate with them."
         }
         PanicKind::Arithmetic => {
-            "`usize` and `u32` have no values below zero, and no whole number can be divided by zero. \
-             Which of the numbers can be 0 here?"
+            "`usize` and `u32` can't be negative, and an integer can't be divided by zero. Which \
+             of the numbers here can be 0?"
         }
         PanicKind::NoValue => {
             "That line assumes that there is a value. When is there none, and what should your \

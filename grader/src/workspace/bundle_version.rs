@@ -39,8 +39,8 @@ fn mixed(grader: Option<&str>, folders: &[(&str, Option<String>)]) -> Option<Str
         .collect();
     (!others.is_empty()).then(|| {
         format!(
-            "this folder contains a mix of versions: the grader is {}, and {}. Unpack the newest archive \
-             again, overwriting all the provided files",
+            "this folder contains a mix of versions: the grader is {}, and {}. Unpack the latest \
+             archive again, overwriting all the provided files",
             name(grader),
             others.join(", ")
         )
@@ -81,8 +81,8 @@ mod tests {
         let note = mixed(Some("77aa"), &same[..1]).expect("the versions differ");
         assert_eq!(
             note,
-            "this folder contains a mix of versions: the grader is 77aa, and student/framework is 3f9a. Unpack \
-             the newest archive again, overwriting all the provided files"
+            "this folder contains a mix of versions: the grader is 77aa, and student/framework is \
+             3f9a. Unpack the latest archive again, overwriting all the provided files"
         );
     }
 

@@ -54,7 +54,7 @@ fn the_keyboard_moves_the_slider_between_expected_and_submitted_picture(chromium
     assert_eq!(tab.eval(CLIP_PATH), "inset(0px 100% 0px 0px)");
     assert_eq!(
         tab.eval(&format!("{SLIDER}.getAttribute('aria-valuetext')")),
-        "0 % yours"
+        "0% yours"
     );
     assert_eq!(tab.errors(), [""; 0]);
 }

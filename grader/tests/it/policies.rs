@@ -43,7 +43,7 @@ fn every_format_says_what_a_late_submission_counts_and_why() {
     assert_eq!(results["score"], 45);
     let line = format!(
         "45 of 50 points count towards the grade: {points} of {points} points earned, handed in 1 \
-         day late, so 10 % of the points earned are deducted."
+         day late, so 10% of the points earned are deducted."
     );
     for format in student_formats() {
         let text = models::readable(format.id, &written[format.id]);

@@ -30,7 +30,7 @@ pub struct Cli {
 /// The subcommands of `cargo author`.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Write the starter, generated from the marked files of the reference
+    /// Generate the starter from the reference's marked files
     Starter(CheckArgs),
     /// Write the practice exam
     Exams(CheckArgs),

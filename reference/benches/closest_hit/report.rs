@@ -97,7 +97,7 @@ impl fmt::Display for Report {
         }
         writeln!(
             f,
-            "rays: millions per second, median (least–greatest); at most {:.4} % of the hits differ ({})\n",
+            "rays: millions per second, median (least–greatest); at most {:.4}% of the hits differ ({})\n",
             100.0 * self.differing,
             self.most_differing
         )?;

@@ -89,7 +89,7 @@ mod tests {
     use crate::direct::tests::{Floor, GREY, MIRROR};
     use crate::world::LightSources;
 
-    /// Returns the radiance along a ray over a floor under an even sky with a radiance of 1.
+    /// Returns the radiance along a ray over a floor under a uniform sky with a radiance of 1.
     fn over(floor: scene::Material, dir: Vec3, bounces: u32) -> f32 {
         let sources = LightSources::new(Vec::new(), &Environment::Constant(Vec3::ONE));
         let floor = Floor(floor);

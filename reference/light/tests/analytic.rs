@@ -112,7 +112,7 @@ fn a_map_lights_a_sphere_like_the_same_light_from_all_directions() {
 fn a_light_inside_glass_is_seen_at_a_fraction_of_its_radiance() {
     let shapes = [sphere(-3.0, 1.0, "glass"), sphere(-3.0, 0.2, "light")].join(",");
     let scene = scene(0.0, &format!("{GLASS}, {EMITTER}"), &shapes);
-    // Head-on, 4 % of the light is reflected. Outside, the light spreads over a solid angle that is
+    // Head-on, 4% of the light is reflected. Outside, the light spreads over a solid angle that is
     // 1.5² times as large.
     assert_near(central_pixel(&scene, 4000, 8), 0.96 / 2.25, 0.01);
 }
@@ -160,7 +160,7 @@ fn contact_in_a_furnace(ball: f32, ground: f32, distance: f32) -> f32 {
 fn a_ball_on_a_large_sphere_is_invisible_in_a_white_furnace() {
     // Rays that start too far from a surface start inside the other sphere and are lost there. With
     // an offset of 1e-4 of the scene's size, a ball of radius 0.5 on a sphere of radius 1000 loses
-    // 41 %.
+    // 41%.
     for (ball, ground, distance) in [(0.5, 1000.0, 3.0), (0.1, 1000.0, 1.0), (0.5, 0.5, 30.0)] {
         assert_near(contact_in_a_furnace(ball, ground, distance), 1.0, 0.01);
     }

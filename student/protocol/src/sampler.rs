@@ -72,7 +72,8 @@ impl Sampler {
     ///
     /// A matte surface looks for direct light in the same direction in which it scatters the path.
     /// There is either light in this direction or another surface, so the errors of both partly
-    /// cancel. With two independent directions, a picture under an even sky has twice the variance.
+    /// cancel. With two independent directions, a picture under a uniform sky has twice the
+    /// variance.
     pub fn numbers(&self, bounce: u32) -> RandomNumbers {
         let scatter = self.pair(bounce, Purpose::Direction);
         RandomNumbers {

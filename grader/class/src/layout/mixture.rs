@@ -48,8 +48,8 @@ pub(super) fn reject_mixtures(
             let inside = submissions_inside(node, handed_out).filter(|_| !is_known())?;
             Some(format!(
                 "the folder {} contains several submissions ({}): if they are from different \
-                 students, pass this folder, or move them out of it; if they are attempts by \
-                 one student, keep only the one that counts; if each contains part of one \
+                 students, pass this folder, or move them out of it; if they are attempts by one \
+                 student, keep only the one that should be graded; if each contains part of one \
                  submission, combine them in one folder",
                 node.name,
                 listed(&inside)
@@ -79,9 +79,9 @@ pub fn side_by_side(node: &Node, handed_out: &HandedOut) -> Option<String> {
     let most = several.iter().max_by_key(|names| names.len())?;
     (several.len() > 1 || most.len() > 2).then(|| {
         format!(
-            "the folder {} contains several versions of {} side by side ({}): if they are from different \
-             students, put each student's files into a separate folder; if they are from one student, keep \
-             only those that count",
+            "the folder {} contains several versions of {} side by side ({}): if they are from \
+             different students, put each student's files into a separate folder; if they are from \
+             one student, keep only those that should be graded",
             node.name,
             match several.len() {
                 1 => "a task file".to_owned(),

@@ -23,8 +23,8 @@ use crate::roster::Member;
 const SHARED_NUMBER: &str = "another file has the same user number but a different name: rename \
                              it, or put each student's files into a separate folder";
 /// The reason for not grading two files with the same name, which Canvas never exports.
-const REPEATED_FILE: &str = "two of its files have the same name: remove the one that shouldn't \
-                             count, or put each student's files into a separate folder";
+const REPEATED_FILE: &str = "two of its files have the same name: remove the one that shouldn't be \
+                             graded, or put each student's files into a separate folder";
 /// The reason for not grading an archive that Canvas exports together with a newer one.
 const OLDER: &str = "a newer archive with this name is graded instead";
 /// The reason for not grading two downloads that were unpacked into one folder.

@@ -42,7 +42,7 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         ),
         (
             summary.drafts,
-            "only saved as a draft, no final points: see class.html",
+            "saved only as a draft, so there are no final points yet: see class.html",
         ),
         (
             summary.unclear_people,

@@ -193,7 +193,7 @@ fn an_export_is_not_graded_as_one_submission() {
         .with("CG-78.zip", moodle(&["Carl_303"]));
     let expected = [
         "CG-77.zip is a Moodle download, not one submission: pass its path; to grade several",
-        "with --layout folders, each folder is one submission",
+        "or --layout folders if each folder is one submission",
     ];
     assert_contains(&class.refused_preview(&[]), &expected);
     let preview = class.preview_of(&class.input(), &["--layout", "folders"]);

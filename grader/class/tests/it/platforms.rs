@@ -391,7 +391,7 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
         .with_minimal_submission("tue/zoe");
     let error = class.refused_preview(&[]);
     let error = error.replace(class.path_beside("").to_str().unwrap(), "FOLDER/");
-    assert_snapshot!(error, @"error: FOLDER/class cannot be read as a class: the folder mon contains several submissions (ann, bob): if they are from different students, pass this folder, or move them out of it; if they are attempts by one student, keep only the one that counts; if each contains part of one submission, combine them in one folder; or choose how to read it: with --layout tutorials, each folder contains several students' folders; with --layout folders, each folder is one submission");
+    assert_snapshot!(error, @"error: FOLDER/class cannot be read as a class: the folder mon contains several submissions (ann, bob): if they are from different students, pass this folder, or move them out of it; if they are attempts by one student, keep only the one that should be graded; if each contains part of one submission, combine them in one folder. Alternatively, pass --layout tutorials if each folder contains several students' folders, or --layout folders if each folder is one submission");
     let preview = class.preview_of(&class.input(), &["--layout", "tutorials"]);
     assert_contains(
         &preview,

@@ -157,7 +157,7 @@ fn results_that_cannot_be_read_are_errors_before_anything_is_graded() {
         refused(
             "own",
             "sphere/results.csv",
-            &jplag(&both.replace("1.0", "87 %")),
+            &jplag(&both.replace("1.0", "87%")),
         ),
     ];
     assert!(!class.out().exists());

@@ -43,7 +43,7 @@ fn a_late_flag_without_a_time_is_said_to_count_as_one_day() {
     let policy = ("policy", "[late]\npercent_per_day = 10\n");
     let printed = class.graded_with(&exam, &[policy], &["--hand-back"]);
     assert_contains(&printed, &["1 counted as on time or 1 day late because"]);
-    let sentence = "handed in late (how late is unknown, so it counts as 1 day), so 10 % of";
+    let sentence = "handed in late (how late is unknown, so it counts as 1 day), so 10% of";
     for page in ["class.html", "students/doejane_7001/feedback.html"] {
         assert_contains(&class.read(page), &[sentence]);
     }
@@ -176,7 +176,7 @@ fn the_status_in_moodles_worksheet_has_extensions_and_drafts() {
     let expected = [
         "Draft: the status in Moodle's worksheet",
         "2 without final points, because it is unclear when they were submitted",
-        "1 only saved as a draft, no final points",
+        "1 saved only as a draft, so there are no final points yet",
     ];
     assert_contains(&text, &expected);
 }

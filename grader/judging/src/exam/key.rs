@@ -55,7 +55,7 @@ pub enum Key {
         /// The expected colour of each pixel in linear RGB, row by row from the bottom.
         #[serde(with = "packed")]
         pixels: Vec<Vec3>,
-        /// Maximum number of pixels that may differ by more than 1 %.
+        /// Maximum number of pixels that may differ by more than 1%.
         max_wrong_pixels: u32,
     },
 }

@@ -87,7 +87,7 @@ for (const picture of document.querySelectorAll('.picture')) {
   };
   const slide = () => {
     got.style.clipPath = `inset(0 ${100 - slider.value}% 0 0)`;
-    slider.setAttribute('aria-valuetext', `${slider.value} % yours`);
+    slider.setAttribute('aria-valuetext', `${slider.value}% yours`);
   };
   const swap = () => { slider.value = Number(slider.value) < 50 ? 100 : 0; slide(); };
   const stop = () => {

@@ -81,7 +81,7 @@ pub enum ArchiveError {
     #[error("it is damaged ({0}): download or pack it again")]
     Damaged(String),
     /// A member is encrypted.
-    #[error("it contains the password-protected file {0}: create the archive without a password")]
+    #[error("it contains a password-protected file, {0}: create the archive without a password")]
     Encrypted(String),
     /// A member is compressed with an unsupported method.
     #[error(

@@ -183,7 +183,7 @@ fn idle() {
     };
     print(
         "idle viewer",
-        &format!("{share:.2} % of a core, page {page}"),
+        &format!("{share:.2}% of a core, page {page}"),
     );
 }
 

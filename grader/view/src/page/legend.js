@@ -47,9 +47,9 @@ function lines(tests, isMistakes) {
   return [...none, ...broken, mean];
 }
 
-/** Formats a share. A share just above 0 % is never shown as 0 %, or one just below 100 % as 100 %. */
+/** Formats a share. A share just above 0% is never shown as 0%, or one just below 100% as 100%. */
 function percent(share) {
   const rounded = 100 * share;
-  if (rounded > 0 && rounded < 0.1) return "less than 0.1 %";
-  return `${rounded > 99.9 && rounded < 100 ? 99.9 : Number(rounded.toFixed(rounded < 10 ? 1 : 0))} %`;
+  if (rounded > 0 && rounded < 0.1) return "less than 0.1%";
+  return `${rounded > 99.9 && rounded < 100 ? 99.9 : Number(rounded.toFixed(rounded < 10 ? 1 : 0))}%`;
 }

@@ -77,7 +77,7 @@ async function showLevel() {
 }
 
 function facts(node) {
-  const share = (x) => `${(100 * x).toFixed(1)} %`;
+  const share = (x) => `${(100 * x).toFixed(1)}%`;
   const overlap = node.overlap === null ? "" : `; ${node.overlap.toFixed(2)} children hit on average`;
   return `${node.leaf ? "Leaf" : "Node"} ${node.node}, level ${node.level}: ${count(node.primitives, "primitive")}, `
     + `${share(node.area)} of the root's area, ${share(node.cost / summary.cost)} of the SAH cost${overlap}.`;
@@ -112,7 +112,7 @@ function showTable(id, nodes) {
     const button = element("button", { type: "button", "aria-label": `Show node ${node.node}` }, String(node.node));
     button.addEventListener("click", () => select(node));
     const cells = [button, node.level, `${node.primitives}${node.leaf ? " (leaf)" : ""}`,
-      `${(100 * node.area).toFixed(1)} %`, `${(100 * node.cost / summary.cost).toFixed(1)} %`,
+      `${(100 * node.area).toFixed(1)}%`, `${(100 * node.cost / summary.cost).toFixed(1)}%`,
       node.overlap === null ? "–" : number(node.overlap)];
     body.append(element("tr", {}, ...cells.map((cell) => element("td", {}, cell instanceof Node ? cell : String(cell)))));
   }

@@ -86,7 +86,7 @@ impl Expected {
         tests(&self.tree, &self.shapes, &self.ray.unwrap())
     }
 
-    /// Returns whether the ray of the question misses a node's box, but by less than 1 % of the
+    /// Returns whether the ray of the question misses a node's box, but by less than 1% of the
     /// box's diagonal.
     pub fn barely_misses(&self, node: u32) -> bool {
         let node = &self.tree.nodes[node as usize];

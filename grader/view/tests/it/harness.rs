@@ -11,14 +11,14 @@ use grader::handed_out::RAYS;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The slides' pseudo-code for a traversal, taken literally.
+/// The slides' pseudocode for a traversal, taken literally.
 pub const SLIDES_HIT: &str = r#"    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
         let mut closest = None;
         self.slides_hit(ray, self.root, &mut closest);
         closest
     }
 
-    // The slides' pseudo-code, taken literally.
+    // The slides' pseudocode, taken literally.
     fn slides_hit(&self, ray: &Ray, index: usize, closest: &mut Option<Trace>) {
         let node = &self.nodes[index];
         if node.is_leaf() {

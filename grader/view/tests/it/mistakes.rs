@@ -72,7 +72,7 @@ fn a_save_that_visits_the_farther_child_first_changes_the_sums_and_the_picture()
         wait(&mut tab, "!document.getElementById('sums').hidden");
         let sums = text(&mut tab, "#sums");
         assert!(
-            sums.contains("% of rays visit the farther child first (before the last save: 0 %)"),
+            sums.contains("% of rays visit the farther child first (before the last save: 0%)"),
             "{sums}"
         );
         viewer.command(&json!({ "view": "tests" }));

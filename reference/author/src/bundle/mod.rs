@@ -11,6 +11,7 @@ pub mod crates;
 pub mod folders;
 mod lock;
 mod manifests;
+mod part_two;
 pub mod secrets;
 mod test_modules;
 mod version;
@@ -19,9 +20,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use grader::files;
 use grader::given_files;
-use grader::handed_out::HandedOut;
+use grader::handed_out::{HandedOut, LIGHT};
 
+use crate::authoring;
 use crate::light::LightFiles;
 use crate::starter;
 
@@ -96,7 +99,15 @@ impl Bundle {
         }
         // Generate these files instead of reading them from `student`, where staff may have solved
         // the assignment.
-        let starter = starter::generated_files(root, handed_out)?;
+        let mut starter = starter::generated_files(root, handed_out)?;
+        match light {
+            LightFiles::Solved => part_two::remove(&mut bundle)?,
+            LightFiles::Stubs => {
+                starter.extend(starter::generated_files(root, &LIGHT)?);
+                let exam = files::read(root.join(authoring::LIGHT.practice_exam))?;
+                bundle.insert(authoring::LIGHT.practice_exam, exam);
+            }
+        }
         for file in starter.into_iter().chain(light.generate(root)?) {
             bundle.insert(file.path, file.contents);
         }

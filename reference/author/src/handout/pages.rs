@@ -28,7 +28,7 @@ pub struct Page {
     pub inline_code: Vec<Snippet>,
     /// The commands in `sh` blocks, without their comments.
     pub commands: Vec<Snippet>,
-    /// All other code blocks: pseudo-code and program output.
+    /// All other code blocks: pseudocode and program output.
     pub blocks: Vec<Snippet>,
     /// The formulas, each with its byte range, its LaTeX source, and whether it is a display
     /// formula.

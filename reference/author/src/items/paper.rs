@@ -31,7 +31,7 @@ fn paper_ray(origin: DVec3, dir: DVec3) -> Ray {
     Ray::new(origin.as_vec3() + Vec3::ZERO, dir.as_vec3() + Vec3::ZERO)
 }
 
-/// Creates a question with rays that hit a triangle from the front and rays that pass beside it.
+/// Creates a question with rays that hit a triangle from the front and rays that miss it.
 /// All rays are perpendicular to the triangle. The triangle's legs are parallel to two axes and
 /// have length 4, so the weights are multiples of a quarter.
 pub(super) fn triangle(rng: &mut Rng) -> ExamQuestion {
@@ -59,7 +59,7 @@ pub(super) fn triangle(rng: &mut Rng) -> ExamQuestion {
     shape_question(&["distance"], shape, rays)
 }
 
-/// Creates a question with rays that hit a sphere from outside and rays that pass beside it. All
+/// Creates a question with rays that hit a sphere from outside and rays that miss it. All
 /// rays are parallel to an axis. The radius is 5, so half a chord is 5, 4 or 3.
 pub(super) fn sphere(rng: &mut Rng) -> ExamQuestion {
     let center = whole_point(rng);

@@ -185,7 +185,7 @@ impl Detections {
             "# How clearly each mistake is caught\n\n\
              Written by `cargo author mistakes`. For each mistake, the table shows how it is caught in the \
              exam that catches it least clearly, by the item that catches it best there. A mistake must get \
-             at least {TABLE_ANSWERS} answers or {:.0} % of an item's tables wrong, {PICTURE_MULTIPLE} \
+             at least {TABLE_ANSWERS} answers or {:.0}% of an item's tables wrong, {PICTURE_MULTIPLE} \
              times the tolerated number of wrong positions in a picture, or {TREES} trees or all of an \
              item's trees.\n\n\
              | mistake | exams | item | caught by | times the required |\n|---|--:|---|---|--:|\n",

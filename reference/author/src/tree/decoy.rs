@@ -134,7 +134,7 @@ fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
 
 /// Checks the nodes below the fork's child, on the path down to the leaf, whose boxes begin beyond
 /// the closest hit. Returns whether the ray misses the sibling of every such node. The node is then
-/// the only child that the ray hits, so the slides' pseudo-code, taken literally, enters it without
+/// the only child that the ray hits, so the slides' pseudocode, taken literally, enters it without
 /// comparing distances.
 pub fn siblings_beyond_are_missed(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     let Some(fork) = find_fork(tree, leaf, ray64) else {

@@ -1,4 +1,4 @@
-//! Traversals of a tree: a correct one and the slides' pseudo-code, taken literally.
+//! Traversals of a tree: a correct one and the slides' pseudocode, taken literally.
 
 use super::Tree;
 use crate::oracle::bbox::Bounds;
@@ -146,7 +146,7 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// Traverses the tree with the slides' pseudo-code, taken literally: it enters `first` even if
+    /// Traverses the tree with the slides' pseudocode, taken literally: it enters `first` even if
     /// both boxes are missed, and compares `hit2.t` even if child 2 is `first`. The `t` of a miss
     /// is ∞.
     pub fn by_the_slides(tree: &'a Tree, ray64: &Ray64) -> Self {

@@ -59,7 +59,7 @@ fn sampled_mutants_are_caught_or_equivalent() {
     assert!(summary.trim_end().ends_with(", 0 surviving"), "{summary}");
 }
 
-/// Checks that at least `count` mistakes are measured, that at least 85 % of them are recognised,
+/// Checks that at least `count` mistakes are measured, that at least 85% of them are recognised,
 /// and that at most `with_false_hint` of them get a false hint.
 fn assert_recognised(recognition: &Recognition, count: usize, with_false_hint: usize) {
     assert_eq!(recognition.problems, [""; 0]);

@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn tones_follow_the_srgb_curve() {
         let tone = Tone::Light { stops: 0.0 };
-        // 18 % grey is byte 118. 0 and 1 become 0 and 255, and values outside this range don't wrap
+        // 18% grey is byte 118. 0 and 1 become 0 and 255, and values outside this range don't wrap
         // around.
         let pixel = Vec3::new(0.18, 0.0, 1.0);
         assert_eq!(tone.to_bytes(pixel), [118, 0, 255]);

@@ -60,7 +60,7 @@ impl EnvironmentMap {
         {
             let (x, y) = (index % width as usize, index / width as usize);
             return Err(format!(
-                "pixel {x},{y} of the map, counted from the top left, {why}"
+                "pixel {x},{y} of the map (coordinates start at the top left) {why}"
             ));
         }
         Ok(EnvironmentMap {
@@ -135,7 +135,8 @@ mod tests {
             (Vec3::splat(f32::INFINITY), "is infinite"),
             (Vec3::splat(2e9), "is larger than 1e9"),
         ] {
-            let expected = format!("pixel 2,1 of the map, counted from the top left, {why}");
+            let expected =
+                format!("pixel 2,1 of the map (coordinates start at the top left) {why}");
             assert_eq!(with(pixel), expected);
         }
         assert!(error(uvec2(3, 2), &[Vec3::ONE; 6]).contains("3 × 2 pixels"));

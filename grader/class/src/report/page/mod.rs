@@ -208,7 +208,7 @@ fn failure_rates(summary: &ClassSummary) -> Markup {
                 th scope="row" { code { (sanitized(&rate.id)) } }
                 @for (section, graded) in &summary.sections {
                     @let count = rate.counts.get(section).copied().unwrap_or(0);
-                    td .number { (count) " (" (percent(count, *graded)) " %)" }
+                    td .number { (count) " (" (percent(count, *graded)) "%)" }
                 }
             } } }
         } };

@@ -35,7 +35,7 @@ fn side_by_side(class: &GradedClass, pair: &SimilarPair) -> Markup {
     html! {
         details {
             summary {
-                (format!("{:.0} %, ", 100.0 * pair.similarity))
+                (format!("{:.0}%, ", 100.0 * pair.similarity))
                 code { (sanitized(&format!("{}.rs", pair.files[0].task))) }
                 ": " (sanitized(&titles.join(" and ")))
             }

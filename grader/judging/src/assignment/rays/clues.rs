@@ -171,7 +171,8 @@ pub(super) const SPHERE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("uv")],
-            clue: "The given Sphere::uv expects a direction of length one, from the centre to the hit.",
+            clue: "The given Sphere::uv expects the unit-length direction from the centre to the \
+                hit.",
             section: "sphere.md#the-uv-function-needs-a-unit-direction",
         },
         SymptomClue {
@@ -224,9 +225,10 @@ pub(super) const BBOX: TaskClues = TaskClues {
 /// The clues for building a tree.
 pub(super) const BUILD: TaskClues = TaskClues {
     if_stack_overflows: Some(
-        "Is there a call in bvh.rs that receives as many primitives as its caller? Then that node should have \
-         become a leaf, or one side of its split is empty: do you use the same rule to count the two sides \
-         as to move the primitives? `--replay` shows the smallest set of primitives that still overflows the stack.",
+        "Is there a call in bvh.rs that receives as many primitives as its caller? If so, that \
+         node should have become a leaf, or one side of its split is empty: do you use the same \
+         rule to count the two sides as to move the primitives? `--replay` shows the smallest set \
+         of primitives that still overflows the stack.",
     ),
     by_symptom: &[
         SymptomClue {
@@ -283,8 +285,8 @@ pub(super) const BUILD: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("splits")],
-            clue: "The node shown has at most max_leaf_size primitives, so it must be a leaf, whatever the \
-                costs are.",
+            clue: "The node shown has at most max_leaf_size primitives, so it must be a leaf, \
+                regardless of the costs.",
             section: "building.md#when-a-node-becomes-a-leaf",
         },
         SymptomClue {

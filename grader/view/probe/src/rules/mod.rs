@@ -1,5 +1,5 @@
 //! Rules that every correct traversal follows, checked without knowing the correct answer. The
-//! checks use the submission's own `BBox::hit` and the exam's margin of 1 % of a box's diagonal,
+//! checks use the submission's own `BBox::hit` and the exam's margin of 1% of a box's diagonal,
 //! within which nothing is judged.
 
 use std::collections::{BTreeMap, BTreeSet};

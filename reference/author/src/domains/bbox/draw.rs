@@ -246,7 +246,7 @@ fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Picks a random ray that crosses a box as thin as foil or passes beside it. One component of its
+/// Picks a random ray that crosses a box as thin as foil or misses it. One component of its
 /// direction is below 3e-6.
 fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;

@@ -297,8 +297,8 @@ const FORM: Aspect<ShapeCall> = Aspect {
 const FLAT: Aspect<ShapeCall> = Aspect {
     name: "altitude",
     classes: &[
-        "below 0.6 % of the longest side",
-        "an edge below 1 % of the longest side",
+        "below 0.6% of the longest side",
+        "an edge below 1% of the longest side",
     ],
     class: |call| {
         let [p0, p1, p2] = scan::corners(&call.shape)?;

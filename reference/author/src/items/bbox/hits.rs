@@ -39,7 +39,7 @@ pub(super) const SLAB_AFTER_SLAB: Declaration = Declaration {
     id: "bbox.slab_after_slab",
     title: "a ray hits the box if it is in all three slabs at the same time",
     look: "Compare the axes with each other, and with `times`: the ray misses if and only if the \
-        latest entry comes after the earliest exit, no matter how small these times are.",
+        latest entry comes after the earliest exit, even if all these times are tiny.",
     look_fits: &[Symptom::of(PRESENCE)],
     section: "boxes.md#the-slab-intervals-must-overlap",
     tests: &["Returns the part…"],
@@ -84,8 +84,8 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
 pub(super) const FLAT: Declaration = Declaration {
     id: "bbox.flat",
     title: "a flat box can be hit",
-    look: "The box of an axis-parallel triangle is flat: the ray enters and leaves it at the same \
-           time, and that is a hit.",
+    look: "The box of an axis-aligned triangle is flat: the ray enters and leaves it at the same \
+           time, and that still counts as a hit.",
     look_fits: &[Symptom::MISS],
     section: "boxes.md#flat-boxes-can-be-hit",
     tests: &["A flat box (`min…"],

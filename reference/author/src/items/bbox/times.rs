@@ -26,7 +26,7 @@ pub(super) const BEHIND: Declaration = Declaration {
 pub(super) const FROM_INSIDE: Declaration = Declaration {
     id: "bbox.from_inside",
     title: "if the ray starts inside the box, the interval starts at times.min",
-    look: "A ray that starts in the box has entered it at a negative time: clip the interval to \
+    look: "A ray that starts inside the box entered it at a negative time: clip the interval to \
         `times`.",
     look_fits: &[Symptom::MISS, Symptom::of("interval inside the box")],
     section: "boxes.md#clip-the-result-to-times",

@@ -38,8 +38,9 @@ pub static TASK: AuthoredTask = AuthoredTask {
 const SMALL_LIGHT: Declaration = Declaration {
     id: "direct.small_light",
     points: 2,
-    title: "a small light is found by the direction toward the light",
-    look: "For a sample of the light: which value, which radiance and which densities do you use?",
+    title: "sampling the light finds a small light",
+    look: "Which value of `evaluate`, which radiance and which densities do you use for a sample \
+        of the light?",
     section: "light/direct.md#two-ways-to-find-a-light",
     tests: &[
         "Estimates the direct light that a surface scatters back along the path, from one \
@@ -68,7 +69,7 @@ const SMALL_LIGHT: Declaration = Declaration {
 const SKY: Declaration = Declaration {
     id: "direct.sky",
     points: 2,
-    title: "an even sky is found by the direction that the material samples",
+    title: "sampling the material finds a uniform sky",
     look: "Without lights, there is no direction toward a light. What is left of the sum?",
     section: "light/direct.md#an-even-sky-is-found-by-scattering",
     tests: &[
@@ -98,7 +99,7 @@ const SKY: Declaration = Declaration {
 const BOTH: Declaration = Declaration {
     id: "direct.both",
     points: 3,
-    title: "where both directions find light, each is divided by the sum of both densities",
+    title: "if both directions find light, each term is divided by the sum of its densities",
     look: "For each of the two directions, work out both densities. What do you divide by?",
     section: "light/direct.md#the-balance-heuristic",
     tests: &[
@@ -135,7 +136,7 @@ const BOTH: Declaration = Declaration {
 const BLOCKED: Declaration = Declaration {
     id: "direct.blocked",
     points: 2,
-    title: "light that something blocks doesn't arrive",
+    title: "light that is blocked doesn't arrive",
     look: "Which function tells you whether anything is between the surface and the light?",
     section: "light/direct.md#something-in-the-way",
     tests: &[
@@ -193,7 +194,7 @@ const TURNED: Declaration = Declaration {
 const NO_SAMPLE: Declaration = Declaration {
     id: "direct.no_sample",
     points: 1,
-    title: "if there is no direction toward a light, the material's direction still counts",
+    title: "if there is no direction toward a light, the material's direction is still used",
     look: "What do you do if `World::sample_light` returns `None`?",
     section: "light/direct.md#without-a-light-sample",
     tests: &["If it returns `None`, the first term is zero."],

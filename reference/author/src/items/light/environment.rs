@@ -69,7 +69,7 @@ const UNIFORM: Declaration = Declaration {
 const UNIFORM_UNIT: Declaration = Declaration {
     id: "environment.uniform_unit",
     points: 1,
-    title: "uniform directions have length one, also at the ends of the random numbers",
+    title: "uniform directions have length one, even for the extreme random numbers",
     look: "What is under your square root if a random number is 0, or just below 1?",
     section: "light/environment.md#directions-spread-evenly",
     tests: &["The direction has length one."],
@@ -95,7 +95,8 @@ const PICK: Declaration = Declaration {
     id: "environment.pick",
     points: 3,
     title: "a pixel is picked by its share of the weights, row by row from the top",
-    look: "Add up the weights in the order of the pixels: where does `choice` of the total fall?",
+    look: "Add up the weights in the order of the pixels: which pixel does `choice` times the \
+        total fall on?",
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[
         "Prepares a map for sampling.",
@@ -119,8 +120,9 @@ const PICK: Declaration = Declaration {
 const POSITION: Declaration = Declaration {
     id: "environment.position",
     points: 2,
-    title: "the other random numbers are the position in the pixel, across and down",
-    look: "Which corner of its pixel do the numbers (0, 0) lead to, and which (1, 1)?",
+    title: "the two other random numbers are the position in the pixel, across and down",
+    look: "Which corner of the pixel do the numbers (0, 0) lead to, and which corner do (1, 1) \
+        lead to?",
     section: "light/environment.md#anywhere-in-the-pixel",
     tests: &[
         "`random` is the position in the pixel, from its upper left corner: `random.x` across and \
@@ -142,8 +144,9 @@ const POSITION: Declaration = Declaration {
 const SINE: Declaration = Declaration {
     id: "environment.sine",
     points: 2,
-    title: "rows near the poles weigh less: by the sine in the middle of the row",
-    look: "Which angle do you take the sine of: is it at the row's edge, or in its middle?",
+    title: "rows near the poles weigh less, by the sine in the middle of the row",
+    look: "Which angle do you take the sine of: the one at the row's edge, or the one in its \
+        middle?",
     section: "light/environment.md#the-sine-belongs-in-the-weight",
     tests: &["A pixel's weight is its luminance, times the sine of θ in the middle of its row."],
     questions: |rng| {
@@ -164,7 +167,7 @@ const SINE: Declaration = Declaration {
 const LUMINANCE: Declaration = Declaration {
     id: "environment.luminance",
     points: 1,
-    title: "a pixel's colour counts by its luminance",
+    title: "a coloured pixel is weighted by its luminance",
     look: "How much does a green pixel weigh in your code, compared with a blue one?",
     section: "light/environment.md#the-weight-of-a-pixel",
     tests: &["A pixel's weight is its luminance, …"],
@@ -222,7 +225,7 @@ const ENDS: Declaration = Declaration {
 const BLACK: Declaration = Declaration {
     id: "environment.black",
     points: 2,
-    title: "a black pixel is never picked, and its directions have no density",
+    title: "a black pixel is never picked, and the density of its directions is 0",
     look: "Which pixel does your search return if several pixels have the same sum?",
     section: "light/environment.md#black-pixels-are-never-picked",
     tests: &[
@@ -263,8 +266,9 @@ const BLACK: Declaration = Declaration {
 const PDF: Declaration = Declaration {
     id: "environment.pdf",
     points: 3,
-    title: "the density is the pixel's share over the solid angle of a pixel at that height",
-    look: "Which sine belongs to the density: of the row's middle, or of the direction itself?",
+    title: "the density is the pixel's share divided by a pixel's solid angle at that height",
+    look: "Which sine does the density use: that of the row's middle, or that of the direction \
+        itself?",
     section: "light/environment.md#the-sine-in-the-density",
     tests: &[
         "Returns the probability density, per solid angle, with which [`Environment::sample`] \

@@ -33,7 +33,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
 const EVALUATE: Declaration = Declaration {
     id: "lambertian.evaluate",
     points: 2,
-    title: "a matte surface scatters its albedo over π, times the cosine of the incoming light",
+    title: "a matte surface scatters albedo / π times the cosine of the incoming light",
     look: "Which of the two directions does the cosine belong to, and which factor comes before it?",
     section: "light/materials.md#a-matte-surface",
     tests: &[
@@ -53,7 +53,7 @@ const PDF: Declaration = Declaration {
     id: "lambertian.pdf",
     points: 2,
     title: "the density of a direction is its cosine over π",
-    look: "Over the hemisphere, the density must add up to 1. What does yours add up to?",
+    look: "The density must integrate to 1 over the hemisphere. What does yours integrate to?",
     section: "light/materials.md#choose-directions-by-their-cosine",
     tests: &[
         "Returns the probability density, per solid angle, with which [`Lambertian::scatter`] \
@@ -70,7 +70,7 @@ const PDF: Declaration = Declaration {
 const BELOW: Declaration = Declaration {
     id: "lambertian.below",
     points: 2,
-    title: "nothing is scattered if one of the directions is below the surface",
+    title: "nothing is scattered if either direction is below the surface",
     look: "What do you return if z is negative in `out`, in `incoming`, or in both?",
     section: "light/materials.md#light-from-below-is-not-scattered",
     tests: &["The result is zero unless both directions are above the surface (z > 0)."],
@@ -108,7 +108,7 @@ const GRAZING: Declaration = Declaration {
 const DIRECTION: Declaration = Declaration {
     id: "lambertian.direction",
     points: 2,
-    title: "the sampled direction is the given function's for these random numbers",
+    title: "the sampled direction is the one that the given function returns",
     look: "Call the given `sample_cosine_hemisphere` with `random`, and return its direction \
            unchanged.",
     section: "light/materials.md#use-the-given-way-to-sample",

@@ -27,8 +27,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
 const DENSITY: Declaration = Declaration {
     id: "lights.density",
     points: 3,
-    title: "the density of a light's directions is distance² / (cos θ · area)",
-    look: "Move the point twice as far away: by which factor does the density change?",
+    title: "the density of directions to a light is distance² / (cos θ · area)",
+    look: "Move the point twice as far away: by what factor does the density change?",
     section: "light/lights.md#the-density-of-an-area-light",
     tests: &[
         "Returns the probability density, per solid angle, of a direction from a point to the \
@@ -50,7 +50,7 @@ const DENSITY: Declaration = Declaration {
 const TRIANGLE: Declaration = Declaration {
     id: "lights.triangle",
     points: 1,
-    title: "the density of a triangle's directions uses the triangle's own area",
+    title: "the density of directions to a triangle uses the triangle's own area",
     look: "The given `area` is right for both shapes. Do you compute your own?",
     section: "light/lights.md#the-density-of-an-area-light",
     tests: &[
@@ -68,7 +68,7 @@ const TRIANGLE: Declaration = Declaration {
 const BEHIND: Declaration = Declaration {
     id: "lights.behind",
     points: 2,
-    title: "from behind, a light has no density",
+    title: "from behind, a light's density is 0",
     look: "What is the sign of your cosine if the point is behind the light?",
     section: "light/lights.md#the-back-of-a-light-is-dark",
     tests: &["The result is zero if the direction misses the light, and from behind, …"],
@@ -85,7 +85,7 @@ const BEHIND: Declaration = Declaration {
 const PAST: Declaration = Declaration {
     id: "lights.past",
     points: 1,
-    title: "a direction that misses the light has no density",
+    title: "the density of a direction that misses the light is 0",
     look: "What do you return if `intersect` finds nothing?",
     section: "light/lights.md#past-the-light-there-is-no-density",
     tests: &[
@@ -110,7 +110,7 @@ const PAST: Declaration = Declaration {
 const GRAZING: Declaration = Declaration {
     id: "lights.grazing",
     points: 1,
-    title: "a light that is seen nearly from the side has a high density",
+    title: "a light that is seen nearly edge-on has a high density",
     look: "Is there a smallest cosine in your code?",
     section: "light/lights.md#the-cosine-divides",
     tests: &[
@@ -129,7 +129,8 @@ const DIRECTION: Declaration = Declaration {
     id: "lights.direction",
     points: 2,
     title: "a sample is the unit direction to the given point on the light",
-    look: "From which point to which does your direction lead, and what is its length?",
+    look: "Which point does your direction start from, which point does it lead to, and how long \
+        is it?",
     section: "light/lights.md#the-direction-has-length-one",
     tests: &[
         "Samples a direction from a point to a light with random numbers in `[0, 1)`.",
@@ -176,7 +177,8 @@ const FACES_AWAY: Declaration = Declaration {
     id: "lights.faces_away",
     points: 1,
     title: "there is no sample if the picked light faces away, or if there are no lights",
-    look: "Do you pick another light, or still return a direction, if the picked one faces away?",
+    look: "If the light that was picked faces away, do you pick another light, or return a \
+        direction anyway?",
     section: "light/lights.md#the-picked-light-may-face-away",
     tests: &[
         "The result is `None` if there are no lights, or if the light that was picked faces away.",
@@ -203,8 +205,8 @@ const FACES_AWAY: Declaration = Declaration {
 const SHARES: Declaration = Declaration {
     id: "lights.shares",
     points: 1,
-    title: "the density of all lights weighs each light's density by its share of the power",
-    look: "With which probability is the light picked that the direction leads to?",
+    title: "the total density weights each light's density by its share of the power",
+    look: "What is the probability that the light in this direction is picked?",
     section: "light/lights.md#the-share-belongs-in-the-density",
     tests: &[
         "Returns the probability density, per solid angle, with which [`Lights::sample`] chooses \
@@ -235,8 +237,8 @@ const SHARES: Declaration = Declaration {
 const OVERLAP: Declaration = Declaration {
     id: "lights.overlap",
     points: 1,
-    title: "every light in a direction adds its density, even behind another light",
-    look: "A sample of the light behind leads in the same direction. Does your sum end too early?",
+    title: "every light in a direction adds its density, even one behind another light",
+    look: "A sample of the farther light leads in the same direction. Does your sum end too early?",
     section: "light/lights.md#lights-add-their-densities",
     tests: &[
         "Every light in that direction adds its density, given by [`Light::pdf`], times the \

@@ -33,7 +33,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
 const SEEN: Declaration = Declaration {
     id: "path.seen",
     points: 2,
-    title: "without bounces, only what the ray hits or the environment is seen",
+    title: "with 0 bounces, the ray sees only emitted light or the environment",
     look: "What do you add for the first surface, and what if the ray hits nothing?",
     section: "light/paths.md#the-first-surface-can-be-a-light",
     tests: &[
@@ -61,8 +61,8 @@ const SEEN: Declaration = Declaration {
 const ONE_BOUNCE: Declaration = Declaration {
     id: "path.one_bounce",
     points: 2,
-    title: "with one bounce, the direct light on the first surface is added",
-    look: "How often does your loop add direct light if `bounces` is 1?",
+    title: "with 1 bounce, the direct light on the first surface is added",
+    look: "How many times does your loop add direct light if `bounces` is 1?",
     section: "light/paths.md#the-number-of-bounces",
     tests: &[
         "With 1 bounce, direct light is added.",
@@ -77,7 +77,7 @@ const ONE_BOUNCE: Declaration = Declaration {
 const BOUNCES: Declaration = Declaration {
     id: "path.bounces",
     points: 2,
-    title: "a path is scattered at most as often as `bounces` says",
+    title: "a path is scattered at most `bounces` times",
     look: "Count the surfaces at which your code adds direct light if `bounces` is 3.",
     section: "light/paths.md#the-number-of-bounces",
     tests: &["The path is scattered at most `bounces` times."],
@@ -132,8 +132,8 @@ const ONCE: Declaration = Declaration {
 const THROUGHPUT: Declaration = Declaration {
     id: "path.throughput",
     points: 2,
-    title: "light from later surfaces is multiplied by the attenuation of every surface before",
-    look: "Follow one path over two coloured walls: which factors does the last light get?",
+    title: "light from later surfaces is multiplied by the attenuation of every earlier one",
+    look: "Follow one path over two coloured walls: which factors is the last light multiplied by?",
     section: "light/paths.md#throughput-is-a-product",
     tests: &[
         "At each bounce, the path adds [`direct`] light and continues in the direction that \
@@ -283,7 +283,7 @@ const GLASS: Declaration = Declaration {
 const ROULETTE: Declaration = Declaration {
     id: "path.roulette",
     points: 2,
-    title: "from the fourth surface on, a path survives with the probability q",
+    title: "from the fourth surface on, a path survives with probability q",
     look: "At which bounce does your roulette begin, and what is compared with `survive`?",
     section: "light/paths.md#roulette-begins-at-bounce-three",
     tests: &["This is Russian roulette: see PBR, section 2.2.4."],
@@ -307,7 +307,7 @@ const SURVIVORS: Declaration = Declaration {
     id: "path.survivors",
     points: 2,
     title: "a survivor's throughput is divided by q, which is at least 0.05 and at most 0.95",
-    look: "In a white room and in a dark one: what is q, and what do you divide by?",
+    look: "What is q in a white room, and in a dark one? And what do you divide by?",
     section: "light/paths.md#survivors-carry-more",
     tests: &[
         "Here, q is the largest channel of the throughput after this bounce's attenuation, but at \

@@ -41,8 +41,8 @@ pub static TASK: AuthoredTask = AuthoredTask {
 const REFLECT: Declaration = Declaration {
     id: "specular.reflect",
     points: 1,
-    title: "a mirror turns a direction by half a turn around the normal",
-    look: "Which components change their sign, and which one stays?",
+    title: "a mirror rotates a direction by half a turn about the normal",
+    look: "Which components change sign, and which one stays the same?",
     section: "light/glass.md#the-mirror-direction",
     tests: &["Mirrors a direction about the normal."],
     questions: |rng| vec![reflections(list(rng, above))],
@@ -65,8 +65,8 @@ const REFLECT_INSIDE: Declaration = Declaration {
 const ENTERING: Declaration = Declaration {
     id: "specular.refract_entering",
     points: 2,
-    title: "a direction outside is refracted toward the normal inside a denser medium",
-    look: "Which side is `out` on, and what does Snell's law divide by what there?",
+    title: "a path that enters a denser medium is bent toward the normal",
+    look: "Which side is `out` on, and which index does Snell's law divide by which?",
     section: "light/glass.md#the-refracted-direction",
     tests: &[
         "Returns the direction on the other side of the surface of a medium with index of \
@@ -85,9 +85,8 @@ const ENTERING: Declaration = Declaration {
 const LEAVING: Declaration = Declaration {
     id: "specular.refract_leaving",
     points: 2,
-    title: "a direction inside is refracted away from the normal outside",
-    look: "If `out` is inside, the ratio of the indices is turned around, and the result points \
-           up.",
+    title: "a path that leaves a denser medium is bent away from the normal",
+    look: "If `out` is inside, the ratio of the indices is inverted, and the result points up.",
     section: "light/glass.md#the-side-decides-the-ratio",
     tests: &["If out.z < 0, the path is inside, and the result has z > 0."],
     questions: |rng| {
@@ -102,7 +101,7 @@ const TOTAL: Declaration = Declaration {
     id: "specular.refract_total",
     points: 2,
     title: "beyond the critical angle, nothing is refracted",
-    look: "What is the square of the refracted sine there, and what do you do with it?",
+    look: "What is the squared sine of the refracted angle there, and what do you do with it?",
     section: "light/glass.md#total-reflection",
     tests: &[
         "Directions along the surface (z = 0), and those at the critical angle, are not tested.",
@@ -142,7 +141,7 @@ const HEAD_ON: Declaration = Declaration {
 const LOW_INDEX: Declaration = Declaration {
     id: "specular.refract_low_index",
     points: 1,
-    title: "an index of 1 bends nothing, and below 1, total reflection occurs outside",
+    title: "an index of 1 bends nothing, and one below 1 has total reflection outside",
     look: "Is there anything in your code that is only right if `ior` is greater than 1?",
     section: "light/glass.md#an-index-below-one",
     tests: &[
@@ -167,7 +166,7 @@ const LOW_INDEX: Declaration = Declaration {
 const FRESNEL_ENTERING: Declaration = Declaration {
     id: "specular.fresnel_entering",
     points: 2,
-    title: "outside, the reflected fraction is that of the Fresnel equations at every angle",
+    title: "outside, the reflected fraction follows the Fresnel equations at every angle",
     look: "Work out both ratios at 60°: the result is the mean of their squares.",
     section: "light/glass.md#the-mean-of-two-squares",
     tests: &[
@@ -191,7 +190,7 @@ const FRESNEL_LEAVING: Declaration = Declaration {
     id: "specular.fresnel_leaving",
     points: 2,
     title: "inside, the reflected fraction is that of the refracted direction outside",
-    look: "Which cosine belongs to which index, if the path is inside?",
+    look: "Which cosine belongs to which index if the path is inside?",
     section: "light/glass.md#each-side-has-its-own-angle",
     tests: &[
         "`out` can be on either side of the surface, as for [`refract`].",
@@ -227,7 +226,7 @@ const FRESNEL_TOTAL: Declaration = Declaration {
 const FRESNEL_LOW_INDEX: Declaration = Declaration {
     id: "specular.fresnel_low_index",
     points: 1,
-    title: "an index of 1 reflects nothing, and an index below 1 reflects like its inverse inside",
+    title: "an index of 1 reflects nothing, and one below 1 reflects like its inverse inside",
     look: "Is there anything in your code that is only right if `ior` is greater than 1?",
     section: "light/glass.md#an-index-below-one",
     tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
@@ -247,7 +246,7 @@ const FRESNEL_LOW_INDEX: Declaration = Declaration {
 const MIRROR: Declaration = Declaration {
     id: "specular.mirror",
     points: 2,
-    title: "a mirror reflects in one direction, attenuated by its reflectance, without a density",
+    title: "a mirror's only direction is attenuated by its reflectance and has no density",
     look: "Nothing is divided by a density here: what is left of the attenuation?",
     section: "light/glass.md#a-mirror-has-no-density",
     tests: &[
@@ -277,8 +276,8 @@ const MIRROR: Declaration = Declaration {
 const GLASS_CHOICE: Declaration = Declaration {
     id: "specular.glass_choice",
     points: 2,
-    title: "glass reflects if the random number is less than the fraction, and refracts otherwise",
-    look: "Compare `random` with `fresnel`: which of the two directions is chosen below it?",
+    title: "glass reflects if the random number is below the fraction and refracts otherwise",
+    look: "Which of the two directions do you choose if `random` is less than `fresnel`?",
     section: "light/glass.md#below-the-fraction-means-reflected",
     tests: &[
         "Chooses between reflection and refraction with a random number in `[0, 1)`: the path is \
@@ -292,7 +291,7 @@ const GLASS_CHOICE: Declaration = Declaration {
 const GLASS_RADIANCE: Declaration = Declaration {
     id: "specular.glass_radiance",
     points: 2,
-    title: "refraction scales radiance by the squared ratio of the indices, and reflection doesn't",
+    title: "refraction scales radiance by the squared index ratio, and reflection doesn't",
     look: "Which index is on the side of `out`, and which on the side that the light comes from?",
     section: "light/glass.md#the-ratio-of-indices-is-squared",
     tests: &[
@@ -312,7 +311,7 @@ const GLASS_TOTAL: Declaration = Declaration {
     id: "specular.glass_total",
     points: 1,
     title: "total reflection goes in the mirror direction with an attenuation of 1",
-    look: "What do you return if nothing is refracted, whatever the random number is?",
+    look: "What do you return if nothing is refracted? Does it depend on the random number?",
     section: "light/glass.md#total-reflection-is-not-scaled",
     tests: &["If the path is reflected, `attenuation` is 1: …"],
     questions: |rng| {

@@ -30,7 +30,7 @@ pub(super) const NEAR_SIDE: Declaration = Declaration {
 
 pub(super) const BESIDE: Declaration = Declaration {
     id: "sphere.beside",
-    title: "rays hit the sphere unless they pass beside it",
+    title: "rays through the sphere hit it, and rays past it miss it",
     look: "Without real roots, there is no hit. With two roots, there may be a hit. Work out the \
         value under the square root for the ray shown, before you take the root.",
     look_fits: &[Symptom::HIT],
@@ -102,7 +102,7 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
     id: "sphere.far_root",
     title: "if the near side is before the range, the far side can still be hit",
     look: "The range need not start at 0. If the near root is outside the range and the far root \
-        is inside it, the far root counts.",
+        is inside it, the distance is the far root.",
     section: "sphere.md#the-near-root-can-be-out-of-range",
     tests: &["If only the far intersection…"],
     questions: |rng| {
@@ -115,7 +115,7 @@ pub(super) const FAR_ROOT: Declaration = Declaration {
 
 pub(super) const RANGE_MAX: Declaration = Declaration {
     id: "sphere.range_max",
-    title: "only hits before the end of the range count",
+    title: "hits beyond the end of the range are ignored",
     look: "Compare each root separately with both ends of ray.range. The ray can end before the \
            sphere, inside it or beyond it: which of the two roots are in the range of the ray \
            shown?",
@@ -132,8 +132,8 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
 pub(super) const RANGE_WITHIN: Declaration = Declaration {
     id: "sphere.range_within",
     title: "a ray misses if neither root is in its range, and hits otherwise",
-    look: "Between the roots, the ray is inside the sphere and hits nothing. Beyond both, it has left the \
-        sphere. A root is a hit if and only if it is in ray.range, no matter how small it is.",
+    look: "Between the roots, the ray is inside the sphere and hits nothing. Beyond both, it has \
+        left the sphere. A root is a hit if and only if it is in ray.range, even if it is tiny.",
     section: "sphere.md#check-each-root-by-itself",
     tests: &["`ray.range` includes both…"],
     questions: |rng| {

@@ -36,9 +36,9 @@ pub(super) const NORMAL: Declaration = Declaration {
 pub(super) const UV: Declaration = Declaration {
     id: "sphere.uv",
     title: "uv is computed from the direction from the centre to the hit",
-    look: "The uv is the result of the given Sphere::uv, which needs the direction from the centre \
-           to the hit, of length one. Check the vector that you pass: where does it start, which \
-           way does it point, and how long is it?",
+    look: "The uv comes from the given Sphere::uv, which needs the unit-length direction from the \
+           centre to the hit. Check the vector that you pass: where does it start, which way does \
+           it point, and how long is it?",
     look_fits: &[Symptom::of("uv")],
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
     tests: &["`uv` is computed…"],

@@ -59,14 +59,14 @@ pub(super) struct Decoys<'a> {
     /// Whether a decoy's leaf is the left child. If both siblings are beyond the hit, the leaf may
     /// be either child.
     pub(super) is_left: bool,
-    /// The answer that the slides' pseudo-code, taken literally, gives for all rays with a decoy.
+    /// The answer that the slides' pseudocode, taken literally, gives for all rays with a decoy.
     pub(super) slides: SlidesAnswer,
     /// The number of primitives in each leaf that is next to the chain and not part of a cell.
     pub(super) fill: usize,
 }
 
 impl Decoys<'_> {
-    /// Returns whether the slides' pseudo-code gives the required answers to all rays.
+    /// Returns whether the slides' pseudocode gives the required answers to all rays.
     fn are_as_required(&self, tree: &Tree, rays: &[Ray], with_decoy: &[Ray]) -> bool {
         rays.iter().all(|ray| {
             let is_wrong = with_decoy.contains(ray) && self.slides == SlidesAnswer::Wrong;

@@ -104,7 +104,7 @@ impl Pair {
     }
 
     /// Returns two rays that start at this distance: one hits the front triangle, and the other
-    /// passes beside it.
+    /// misses it.
     fn rays(&self, rng: &mut Rng, distance: f64) -> (Ray, Ray) {
         let [x, y] = self.across;
         let slant = rng.uniform(-0.15, 0.15) * x + rng.uniform(-0.15, 0.15) * y;

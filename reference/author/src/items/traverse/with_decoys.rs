@@ -16,7 +16,7 @@ use crate::tree::Tree;
 use crate::tree::decoy::{self, Child, SkipReason};
 use crate::tree::traversal::Traversal;
 
-/// Returns whether the slides' pseudo-code, taken literally, gives the correct answer for this ray.
+/// Returns whether the slides' pseudocode, taken literally, gives the correct answer for this ray.
 pub(super) fn slides_are_correct(tree: &Tree, ray: &Ray) -> bool {
     let ray64 = Ray64::from(ray);
     Traversal::by_the_slides(tree, &ray64).closest == tree.expected_hit(&ray64)
@@ -35,7 +35,7 @@ const OTHER_RAYS: [usize; 2] = [4, 4];
 const MIN_DECOYS: usize = 4;
 
 /// Creates a question in which at least `MIN_DECOYS` rays have a decoy, each in a leaf that `fits`
-/// accepts. Taken literally, the slides' pseudo-code gives the answer `slides` for rays with a
+/// accepts. Taken literally, the slides' pseudocode gives the answer `slides` for rays with a
 /// decoy and the correct answer for all others.
 fn question_with_decoys(rng: &mut Rng, fits: LeafFilter, slides: SlidesAnswer) -> ExamQuestion {
     rng.retry(|rng| {
@@ -96,7 +96,7 @@ fn add_decoys(
     (tree, done.len())
 }
 
-/// The result of following the slides' pseudo-code literally for a ray with a decoy.
+/// The result of following the slides' pseudocode literally for a ray with a decoy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SlidesAnswer {
     /// The correct answer: the decoy is not tested.
@@ -137,7 +137,7 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
     tests: &["Do not enter a node whose box the…"],
     questions: |rng| {
         let fits = skipped_for(SkipReason::Missed);
-        // The slides' pseudo-code enters the left child if both children are missed, and may enter
+        // The slides' pseudocode enters the left child if both children are missed, and may enter
         // it if only the right child is hit: see `both_sides`.
         let after_nothing = |tree: &Tree, leaf: usize, ray64: &Ray64| {
             missed_alone(|node| node.r)(tree, leaf, ray64)

@@ -250,10 +250,9 @@ fn ray_from_around_or_in_a_corner() -> impl FnMut(&mut Rng, &Tree) -> Ray {
 
 pub(super) const RANGE: Declaration = Declaration {
     id: "traverse.range",
-    title: "only hits within the ray's range count",
-    look: "A hit counts if it is within ray.range, which need not start at 0 or end at ∞. The \
-           closest hit that counts is the answer. Find all hits of the ray shown, and see where \
-           your code picks a different hit, or none.",
+    title: "hits outside the ray's range are ignored",
+    look: "The answer is the closest hit within ray.range, which need not start at 0 or end at ∞. \
+           Find all hits of the ray shown, and see where your code picks a different one, or none.",
     section: "traversal.md#only-a-hit-shortens-the-ray",
     tests: &["Returns the ray's…"],
     questions: range,
@@ -305,8 +304,8 @@ fn range(rng: &mut Rng) -> Vec<ExamQuestion> {
 pub(super) const LEAF_OF_SEVERAL: Declaration = Declaration {
     id: "traverse.leaf_of_several",
     title: "every primitive in a leaf is tested",
-    look: "A leaf holds primitives[start..start + size]. The closest of all their hits counts, no \
-        matter which of these primitives it is on.",
+    look: "A leaf holds primitives[start..start + size]. Return the closest hit among all of them, \
+        whichever primitive it is on.",
     section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
     tests: &["Returns the ray's…"],
     questions: leaf_of_several,
@@ -378,8 +377,8 @@ fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
 pub(super) const DEEP: Declaration = Declaration {
     id: "traverse.deep",
     title: "a tree of 60 levels is traversed to the end",
-    look: "Nothing may stop the traversal before the deepest level, neither a depth limit nor a \
-        fixed-size stack that is too small. If you push nodes, pop all of them.",
+    look: "Neither a depth limit nor a fixed-size stack that is too small may stop the traversal \
+        before the deepest level. If you push nodes, pop all of them.",
     look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#deep-trees",
     tests: &["The tree can be 60…"],

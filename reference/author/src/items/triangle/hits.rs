@@ -77,8 +77,8 @@ pub(super) const FROM_BEHIND: Declaration = Declaration {
 pub(super) const RANGE_MAX: Declaration = Declaration {
     id: "triangle.range_max",
     title: "t must be at most the end of the ray's range",
-    look: "A ray through the triangle hits it if and only if t is in ray.range, no matter how small the \
-        triangle is. Which comparison in your code decides this for the ray shown?",
+    look: "A ray through the triangle hits it if and only if t is in ray.range, even if the \
+        triangle is tiny. Which comparison in your code decides this for the ray shown?",
     look_fits: &[Symptom::of(PRESENCE)],
     section: "triangle.md#check-both-ends-of-the-range",
     tests: &["`ray.range` includes both…"],
@@ -93,8 +93,8 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
 pub(super) const RANGE_MIN: Declaration = Declaration {
     id: "triangle.range_min",
     title: "t must be at least the start of the ray's range",
-    look: "The range has two ends, and it doesn't have to start at 0. Compare t with these two ends, not \
-        with a constant, no matter how small.",
+    look: "The range has two ends, and it doesn't have to start at 0. Compare t with these two \
+        ends, not with a constant, even a small one.",
     look_fits: &[Symptom::of(PRESENCE)],
     section: "triangle.md#check-both-ends-of-the-range",
     tests: &["`ray.range` includes both…"],

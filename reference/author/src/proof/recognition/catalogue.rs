@@ -103,7 +103,7 @@ pub fn recognise_independent(solutions: &Solutions, exam: &Exam) -> Result<Recog
     let (count, with_false_hint) = (recognition.count, recognition.with_false_hint);
     let recognised = recognition.recognised;
     recognition.summary_line = format!(
-        "mistakes in other solutions: {recognised} of {count} recognised ({:.0} %), {} get no hint, \
+        "mistakes in other solutions: {recognised} of {count} recognised ({:.0}%), {} get no hint, \
          {with_false_hint} a false one",
         100.0 * recognised as f64 / count.max(1) as f64,
         count - recognised - with_false_hint,

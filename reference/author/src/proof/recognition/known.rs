@@ -122,7 +122,7 @@ fn summary(solutions: &Solutions, rows: &[KnownHints]) -> Recognition {
         problems: Vec::new(),
         lines: others.chain(with_false_hint).chain(unmarked).collect(),
         summary_line: format!(
-            "hints: {} of {count} mistakes recognised ({:.0} %), {} more without a signature; \
+            "hints: {} of {count} mistakes recognised ({:.0}%), {} more without a signature; \
              when its own hint is removed, a mistake gets a false hint in {false_hint_count} of {} \
              cases",
             recognised.len(),

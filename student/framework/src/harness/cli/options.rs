@@ -67,13 +67,13 @@ pub(super) struct Options {
     )]
     pub(super) exposure: f32,
 
-    /// Print the hit and the radiance of this pixel, counted from the bottom left, instead of
-    /// writing a picture
+    /// Instead of writing an image, print the hit and the radiance for this pixel (coordinates
+    /// start at the bottom left)
     #[arg(long, value_name = "X,Y", value_parser = pixel)]
     pub(super) pixel: Option<UVec2>,
 
-    /// Measure rays per second with one path per pixel and compare them with the last run, instead
-    /// of writing a picture
+    /// Instead of writing an image, measure rays per second with one path per pixel and compare
+    /// them with the last run
     #[arg(long, conflicts_with_all = ["out", "out_option", "pixel", "view", "samples"])]
     pub(super) bench: bool,
 }

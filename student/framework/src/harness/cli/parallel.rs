@@ -11,8 +11,8 @@ use crate::harness::probe::STACK_BYTES;
 use crate::render::renderer::RenderStats;
 
 /// The name given to the threads, which appears in the message about a stack overflow.
-const THREAD_NAME: &str = "a ray, in Camera::sample_ray, Bvh::hit, BBox::hit, Triangle::hit or \
-                           Sphere::hit";
+const THREAD_NAME: &str = "a ray (in Camera::sample_ray, Bvh::hit, BBox::hit, Triangle::hit or \
+                           Sphere::hit)";
 
 /// The size of a film and the threads that render it.
 pub(super) struct RenderPool {

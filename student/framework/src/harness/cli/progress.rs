@@ -30,7 +30,7 @@ impl Progress {
     /// Creates a bar for this many rows of pixels, each counted once per sample. `note` is added to
     /// the message that is shown if there is no bar.
     pub(super) fn new(rows: u64, note: &str) -> Self {
-        let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {eta} left  {msg}")
+        let style = ProgressStyle::with_template("{bar:30} {percent:>3}%  {eta} left  {msg}")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         let bar = ProgressBar::new(rows).with_style(style);
         let message = format!("rendering: still running{note}");

@@ -84,7 +84,7 @@ mod tests {
             assert!(note.starts_with(start), "{note}");
         };
         starts(&CORRECT, &Tree::default(), "note: task 3, build: no tree");
-        // This submission tests every primitive, whatever the tree.
+        // This submission tests every primitive, regardless of the tree.
         starts(&CORRECT, &leaf(1), "note: task 3, traverse: `Bvh::hit`");
         // If a primitive can't be tested at all, another message says so.
         let panicking = SphereSubmission {

@@ -9,17 +9,17 @@ use judging::section::Section;
 use super::pages::{Page, anchor};
 
 /// Returns the broken links in the chapters and the files that no chapter links to. `figures` are
-/// the file names of the figures in the chapters' folder.
+/// the paths of the figures, relative to the chapters' folder.
 pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
     let anchors = anchors(pages);
     let mut problems = Vec::new();
     for page in pages {
         let links = page.links.iter();
         for link in links.filter(|link| !link.text.contains("://")) {
-            let (file, anchor) = link.text.split_once('#').unwrap_or((&link.text, ""));
-            let file = if file.is_empty() { &page.name } else { file };
-            let problem = match anchors.get(file) {
-                None if figures.contains(file) => None,
+            let (_, anchor) = link.text.split_once('#').unwrap_or_default();
+            let file = page.linked_file(&link.text);
+            let problem = match anchors.get(&*file) {
+                None if figures.contains(&file) => None,
                 None => Some(format!("{file} does not exist")),
                 Some(anchors) if anchor.is_empty() || anchors.contains(anchor) => None,
                 Some(_) => Some(format!("{file} has no heading for #{anchor}")),
@@ -33,15 +33,17 @@ pub fn broken_links(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
 
 /// Returns a problem for each chapter or figure that no chapter links to.
 fn unlinked_files(pages: &[Page], figures: &BTreeSet<String>) -> Vec<String> {
-    let links = pages.iter().flat_map(|page| &page.links);
-    let reached: BTreeSet<&str> = links
-        .map(|link| link.text.split('#').next().unwrap_or_default())
-        .collect();
+    let reached = pages.iter().flat_map(|page| {
+        let links = page.links.iter().map(|link| link.text.as_str());
+        let links = links.filter(|link| !link.starts_with('#'));
+        links.map(|link| page.linked_file(link))
+    });
+    let reached: BTreeSet<String> = reached.collect();
     let chapters = pages.iter().map(|page| page.name.as_str());
     let all = chapters
         .filter(|name| *name != SUMMARY)
         .chain(figures.iter().map(String::as_str));
-    all.filter(|file| !reached.contains(file))
+    all.filter(|file| !reached.contains(*file))
         .map(|file| format!("{file}: no chapter links to it"))
         .collect()
 }
@@ -136,10 +138,15 @@ mod tests {
             ),
             Page::new(
                 "b.md",
-                "# B\n[a](a.md)\n## The end\n![a picture](figures/a.svg)",
+                "# B\n[a](a.md)\n## The end\n![a picture](figures/a.svg) [c](c/c.md)",
+            ),
+            Page::new(
+                "c/c.md",
+                "# C\n[b](../b.md#the-end)\n![a picture](../figures/c.svg) [here](c.md#c)",
             ),
         ];
-        assert_eq!(broken_links(&pages, &figures(&["figures/a.svg"])), [""; 0]);
+        let figures = figures(&["figures/a.svg", "figures/c.svg"]);
+        assert_eq!(broken_links(&pages, &figures), [""; 0]);
     }
 
     #[test]
@@ -147,6 +154,7 @@ mod tests {
         let pages = [
             Page::new("a.md", "# A\n\n[b](c.md)\n[here](#b) [a](a.md)"),
             Page::new("b.md", "# B\n![a picture](figures/b.svg)"),
+            Page::new("c/c.md", "# C\n[a](a.md) [a](../../a.md) [c](#c)"),
         ];
         assert_eq!(
             broken_links(&pages, &figures(&["figures/a.svg"])),
@@ -154,7 +162,10 @@ mod tests {
                 "a.md:3: c.md does not exist",
                 "a.md:4: a.md has no heading for #b",
                 "b.md:2: figures/b.svg does not exist",
+                "c/c.md:2: c/a.md does not exist",
+                "c/c.md:2: ../a.md does not exist",
                 "b.md: no chapter links to it",
+                "c/c.md: no chapter links to it",
                 "figures/a.svg: no chapter links to it",
             ]
         );

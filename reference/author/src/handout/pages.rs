@@ -6,6 +6,8 @@ use std::path::Path;
 use grader::files::{self, PathError};
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
+use super::files_below;
+
 /// A piece of text from a chapter and its line number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snippet {
@@ -18,11 +20,11 @@ pub struct Snippet {
 /// A chapter of the handout.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    /// The file name, such as `boxes.md`.
+    /// The path relative to the chapters' folder, such as `boxes.md` or `light/glass.md`.
     pub name: String,
     /// The text of each heading.
     pub headings: Vec<Snippet>,
-    /// The targets of links and pictures.
+    /// The targets of links and pictures, relative to the chapter's folder.
     pub links: Vec<Snippet>,
     /// The inline code.
     pub inline_code: Vec<Snippet>,
@@ -58,6 +60,25 @@ impl Page {
     /// Returns the anchors of the headings, as GitHub and mdBook generate them.
     pub fn anchors(&self) -> impl Iterator<Item = String> {
         self.headings.iter().map(|heading| anchor(&heading.text))
+    }
+
+    /// Returns the path of the file that a link in this chapter leads to, relative to the chapters'
+    /// folder. A link that consists only of an anchor leads to the chapter itself.
+    pub fn linked_file(&self, link: &str) -> String {
+        let file = link.split('#').next().unwrap_or_default();
+        if file.is_empty() {
+            return self.name.clone();
+        }
+        let mut parts: Vec<&str> = self.name.split('/').collect();
+        parts.pop();
+        for part in file.split('/') {
+            match (part, parts.last()) {
+                // A link that leaves the chapters' folder keeps its dots, so that it matches no file.
+                ("..", Some(last)) if *last != ".." => drop(parts.pop()),
+                _ => parts.push(part),
+            }
+        }
+        parts.join("/")
     }
 
     /// Returns a message about a snippet of this chapter. It begins with the file name and the line
@@ -151,17 +172,16 @@ pub fn anchor(heading: &str) -> String {
     letters.flat_map(char::to_lowercase).collect()
 }
 
-/// Reads all chapters in a folder, sorted by name.
+/// Reads all chapters in a folder and its subfolders, sorted by name.
 pub fn pages(folder: &Path) -> Result<Vec<Page>, PathError> {
-    let mut pages = Vec::new();
-    for path in files::read_dir(folder)? {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if name.ends_with(".md") {
-            pages.push(Page::new(name.clone(), &files::read_to_string(&path)?));
-        }
-    }
-    pages.sort_by(|a, b| a.name.cmp(&b.name));
-    Ok(pages)
+    let mut names = files_below(folder, folder)?;
+    names.retain(|name| name.ends_with(".md"));
+    names.sort();
+    let pages = names.into_iter().map(|name| {
+        let markdown = files::read_to_string(folder.join(&name))?;
+        Ok(Page::new(name, &markdown))
+    });
+    pages.collect()
 }
 
 #[cfg(test)]
@@ -193,5 +213,31 @@ mod tests {
             .map(|(_, text, is_display)| (text.as_str(), *is_display))
             .collect();
         assert_eq!(found, [("a_1", false), ("b \\\\ c\n", true)]);
+    }
+
+    #[test]
+    fn links_are_relative_to_the_chapters_folder() {
+        let page = Page::new("light/a.md", "");
+        for (link, file) in [
+            ("b.md#zero", "light/b.md"),
+            ("../b.md", "b.md"),
+            ("../figures/a.svg", "figures/a.svg"),
+            ("#zero", "light/a.md"),
+            ("../../b.md", "../b.md"),
+        ] {
+            assert_eq!(page.linked_file(link), file);
+        }
+    }
+
+    #[test]
+    fn finds_chapters_in_subfolders() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("light")).unwrap();
+        for name in ["b.md", "a.svg", "light/a.md"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let pages = pages(folder.path()).unwrap();
+        let names: Vec<&str> = pages.iter().map(|page| page.name.as_str()).collect();
+        assert_eq!(names, ["b.md", "light/a.md"]);
     }
 }

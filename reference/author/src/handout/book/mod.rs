@@ -9,7 +9,7 @@ use std::path::Path;
 use anyhow::{Result, anyhow, ensure};
 use grader::files::AtPath;
 use mdbook_driver::MDBook;
-use mdbook_driver::book::{Book, BookItem};
+use mdbook_driver::book::{Book, BookItem, Chapter};
 use mdbook_driver::errors::Error;
 
 use crate::bundle::{Bundle, archive};
@@ -53,24 +53,24 @@ pub fn build_for_students(bundle: &Bundle, to: &Path) -> Result<()> {
     build(sources.path(), to)
 }
 
-/// Replaces formulas with MathML, and figures with inline SVG. `chapters` is the folder that
-/// contains the figures.
+/// Replaces formulas with MathML, and figures with inline SVG. `chapters` is the chapters' folder.
 fn render_chapters(book: &mut Book, chapters: &Path) -> Result<()> {
     let mut result = Ok(());
     book.for_each_mut(|item| {
         if let BookItem::Chapter(chapter) = item
             && result.is_ok()
         {
-            result = render(&chapter.name, &chapter.content, chapters)
-                .map(|content| chapter.content = content);
+            result = render(chapter, chapters).map(|content| chapter.content = content);
         }
     });
     result
 }
 
-fn render(name: &str, content: &str, chapters: &Path) -> Result<String> {
-    let content = render_formulas(name, content)?;
-    Ok(inline_figures(&content, chapters)?)
+fn render(chapter: &Chapter, chapters: &Path) -> Result<String> {
+    let content = render_formulas(&chapter.name, &chapter.content)?;
+    // A chapter without a file has no content.
+    let file = chapters.join(chapter.path.as_deref().unwrap_or(Path::new("")));
+    Ok(inline_figures(&content, &file)?)
 }
 
 #[cfg(test)]

@@ -41,8 +41,9 @@ fn page_problems(chapter: &Page, html: &str) -> Vec<String> {
     missing.chain(fetched).collect()
 }
 
-/// Returns the chapter with its SVG figures inlined. Their files are in the folder `chapters`.
-pub fn inline_figures(markdown: &str, chapters: &Path) -> Result<String, PathError> {
+/// Returns the chapter with its SVG figures inlined. Their paths are relative to the folder of the
+/// chapter's file.
+pub fn inline_figures(markdown: &str, chapter: &Path) -> Result<String, PathError> {
     let mut pictures = Vec::new();
     for (event, range) in Parser::new_ext(markdown, options()).into_offset_iter() {
         if let Event::Start(Tag::Image { dest_url, .. }) = event {
@@ -52,7 +53,7 @@ pub fn inline_figures(markdown: &str, chapters: &Path) -> Result<String, PathErr
     let mut text = markdown.to_owned();
     for (range, file) in pictures.into_iter().rev() {
         if file.ends_with(".svg") {
-            let svg = files::read_to_string(chapters.join(file))?;
+            let svg = files::read_to_string(chapter.with_file_name(file))?;
             // Put the figure on one line, since an empty line would end the HTML block.
             let lines: Vec<&str> = svg.lines().map(str::trim).collect();
             text.replace_range(range, &format!("<figure>{}</figure>", lines.concat()));
@@ -83,12 +84,16 @@ mod tests {
     #[test]
     fn replaces_figures_by_their_drawings_and_keeps_other_pictures() {
         let chapters = tempfile::tempdir().unwrap();
+        std::fs::create_dir(chapters.path().join("light")).unwrap();
         let svg = "<svg viewBox=\"0 0 1 1\">\n\n  <rect/>\n</svg>\n";
         std::fs::write(chapters.path().join("a.svg"), svg).unwrap();
-        let text = inline_figures("![a](a.svg)\n\n![b](b.png)\n", chapters.path()).unwrap();
-        assert_eq!(
-            text,
-            "<figure><svg viewBox=\"0 0 1 1\"><rect/></svg></figure>\n\n![b](b.png)\n"
-        );
+        for (chapter, file) in [("c.md", "a.svg"), ("light/c.md", "../a.svg")] {
+            let markdown = format!("![a]({file})\n\n![b](b.png)\n");
+            let text = inline_figures(&markdown, &chapters.path().join(chapter)).unwrap();
+            assert_eq!(
+                text,
+                "<figure><svg viewBox=\"0 0 1 1\"><rect/></svg></figure>\n\n![b](b.png)\n"
+            );
+        }
     }
 }

@@ -39,9 +39,9 @@ pub(super) fn remove(bundle: &mut Bundle) -> Result<()> {
         let text = bundle
             .text(path)
             .with_context(|| format!("{path} is missing"))?;
-        let (before, after) = text.split_once(lines).with_context(|| {
-            format!("{path} has no line {lines:?}: update bundle/part_two.rs")
-        })?;
+        let (before, after) = text
+            .split_once(lines)
+            .with_context(|| format!("{path} has no line {lines:?}: update bundle/part_two.rs"))?;
         let text = format!("{before}{replacement}{after}");
         bundle.insert(path, text);
     }

@@ -19,7 +19,6 @@ use crate::coverage::coverage;
 use crate::exams;
 use crate::generated_file::{GeneratedFile, Mode, write_or_check};
 use crate::handout;
-use crate::light::LightFiles;
 use crate::long_runs;
 use crate::solutions::Solutions;
 use crate::solutions::workbench::Workbench;
@@ -40,7 +39,6 @@ pub fn run(command: Command, authoring: &'static Authoring) -> CommandResult {
         Command::Starter(check) => {
             let mut files = starter::generated_files(root, authoring.handed_out)?;
             files.push(starter::reference_root(root, authoring.handed_out)?);
-            files.extend(LightFiles::Stubs.generate(root)?);
             generate(&files, check.mode(), "starter")
         }
         Command::Exams(check) => {

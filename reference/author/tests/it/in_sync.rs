@@ -4,15 +4,19 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use author::light;
-use grader::handed_out::RAYS;
+use grader::handed_out::ASSIGNMENTS;
 use grader::probe::Budget;
 use grader::task_session::{MAX_CRASHES, MAX_TIMEOUTS};
 
 use crate::harness::{author_succeeds, root, text};
 
-/// The folders with generated starters. The first two are identical copies.
-const STARTERS: [&str; 3] = ["student/src", "grader/starter", "student/light/src"];
+/// The folders with generated starters: two identical copies for each assignment.
+const STARTERS: [&str; 4] = [
+    "student/src",
+    "grader/starter",
+    "student/light/src",
+    "grader/starter/light",
+];
 
 /// Returns the starters' files in all folders.
 fn starter_files() -> Vec<PathBuf> {
@@ -20,24 +24,31 @@ fn starter_files() -> Vec<PathBuf> {
         .iter()
         .flat_map(|folder| fs::read_dir(root().join(folder)).expect("the starter is committed"))
         .map(|entry| entry.expect("the folder can be listed").path())
+        .filter(|path| path.is_file())
         .collect()
 }
 
 #[test]
 fn the_starter_the_exams_and_the_table_of_mistakes_are_in_sync() {
-    for command in ["starter", "exams", "mistakes"] {
-        author_succeeds(&[command, "--check"]);
+    for assignment in ["rays", "light"] {
+        for command in ["starter", "exams", "mistakes"] {
+            author_succeeds(&[command, "--check", "--assignment", assignment]);
+        }
     }
 }
 
 #[test]
 fn every_sentence_of_the_contract_is_covered_or_has_its_reason() {
-    author_succeeds(&["coverage", "--check"]);
+    for assignment in ["rays", "light"] {
+        author_succeeds(&["coverage", "--check", "--assignment", assignment]);
+    }
 }
 
 #[test]
 fn the_handout_is_in_sync_and_its_links_names_and_commands_exist() {
-    author_succeeds(&["handout", "--check"]);
+    for assignment in ["rays", "light"] {
+        author_succeeds(&["handout", "--check", "--assignment", assignment]);
+    }
 }
 
 #[test]
@@ -67,10 +78,9 @@ fn the_handout_has_the_limits_of_the_grader() {
 #[test]
 fn the_starter_has_every_file_in_each_folder_and_no_marks() {
     let files = starter_files();
-    let with_main = RAYS.files.len() + RAYS.given.len() + 1;
-    // Part two also has the files of its crate, its program, its world and its integrator.
-    let of_light = light::FILES.len() + 4;
-    assert_eq!(files.len(), 2 * with_main + of_light, "{files:?}");
+    let with_main = ASSIGNMENTS.map(|it| it.files.len() + it.given.len() + 1);
+    let all: usize = with_main.iter().sum();
+    assert_eq!(files.len(), 2 * all, "{files:?}");
     for file in files {
         let text = fs::read_to_string(&file).unwrap();
         for mark in ["// solution", "// end solution", "// starter:"] {

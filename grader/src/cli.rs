@@ -7,13 +7,13 @@ use std::path::PathBuf;
 use clap::builder::StyledStr;
 use clap::{CommandFactory, FromArgMatches, Id, Parser, value_parser};
 
-use judging::assignment::Assignment;
+use judging::assignment::{Assignment, Task};
 
 use crate::build::select_isolation::IsolationRequest;
 use crate::error::Error;
 use crate::format::{FORMATS, OutputSpec};
 use crate::grade::options::{Dependents, GradeOptions};
-use crate::handed_out::HandedOut;
+use crate::handed_out::{ASSIGNMENTS, HandedOut};
 use crate::inputs::exam_source::ExamSource;
 use crate::inputs::question_ref::QuestionRef;
 use crate::inputs::task_selection::{TaskOrFile, TaskSelection};
@@ -34,8 +34,10 @@ const MORE_HELP: &str =
 /// A command with all of its options.
 #[derive(Clone, Debug)]
 pub enum Command {
-    /// Grade a submission.
+    /// Grade one assignment of a submission.
     Grade(GradeOptions, PrintOptions),
+    /// Grade each assignment that a submission has started.
+    GradeStarted(GradeOptions, PrintOptions),
     /// Grade a submission again whenever a file is saved.
     Watch {
         /// The options for grading.
@@ -118,7 +120,7 @@ pub struct Arguments {
     #[arg(long)]
     pub doctor: bool,
 
-    /// The assignment; default: the exam file's assignment, or rays
+    /// The assignment; default: the exam file's assignment, or every assignment that was started
     #[arg(long, value_name = "ID", value_parser = HandedOut::find, help_heading = STAFF_OPTIONS)]
     pub assignment: Option<&'static HandedOut>,
 
@@ -226,11 +228,33 @@ impl Arguments {
         is_task.then(|| name.to_owned())
     }
 
+    /// Returns the first assignment that has the task named in these arguments, if any.
+    fn assignment_with_task(&self) -> Option<&'static HandedOut> {
+        let has_task = |handed_out: &&&'static HandedOut| {
+            let assignment = handed_out.assignment;
+            let is_known = |text: &String| TaskSelection::parse(text, assignment).is_ok();
+            let task_of_item = |question: &QuestionRef| {
+                Task::in_id(&question.item).is_some_and(|task| assignment.find(task.id()).is_some())
+            };
+            self.task.as_ref().is_some_and(is_known)
+                || self.reset.as_ref().is_some_and(is_known)
+                || self.replay.as_ref().is_some_and(task_of_item)
+                || self.task_instead_of_submission(assignment).is_some()
+        };
+        ASSIGNMENTS.iter().find(has_task).copied()
+    }
+
     /// Returns the command that these arguments select. Fails if the arguments name a task that the
     /// assignment doesn't have.
     pub fn resolve(mut self) -> Result<Command, Error> {
         let exam = ExamSource::from_option(self.exam.clone());
-        let handed_out = exam.assignment(self.assignment);
+        let is_chosen = self.assignment.is_some() || exam != ExamSource::Practice;
+        let named = if is_chosen {
+            self.assignment
+        } else {
+            self.assignment_with_task()
+        };
+        let handed_out = exam.assignment(named);
         let assignment = handed_out.assignment;
         if let Some(name) = self.task_instead_of_submission(assignment) {
             self.task = Some(name);
@@ -292,7 +316,8 @@ impl Arguments {
                 options,
                 open: print.open,
             },
-            None => Command::Grade(options, print),
+            None if is_chosen || !options.tasks.is_all() => Command::Grade(options, print),
+            None => Command::GradeStarted(options, print),
         })
     }
 }

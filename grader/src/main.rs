@@ -10,7 +10,7 @@ use grader::replay::replay;
 use grader::reset::reset;
 use grader::sandbox;
 use grader::score;
-use grader::terminal::{diagnose_and_print, grade_and_print};
+use grader::terminal::{diagnose_and_print, grade_and_print, grade_started_and_print};
 use grader::watch::watch;
 
 fn main() -> ExitCode {
@@ -27,6 +27,7 @@ fn main() -> ExitCode {
 fn run(command: Command) -> Result<ExitCode, Error> {
     match command {
         Command::Grade(options, print) => return grade_and_print(&options, print),
+        Command::GradeStarted(options, print) => return grade_started_and_print(&options, print),
         Command::Watch { options, open } => match watch(&options, open)? {},
         Command::Replay(options, question) => print(replay(&options, &question)?),
         Command::Reset {

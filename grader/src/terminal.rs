@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::grade::cached_report::{self, CacheKey, CachedReport};
 use crate::grade::options::GradeOptions;
 use crate::grade::report_files::ReportFiles;
+use crate::grade::started::{options_of_each, started_assignments};
 use crate::grade::{GradedSubmission, PreparedSubmission, default_folder, grade_prepared};
 use crate::machine::desktop;
 use crate::machine::printing::{print, print_commands, print_line};
@@ -35,6 +36,20 @@ pub struct PrintOptions {
     pub next: bool,
     /// The number of points below which the exit code is 1.
     pub require: u32,
+}
+
+/// Prints a report on each assignment that the submission has started. Returns exit code 1 if the
+/// points are below the required number.
+pub fn grade_started_and_print(
+    options: &GradeOptions,
+    print: PrintOptions,
+) -> Result<ExitCode, Error> {
+    let started = started_assignments(options.submission.as_deref())?;
+    let mut code = ExitCode::SUCCESS;
+    for options in options_of_each(options, print.require, &started)? {
+        code = grade_and_print(&options, print)?;
+    }
+    Ok(code)
 }
 
 /// Prints the report on a submission, whether cached or new. Returns exit code 1 if the points are

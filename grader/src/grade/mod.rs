@@ -6,6 +6,7 @@ mod grader;
 pub mod options;
 mod prepared;
 pub mod report_files;
+pub mod started;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};

@@ -66,7 +66,7 @@ impl Book {
 /// Returns the length of the mention at the start of `text`. A mention of a section is a path,
 /// optionally followed by a heading in quotation marks on the same line.
 fn mention_length(text: &str, path_start: usize) -> usize {
-    let is_end = |c: char| !(c.is_ascii_alphanumeric() || "_-.".contains(c));
+    let is_end = |c: char| !(c.is_ascii_alphanumeric() || "_-./".contains(c));
     let name = &text[path_start..];
     let name = &name[..name.find(is_end).unwrap_or(name.len())];
     let path_end = path_start + name.trim_end_matches('.').len();
@@ -89,10 +89,11 @@ fn mentioned_section(mention: &str) -> Section {
     }
 }
 
-/// Returns whether a page's name cannot lead to another folder.
+/// Returns whether a page's name cannot lead to a folder outside the book.
 fn is_plain(name: &str) -> bool {
     let is_allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    !name.is_empty() && name.chars().all(is_allowed)
+    let mut parts = name.split('/');
+    parts.all(|part| !part.is_empty() && part.chars().all(is_allowed))
 }
 
 /// Returns the URL of an absolute path. On Windows, a slash precedes the drive, as in

@@ -20,6 +20,12 @@ use crate::world::{LightSources, World};
 /// Your files, as an implementation of the framework's traits.
 pub struct Student;
 
+/// The lights of a question.
+struct LightList(Lights);
+
+/// The environment map of a question.
+struct Map(Environment);
+
 /// A scene of rectangles.
 struct Room {
     hits: RectangleScene,
@@ -71,7 +77,7 @@ impl LightFunctions for Student {
 
     fn lights(&self, lights: &[FlatLight]) -> Box<dyn DirectionSampler> {
         let lights = lights.iter().map(|light| Light::Area(area_light(light)));
-        Box::new(Lights::new(lights.collect()))
+        Box::new(LightList(Lights::new(lights.collect())))
     }
 
     fn room(&self, scene: &str) -> Box<dyn LitRoom> {
@@ -88,27 +94,27 @@ impl LightFunctions for Student {
     fn environment(&self, map: &MapImage) -> Box<dyn MapSampler> {
         let map = EnvironmentMap::new(map.size, map.pixels.clone());
         let map = map.expect("the exam's map is valid");
-        Box::new(Environment::new(map))
+        Box::new(Map(Environment::new(map)))
     }
 }
 
-impl DirectionSampler for Lights {
+impl DirectionSampler for LightList {
     fn direction(&self, from: Vec3, choice: f32, random: Vec2) -> Option<Vec3> {
-        self.sample(from, choice, random)
+        self.0.sample(from, choice, random)
     }
 
     fn density(&self, from: Vec3, direction: Vec3) -> f32 {
-        self.pdf(from, direction)
+        self.0.pdf(from, direction)
     }
 }
 
-impl MapSampler for Environment {
+impl MapSampler for Map {
     fn direction(&self, choice: f32, random: Vec2) -> Vec3 {
-        self.sample(choice, random)
+        self.0.sample(choice, random)
     }
 
     fn density(&self, direction: Vec3) -> f32 {
-        self.pdf(direction)
+        self.0.pdf(direction)
     }
 }
 

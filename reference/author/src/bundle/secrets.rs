@@ -19,7 +19,7 @@ use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
 /// The folders with the code that students are given. Solutions may repeat lines of this code.
-const GIVEN_FOLDERS: [&str; 2] = ["student/src/", "student/protocol/"];
+const GIVEN_FOLDERS: [&str; 3] = ["student/src/", "student/protocol/", "student/framework/"];
 /// The minimum length of a secret line, not counting white space. Shorter lines can match by
 /// coincidence.
 const MIN_LENGTH: usize = 21;

@@ -6,7 +6,7 @@ use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::transport;
 
-use super::groups::{DIRECT, MATTE_SAMPLES, SPECULAR};
+use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
 use super::rooms::{DARK, PathCase, block, emitter, matte, panel, path_case, sky, walls};
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
@@ -18,7 +18,14 @@ use crate::seed::Rng;
 /// The number of calls in a question.
 const CALLS: usize = 16;
 /// The items of other tasks that paths need.
-const NEEDS: &[Group] = &[MATTE_SAMPLES, SPECULAR, DIRECT];
+const NEEDS: &[Group] = &[
+    MATTE,
+    MATTE_SAMPLES,
+    SPECULAR,
+    LIGHT_SAMPLES,
+    LIGHT_DENSITIES,
+    DIRECT,
+];
 /// Half the size of a closed room.
 const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
 

@@ -10,6 +10,7 @@ use judging::sanitize::safe_folder_name;
 use crate::build::Builder;
 use crate::error::Error;
 use crate::grade::options::{Dependents, GradeOptions};
+use crate::handed_out::HandedOut;
 use crate::policy::{Lateness, Policy, SubmissionTime};
 use crate::submission::Submission;
 use crate::workspace::Workspace;
@@ -75,11 +76,16 @@ pub(super) fn lateness(options: &GradeOptions, policy: &Policy) -> Result<Latene
     })
 }
 
-/// Returns the default folder for a submission's score.
+/// Returns the default folder for a submission's score. The score of another assignment than the
+/// default one is in a subfolder, since a submission may contain both.
 pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf {
-    workspace
-        .output_folder()
-        .join(safe_folder_name(&submission.name))
+    let folder = workspace.output_folder();
+    let folder = folder.join(safe_folder_name(&submission.name));
+    if submission.handed_out == <&HandedOut>::default() {
+        folder
+    } else {
+        folder.join(submission.handed_out.assignment.id)
+    }
 }
 
 /// Prepares a builder that uses the reference's parts if they exist and the options allow it.

@@ -143,7 +143,8 @@ mod tests {
         let book = Book {
             folder: folder.path().join("my book"),
         };
-        fs::create_dir(&book.folder).unwrap();
+        fs::create_dir_all(book.folder.join("light")).unwrap();
+        fs::write(book.folder.join("light/glass.html"), "").unwrap();
         fs::write(book.folder.join("boxes.html"), "").unwrap();
         let url = file_url(&book.folder.join("boxes.html"));
         let is_encoded = url.starts_with("file:///") && url.ends_with("/my%20book/boxes.html");
@@ -160,6 +161,9 @@ mod tests {
             link(&url, whole),
         );
         assert_eq!(book.with_links(&text), expected);
+        let in_a_folder = "handout/src/light/glass.md";
+        let glass = url.replace("boxes.html", "light/glass.html");
+        assert_eq!(book.with_links(in_a_folder), link(&glass, in_a_folder));
         let others = "handout/src/none.md handout/src/../boxes.md handout/src/ boxes.md";
         assert_eq!(book.with_links(others), others);
         // Links aren't part of the text, so only the text is left if there is no terminal.

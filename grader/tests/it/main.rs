@@ -1,6 +1,7 @@
 //! Tests that run the real binary on real submissions, most of which are the reference with a small
 //! change. Each module tests one promise made to users.
 
+mod assignments;
 mod bad_exams;
 mod bad_programs;
 mod bad_submissions;

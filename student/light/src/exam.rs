@@ -125,8 +125,8 @@ impl LitRoom for Room {
             light: sample.light,
             on_light: sample.on_light,
             direct: sample.direct,
-            // These are for the path, not for direct light.
-            scatter: sample.direct,
+            // The others are for the path, not for direct light.
+            scatter: Vec2::new(sample.direct.y, sample.direct.x),
             reflect: 0.0,
             survive: 0.0,
         };

@@ -11,7 +11,9 @@ use super::rooms::{DARK, DirectCase, direct_case, emitter, matte, panel, sky, ti
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
 use crate::oracle::light::quad::{Material64, Quad};
-use crate::oracle::light::room::Room;
+use crate::oracle::light::room::{Room, Surface64};
+use crate::oracle::light::specular::reflect;
+use crate::oracle::light::{Numbers64, transport as oracle};
 use crate::seed::Rng;
 
 /// The number of calls of each kind in a question.
@@ -124,7 +126,7 @@ const BOTH: Declaration = Declaration {
             },
             |rng, room| {
                 (0..2 * CALLS)
-                    .map(|_| direct_case(rng, room, |_, light| is_lit(light)))
+                    .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
                     .collect()
             },
         )
@@ -264,15 +266,30 @@ const OTHER_MATERIALS: Declaration = Declaration {
                 let is_matte = |material| matches!(material, Material64::Lambertian { .. });
                 let mut cases: Vec<DirectCase> = (0..CALLS)
                     .map(|_| {
-                        direct_case(rng, room, |surface, light| {
+                        direct_case(rng, room, |surface, _, light| {
                             is_matte(surface.material) && is_lit(light)
                         })
                     })
                     .collect();
-                cases.extend(
-                    (0..2 * CALLS)
-                        .map(|_| direct_case(rng, room, |surface, _| !is_matte(surface.material))),
-                );
+                // A matte surface would be lit at the same place.
+                let would_be_lit = |surface: &Surface64, numbers: &Numbers64| {
+                    let mut matte = *surface;
+                    matte.material = Material64::Lambertian { albedo: DVec3::ONE };
+                    is_lit(oracle::direct(room, &matte, numbers).value)
+                };
+                cases.extend((0..CALLS).map(|_| {
+                    direct_case(rng, room, |surface, numbers, _| {
+                        !is_matte(surface.material) && would_be_lit(surface, numbers)
+                    })
+                }));
+                // These show a light in their reflection.
+                cases.extend((0..CALLS).map(|_| {
+                    direct_case(rng, room, |surface, _, _| {
+                        let direction = surface.frame.to_world(reflect(surface.out));
+                        let shown = oracle::emitted(room, surface, direction).value;
+                        !is_matte(surface.material) && is_lit(shown)
+                    })
+                }));
                 cases
             },
         )
@@ -288,9 +305,9 @@ fn is_lit(light: DVec3) -> bool {
 /// Cases that get light, and as many that get none if the room has any.
 const LIT_AND_DARK: fn(&mut Rng, &Room) -> Vec<DirectCase> = |rng, room| {
     let mut cases: Vec<DirectCase> = (0..CALLS)
-        .map(|_| direct_case(rng, room, |_, light| is_lit(light)))
+        .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
         .collect();
-    cases.extend((0..CALLS).map(|_| direct_case(rng, room, |_, _| true)));
+    cases.extend((0..CALLS).map(|_| direct_case(rng, room, |_, _, _| true)));
     cases
 };
 

@@ -256,8 +256,20 @@ const OVERLAP: Declaration = Declaration {
             if is_reversed {
                 lights.reverse();
             }
-            let calls = toward(rng, &front, Side::Front, 2 * CALLS);
-            list_densities(&lights, clear(&lights, calls))
+            let hits_several = |call: &Toward| {
+                let pdf = |light: &FlatLight64| {
+                    light.pdf(call.from.as_dvec3(), call.direction.as_dvec3())
+                };
+                lights.iter().filter(|light| pdf(light) > 0.0).count() > 1
+            };
+            let calls = (0..2 * CALLS).map(|_| {
+                rng.retry(|rng| {
+                    let calls = clear(&lights, toward(rng, &front, Side::Front, 1));
+                    calls.into_iter().find(hits_several)
+                })
+            });
+            let calls = calls.collect();
+            list_densities(&lights, calls)
         });
         questions.collect()
     },

@@ -4,15 +4,16 @@ use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
 use protocol::Table;
 use protocol::light::LightQuestion;
-use protocol::light::transport;
+use protocol::light::transport::Room as Scene;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
-use super::rooms::{DARK, PathCase, block, emitter, matte, panel, path_case, sky, walls};
+use super::rooms::{self, DARK, PathCase, block, emitter, matte, panel, path_case, sky, walls};
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
-use crate::oracle::light::Numbers64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
+use crate::oracle::light::specular::reflect;
+use crate::oracle::light::{Numbers64, transport};
 use crate::seed::Rng;
 
 /// The number of calls in a question.
@@ -32,14 +33,14 @@ const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
 /// The task `path`.
 pub static TASK: AuthoredTask = AuthoredTask {
     items: &[
-        SEEN, ONE_BOUNCE, BOUNCES, ONCE, THROUGHPUT, MIRROR, GLASS, ROULETTE, SURVIVORS,
+        SEEN, ONE_BOUNCE, BOUNCES, ONCE, THROUGHPUT, MIRROR, GLASS, ROULETTE, SURVIVORS, SIZES,
     ],
     ..AuthoredTask::NEW
 };
 
 const SEEN: Declaration = Declaration {
     id: "path.seen",
-    points: 2,
+    points: 1,
     title: "with 0 bounces, the ray sees only emitted light or the environment",
     look: "What do you add for the first surface, and what if the ray hits nothing?",
     section: "light/paths.md#the-first-surface-can-be-a-light",
@@ -220,14 +221,15 @@ const MIRROR: Declaration = Declaration {
                 Room::new(quads, sky)
             },
             |rng, room| {
-                let is_mirror = |surface: Option<&Surface64>| {
-                    surface.is_some_and(|it| matches!(it.material, Material64::Mirror { .. }))
-                };
                 let mut cases = cases(rng, room, 1, |surface, _, light| {
                     is_mirror(surface) && is_lit(light)
                 });
                 cases.extend(self::cases(rng, room, 3, |surface, _, light| {
                     is_mirror(surface) && is_lit(light)
+                }));
+                // Others leave a matte surface before a mirror that shows a light or the sky.
+                cases.extend(self::cases(rng, room, 3, |surface, numbers, _| {
+                    surface.is_some_and(|surface| shows_light_in_second(room, surface, numbers))
                 }));
                 cases
             },
@@ -343,6 +345,28 @@ const SURVIVORS: Declaration = Declaration {
     ..Declaration::ALONE
 };
 
+const SIZES: Declaration = Declaration {
+    id: "path.sizes",
+    points: 1,
+    title: "a path continues from its surface in a small room and in a very large one",
+    look: "Where does your next ray start? `Surface::leave` knows how far rounding can move a point.",
+    section: "light/paths.md#leave-the-surface",
+    tests: &[
+        "At each bounce, the path adds [`direct`] light and continues in the direction that …",
+    ],
+    questions: |rng| {
+        let questions = [0.1, 1.0, 300.0].map(|scale| {
+            let albedo = color(rng);
+            let room = room_of_size(rng, scale, || Material64::Lambertian { albedo });
+            let cases = cases(rng, &room, 3, lit);
+            question(&room, cases)
+        });
+        questions.into()
+    },
+    needs: NEEDS,
+    ..Declaration::ALONE
+};
+
 fn is_lit(light: DVec3) -> bool {
     light.max_element() > 1e-4
 }
@@ -354,6 +378,20 @@ fn lit(_: Option<&Surface64>, _: &[Numbers64], light: DVec3) -> bool {
 fn first_is_matte(surface: Option<&Surface64>, _: &[Numbers64], light: DVec3) -> bool {
     let is_matte = |surface: &Surface64| matches!(surface.material, Material64::Lambertian { .. });
     surface.is_some_and(is_matte) && is_lit(light)
+}
+
+/// Returns whether a path leaves a matte surface toward a mirror in which it finds light.
+fn shows_light_in_second(room: &Room, surface: &Surface64, numbers: &[Numbers64]) -> bool {
+    let second = rooms::after_matte(room, surface, &numbers[0]);
+    second.is_some_and(|second| {
+        // The mirror itself looks for no direct light.
+        let found = transport::emitted(room, &second, second.frame.to_world(reflect(second.out)));
+        is_mirror(Some(&second)) && is_lit(found.value)
+    })
+}
+
+fn is_mirror(surface: Option<&Surface64>) -> bool {
+    surface.is_some_and(|surface| matches!(surface.material, Material64::Mirror { .. }))
 }
 
 /// Returns a room without a ceiling, with lights of which the back is seen, too.
@@ -380,13 +418,17 @@ fn closed(rng: &mut Rng) -> Room {
 }
 
 fn room_with(rng: &mut Rng, material: impl FnMut() -> Material64) -> Room {
-    let mut quads = walls(HALF, material);
+    room_of_size(rng, 1.0, material)
+}
+
+fn room_of_size(rng: &mut Rng, scale: f64, material: impl FnMut() -> Material64) -> Room {
+    let mut quads = walls(scale * HALF, material);
     let light = emitter(rng);
     quads.push(panel(
-        dvec3(0.0, 1.8, 0.0),
+        scale * dvec3(0.0, 1.8, 0.0),
         1,
         -1.0,
-        dvec3(1.0, 0.0, 1.0),
+        scale * dvec3(1.0, 0.0, 1.0),
         light,
     ));
     Room::new(quads, DARK)
@@ -419,7 +461,7 @@ fn rooms(
 fn question(room: &Room, cases: Vec<PathCase>) -> ExamQuestion {
     let rows = colors(cases.iter().map(|case| case.light));
     let calls = cases.iter().map(|case| case.call).collect();
-    let subject = transport::Room { scene: room.text() };
+    let subject = Scene { scene: room.text() };
     table(
         LightQuestion::Radiance(Table::of_list(subject, calls)),
         &["value"],

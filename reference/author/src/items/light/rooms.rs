@@ -10,7 +10,7 @@ use crate::oracle::Ray64;
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::{Numbers64, transport};
+use crate::oracle::light::{Numbers64, lambertian, transport};
 use crate::seed::Rng;
 
 /// A call of `direct` with its answer.
@@ -99,15 +99,15 @@ pub(super) fn sky(rng: &mut Rng) -> Environment64 {
 /// An environment without light.
 pub(super) const DARK: Environment64 = Environment64::Constant(DVec3::ZERO);
 
-/// Returns a case in which `wanted` is true of the surface that a random ray hits and of its direct
-/// light.
+/// Returns a case in which `wanted` is true of the surface that a random ray hits, of the random
+/// numbers and of the surface's direct light.
 pub(super) fn direct_case(
     rng: &mut Rng,
     room: &Room,
-    wanted: impl Fn(&Surface64, DVec3) -> bool,
+    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
 ) -> DirectCase {
     rng.retry(|rng| {
-        let ray = random_ray(rng, 1.5);
+        let ray = random_ray(rng, reach(room));
         let hit = room.hit(&Ray64::from(&ray), None);
         let surface = hit.value?;
         let call = DirectSample {
@@ -124,10 +124,11 @@ pub(super) fn direct_case(
             reflect: 0.0,
             survive: 0.0,
         };
-        let direct = transport::direct(room, &surface, &Numbers64::from(&numbers));
+        let numbers = Numbers64::from(&numbers);
+        let direct = transport::direct(room, &surface, &numbers);
         let is_clear = hit.margin.min(direct.margin) > MARGIN;
         let light = direct.value;
-        (is_clear && wanted(&surface, light)).then_some(DirectCase { call, light })
+        (is_clear && wanted(&surface, &numbers, light)).then_some(DirectCase { call, light })
     })
 }
 
@@ -140,7 +141,7 @@ pub(super) fn path_case(
     wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
 ) -> PathCase {
     rng.retry(|rng| {
-        let ray = random_ray(rng, 1.5);
+        let ray = random_ray(rng, reach(room));
         let ray64 = Ray64::from(&ray);
         let seed = rng.integer(0, 1 << 30);
         let sampler = Sampler::new(seed.into(), glam::UVec2::ZERO, 0);
@@ -154,6 +155,33 @@ pub(super) fn path_case(
         let is_wanted = is_clear && wanted(hit.value.as_ref(), &numbers, light);
         is_wanted.then_some(PathCase { call, light })
     })
+}
+
+/// Returns the surface that a path hits after it is scattered by a matte surface, or `None` if the
+/// surface isn't matte or the path hits nothing.
+pub(super) fn after_matte(
+    room: &Room,
+    surface: &Surface64,
+    numbers: &Numbers64,
+) -> Option<Surface64> {
+    if !matches!(surface.material, Material64::Lambertian { .. }) {
+        return None;
+    }
+    let direction = lambertian::sample_cosine_hemisphere(numbers.scatter);
+    let ray = Ray64 {
+        origin: surface.position,
+        dir: surface.frame.to_world(direction),
+        min: 0.0,
+        max: f64::INFINITY,
+    };
+    room.hit(&ray, Some(surface)).value
+}
+
+/// Returns how far from the middle of a room rays start, along each axis.
+fn reach(room: &Room) -> f64 {
+    let corners = room.quads().iter().flat_map(Quad::corners);
+    let coordinates = corners.map(|corner| corner.abs().max_element());
+    0.5 * coordinates.fold(0.0, f64::max)
 }
 
 /// Returns a ray from a random point near the middle of a room in a random direction.

@@ -299,7 +299,7 @@ const OTHER_MATERIALS: Declaration = Declaration {
 };
 
 fn is_lit(light: DVec3) -> bool {
-    light.max_element() > 1e-3
+    light.max_element() > 1e-6
 }
 
 /// Cases that get light, and as many that get none if the room has any.

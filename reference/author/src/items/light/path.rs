@@ -368,7 +368,7 @@ const SIZES: Declaration = Declaration {
 };
 
 fn is_lit(light: DVec3) -> bool {
-    light.max_element() > 1e-4
+    light.max_element() > 1e-6
 }
 
 fn lit(_: Option<&Surface64>, _: &[Numbers64], light: DVec3) -> bool {

@@ -185,7 +185,7 @@ const FACES_AWAY: Declaration = Declaration {
         "No other light is picked instead.",
     ],
     questions: |rng| {
-        let counts = [1, 2, 5];
+        let counts = [1, 2, 5, 9];
         let mut questions: Vec<ExamQuestion> = counts
             .into_iter()
             .map(|count| {

@@ -10,10 +10,9 @@ use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES
 use super::rooms::{self, DARK, PathCase, block, emitter, matte, panel, path_case, sky, walls};
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
+use crate::oracle::light::Numbers64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::specular::reflect;
-use crate::oracle::light::{Numbers64, transport};
 use crate::seed::Rng;
 
 /// The number of calls in a question.
@@ -227,10 +226,13 @@ const MIRROR: Declaration = Declaration {
                 cases.extend(self::cases(rng, room, 3, |surface, _, light| {
                     is_mirror(surface) && is_lit(light)
                 }));
-                // Others leave a matte surface before a mirror that shows a light or the sky.
-                cases.extend(self::cases(rng, room, 3, |surface, numbers, _| {
-                    surface.is_some_and(|surface| shows_light_in_second(room, surface, numbers))
-                }));
+                // In others, a light is seen in a mirror, also after a matte surface, or a mirror shows
+                // a matte surface from which the path hits a light.
+                for kinds in [&[true][..], &[false, true], &[true, false]] {
+                    cases.extend(self::cases(rng, room, 3, |surface, numbers, _| {
+                        surface.is_some_and(|it| leads_to_light(room, it, numbers, kinds))
+                    }));
+                }
                 cases
             },
         )
@@ -380,14 +382,18 @@ fn first_is_matte(surface: Option<&Surface64>, _: &[Numbers64], light: DVec3) ->
     surface.is_some_and(is_matte) && is_lit(light)
 }
 
-/// Returns whether a path leaves a matte surface toward a mirror in which it finds light.
-fn shows_light_in_second(room: &Room, surface: &Surface64, numbers: &[Numbers64]) -> bool {
-    let second = rooms::after_matte(room, surface, &numbers[0]);
-    second.is_some_and(|second| {
-        // The mirror itself looks for no direct light.
-        let found = transport::emitted(room, &second, second.frame.to_world(reflect(second.out)));
-        is_mirror(Some(&second)) && is_lit(found.value)
-    })
+/// Returns whether a path that starts at a surface hits a light after these surfaces. For each of
+/// them, `kinds` says whether it is a mirror. The others are matte.
+fn leads_to_light(room: &Room, first: &Surface64, numbers: &[Numbers64], kinds: &[bool]) -> bool {
+    let mut surface = *first;
+    for (kind, numbers) in kinds.iter().zip(numbers) {
+        let next = rooms::next_surface(room, &surface, numbers);
+        let Some(next) = next.filter(|_| is_mirror(Some(&surface)) == *kind) else {
+            return false;
+        };
+        surface = next;
+    }
+    is_lit(surface.emitted)
 }
 
 fn is_mirror(surface: Option<&Surface64>) -> bool {

@@ -10,7 +10,7 @@ use crate::oracle::Ray64;
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::{Numbers64, lambertian, transport};
+use crate::oracle::light::{Numbers64, lambertian, specular, transport};
 use crate::seed::Rng;
 
 /// A call of `direct` with its answer.
@@ -157,17 +157,18 @@ pub(super) fn path_case(
     })
 }
 
-/// Returns the surface that a path hits after it is scattered by a matte surface, or `None` if the
-/// surface isn't matte or the path hits nothing.
-pub(super) fn after_matte(
+/// Returns the surface that a path hits after it leaves a matte surface or a mirror, or `None` if
+/// it hits nothing or the surface has another material.
+pub(super) fn next_surface(
     room: &Room,
     surface: &Surface64,
     numbers: &Numbers64,
 ) -> Option<Surface64> {
-    if !matches!(surface.material, Material64::Lambertian { .. }) {
-        return None;
-    }
-    let direction = lambertian::sample_cosine_hemisphere(numbers.scatter);
+    let direction = match surface.material {
+        Material64::Lambertian { .. } => lambertian::sample_cosine_hemisphere(numbers.scatter),
+        Material64::Mirror { .. } => specular::reflect(surface.out),
+        Material64::Glass { .. } | Material64::Emitter { .. } => return None,
+    };
     let ray = Ray64 {
         origin: surface.position,
         dir: surface.frame.to_world(direction),

@@ -85,8 +85,8 @@ pub(crate) fn of<'a>(value: &'a Value<'_>) -> Box<dyn FieldType + 'a> {
         Value::Index(index) => Box::new(index::Index(*index)),
         Value::Shapes(list) => Box::new(shapes::Shapes(list)),
         Value::Color(color) => Box::new(color::Color(*color)),
-        Value::Density(density) => Box::new(portion::Density(Some(*density))),
-        Value::OptionalDensity(density) => Box::new(portion::Density(*density)),
+        Value::Density(density) => Box::new(portion::Density(*density)),
+        Value::OptionalDensity(density) => Box::new(portion::OptionalDensity(*density)),
         Value::Fraction(fraction) => Box::new(portion::Fraction(*fraction)),
         Value::Count(_)
         | Value::Angle(_)

@@ -12,13 +12,44 @@ pub(crate) const TOLERANCE: f64 = 1e-3;
 /// of numbers of the order of one, are compared as if they had this size.
 const SMALLEST_FRACTION: f64 = 0.01;
 
-/// A density. `None` if a sample has no density.
-pub(super) struct Density(pub(super) Option<f32>);
+/// A density that there always is.
+pub(super) struct Density(pub(super) f32);
+
+/// A density, or `None` if a sample has no density.
+pub(super) struct OptionalDensity(pub(super) Option<f32>);
 
 /// A fraction of the light.
 pub(super) struct Fraction(pub(super) f32);
 
 impl FieldType for Density {
+    fn text(&self) -> String {
+        number(self.0)
+    }
+
+    fn tolerance(&self) -> Option<Tolerance> {
+        Some(Tolerance::Relative)
+    }
+
+    fn error(&self, wanted: &Value, _: f32) -> f64 {
+        let Value::Density(wanted) = *wanted else {
+            return f64::INFINITY;
+        };
+        relative_error(self.0, wanted, 0.0)
+    }
+
+    fn side(&self, wanted: &Value) -> Option<Side> {
+        let Value::Density(wanted) = *wanted else {
+            return None;
+        };
+        Side::of(self.0, wanted)
+    }
+
+    fn in_tolerances(&self, _: f32) -> Vec<f32> {
+        in_tolerances(&[self.0])
+    }
+}
+
+impl FieldType for OptionalDensity {
     fn text(&self) -> String {
         self.0.map_or("None".to_owned(), number)
     }
@@ -28,7 +59,10 @@ impl FieldType for Density {
     }
 
     fn error(&self, wanted: &Value, _: f32) -> f64 {
-        match (self.0, expected_density(wanted)) {
+        let Value::OptionalDensity(wanted) = *wanted else {
+            return f64::INFINITY;
+        };
+        match (self.0, wanted) {
             (None, None) => 0.0,
             (Some(got), Some(wanted)) => relative_error(got, wanted, 0.0),
             (Some(_), None) | (None, Some(_)) => f64::INFINITY,
@@ -36,7 +70,10 @@ impl FieldType for Density {
     }
 
     fn side(&self, wanted: &Value) -> Option<Side> {
-        Side::of(self.0?, expected_density(wanted)?)
+        let Value::OptionalDensity(Some(wanted)) = *wanted else {
+            return None;
+        };
+        Side::of(self.0?, wanted)
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {
@@ -74,17 +111,6 @@ impl FieldType for Fraction {
     }
 }
 
-/// Returns the density in an expected value, if any.
-fn expected_density(wanted: &Value) -> Option<f32> {
-    if let Value::OptionalDensity(wanted) = *wanted {
-        return wanted;
-    }
-    if let Value::Density(wanted) = *wanted {
-        return Some(wanted);
-    }
-    None
-}
-
 /// Returns the error of a number as a multiple of the tolerance, which is relative to the expected
 /// number or to `smallest`, whichever is larger.
 fn relative_error(got: f32, wanted: f32, smallest: f64) -> f64 {
@@ -110,7 +136,7 @@ mod tests {
 
     #[test]
     fn densities_are_compared_relative_to_the_expected_one() {
-        let error = |got, wanted| Density(got).error(&Value::OptionalDensity(wanted), 1.0);
+        let error = |got, wanted| OptionalDensity(got).error(&Value::OptionalDensity(wanted), 1.0);
         assert!(error(Some(1000.9), Some(1000.0)) <= 1.0);
         assert!(error(Some(1001.1), Some(1000.0)) > 1.0);
         assert!(error(Some(1.1e-6), Some(1e-6)) > 1.0);

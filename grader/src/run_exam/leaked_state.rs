@@ -22,8 +22,9 @@ pub fn is_right_alone(
         return Ok(false);
     };
     let question = &item.questions[index];
-    if let Key::Radiance { .. } = question.key {
-        // A rendered picture is a single question and takes too long to run twice.
+    if let Key::Radiance { .. } | Key::SpreadEvenly { .. } = question.key {
+        // A rendered picture is a single question and takes too long to run twice. A single
+        // direction is never spread unevenly.
         return Ok(false);
     }
     let Some(limits) = allowance.next_item() else {

@@ -118,9 +118,10 @@ fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
                 Some(Answer::Rays(_)) => Answer::Rays(vec![ray; count]),
                 Some(Answer::Hits(_)) => Answer::Hits(vec![hit; count]),
                 Some(Answer::Spans(_)) => Answer::Spans(vec![span; count]),
-                Some(Answer::Directions(_)) => Answer::Directions(Vec::new()),
-                Some(Answer::Tree(_)) | None => Answer::Tree(tree),
                 Some(Answer::Picture(_)) => NO_PICTURE,
+                Some(Answer::Tree(_)) | None => Answer::Tree(tree),
+                // Nothing else is drawn.
+                Some(_) => Answer::Directions(Vec::new()),
             };
             (index, element.index(count.max(1)), answer)
         },

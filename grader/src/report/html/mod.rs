@@ -31,7 +31,7 @@ const SCRIPT: &str = include_str!("page.js");
 /// Hashes for the content security policy. After a change to `page.css` or `page.js`, a test fails
 /// and prints the new hash.
 const STYLE_HASH: &str = "sha256-+3DXv2f3kxwFj44iaSVHz40mI21YSqoTcd69bRznM2Q=";
-const SCRIPT_HASH: &str = "sha256-TEagcJHpDUBf05TrmAO7R1lMuk5kMF98DelmUffG3CY=";
+const SCRIPT_HASH: &str = "sha256-0uG7Wc91xj3ZY9h/0tG98u6wzvI6EO25o4C+3n9igjI=";
 
 /// Whether an open page reloads itself to show a newer version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

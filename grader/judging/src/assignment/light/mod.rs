@@ -74,7 +74,7 @@ pub static LIGHT: Assignment = Assignment {
         },
         TaskInfo {
             id: "environment",
-            title: "Light from the environment",
+            title: "Environment maps",
             file: "environment.rs",
             methods: &[
                 "uniform_sphere",

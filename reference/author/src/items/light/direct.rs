@@ -7,7 +7,9 @@ use protocol::light::LightQuestion;
 use protocol::light::transport;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
-use super::rooms::{DARK, DirectCase, direct_case, emitter, matte, panel, sky, tilted, walls};
+use super::rooms::{
+    DARK, DirectCase, direct_case, emitter, matte, panel, scaled, sky, tilted, walls,
+};
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
 use crate::oracle::light::quad::{Material64, Quad};
@@ -317,14 +319,14 @@ fn open(rng: &mut Rng) -> Vec<Quad> {
     vec![all[2], all[0], all[4]]
 }
 
-/// Returns one question for each of two rooms.
+/// Returns one question for each of two rooms, of which the second is large.
 fn rooms(
     rng: &mut Rng,
     room: impl Fn(&mut Rng) -> Room,
     cases: impl Fn(&mut Rng, &Room) -> Vec<DirectCase>,
 ) -> Vec<ExamQuestion> {
-    let question = |_| {
-        let room = room(rng);
+    let question = |scale| {
+        let room = scaled(&room(rng), scale);
         let cases = cases(rng, &room);
         let cases = rng.shuffled(cases);
         let rows = colors(cases.iter().map(|case| case.light));
@@ -336,5 +338,5 @@ fn rooms(
             rows,
         )
     };
-    (0..2).map(question).collect()
+    [1.0, 100.0].map(question).into()
 }

@@ -316,7 +316,7 @@ const SIZES: Declaration = Declaration {
 /// Returns a map whose pixels have random colours, some of which are very bright.
 fn colorful(rng: &mut Rng, size: UVec2) -> MapImage {
     let pixels = (0..size.element_product()).map(|_| {
-        let brightness = rng.log_uniform(0.1, 10.0);
+        let brightness = rng.log_uniform(0.01, 100.0);
         (color(rng) * brightness).as_vec3()
     });
     MapImage {

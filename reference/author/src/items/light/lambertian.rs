@@ -81,6 +81,8 @@ const BELOW: Declaration = Declaration {
                 pairs(rng, above, below),
                 pairs(rng, below, below),
                 pairs(rng, above, above),
+                pairs(rng, horizon, above),
+                pairs(rng, above, horizon),
             ];
             let mixed = rng.shuffled(both.concat());
             vec![evaluations(matte, mixed.clone()), pdfs(matte, mixed)]
@@ -167,7 +169,7 @@ fn surfaces(
     rng: &mut Rng,
     questions: impl Fn(&mut Rng, Matte) -> Vec<ExamQuestion>,
 ) -> Vec<ExamQuestion> {
-    let albedos = [color(rng), color(rng), DVec3::ONE, DVec3::ZERO];
+    let albedos = [color(rng), color(rng) * DVec3::X, DVec3::ONE, DVec3::ZERO];
     let mattes = albedos.map(|albedo| Matte {
         albedo: albedo.as_vec3(),
     });
@@ -175,8 +177,14 @@ fn surfaces(
     questions.collect()
 }
 
+/// Returns a direction along the surface.
+fn horizon(rng: &mut Rng) -> DVec3 {
+    let along = rng.perpendicular_to(DVec3::Z);
+    DVec3::new(along.x, along.y, 0.0)
+}
+
 fn grazing(rng: &mut Rng) -> DVec3 {
-    let height = rng.log_uniform(1e-3, 0.1);
+    let height = rng.log_uniform(1e-5, 0.1);
     direction_with_height(rng, height, 1.01 * height, 1.0)
 }
 

@@ -1,13 +1,13 @@
 //! The items about sampling lights.
 
-use glam::{DVec2, DVec3, Vec2};
+use glam::{DVec2, DVec3};
 use judging::exam::ExamQuestion;
 use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::lights::{FlatLight, LightList, LightSample, Toward};
 
 use super::groups::{LIGHT_DENSITIES, LIGHT_SAMPLES};
-use super::{MARGIN, color, densities, optional_directions, random_pair, single, table};
+use super::{MARGIN, color, densities, optional_directions, random, random_pair, single, table};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::flat_shape::FlatShape;
 use crate::oracle::light::lights::{FlatLight64, Lights64};
@@ -162,7 +162,7 @@ const PICK: Declaration = Declaration {
         "Shapes and other lights that are in the way are ignored.",
     ],
     questions: |rng| {
-        let counts = [2, 3, 7, 40];
+        let counts = [2, 3, 7, 40, 100];
         let questions = counts.into_iter().map(|count| {
             let lights = several(rng, count);
             let samples = samples(rng, &lights, 2 * CALLS, Option::is_some);
@@ -214,7 +214,7 @@ const SHARES: Declaration = Declaration {
         "The result is zero if there are no lights.",
     ],
     questions: |rng| {
-        let counts = [2, 3, 8];
+        let counts = [2, 3, 8, 100];
         let mut questions: Vec<ExamQuestion> = counts
             .into_iter()
             .map(|count| {
@@ -297,7 +297,7 @@ fn light(rng: &mut Rng, is_triangle: bool) -> FlatLight64 {
     };
     FlatLight64 {
         shape,
-        radiance: single(color(rng) * rng.log_uniform(0.5, 20.0)),
+        radiance: single(color(rng) * rng.log_uniform(0.05, 500.0)),
     }
 }
 
@@ -347,7 +347,7 @@ fn toward(rng: &mut Rng, light: &FlatLight64, side: Side, count: usize) -> Vec<T
         let (height, sign) = match side {
             Side::Front => (rng.uniform(0.2, 1.0), 1.0),
             Side::Back => (rng.uniform(0.2, 1.0), -1.0),
-            Side::Grazing => (rng.uniform(0.02, 0.1), 1.0),
+            Side::Grazing => (rng.log_uniform(0.006, 0.1), 1.0),
         };
         let along = rng.perpendicular_to(normal) * (1.0 - height * height).sqrt();
         let distance = rng.log_uniform(0.5, 20.0);
@@ -421,7 +421,11 @@ fn samples(
     let all = Lights64::new(lights.iter().copied());
     let call = |_| {
         rng.retry(|rng| {
-            let Vec2 { x: choice, .. } = random_pair(rng);
+            let choice = match rng.index(8) {
+                0 => 0.0,
+                1 => 1.0 - f32::EPSILON / 2.0,
+                _ => random(rng),
+            };
             let call = LightSample {
                 from: rng.point(6.0).as_vec3(),
                 choice,

@@ -89,7 +89,7 @@ const BOUNCES: Declaration = Declaration {
     section: "light/paths.md#the-number-of-bounces",
     tests: &["The path is scattered at most `bounces` times."],
     questions: |rng| {
-        let bounces = [2, 3, 4, 6];
+        let bounces = [2, 3];
         let questions = bounces
             .into_iter()
             .flat_map(|bounces| rooms(rng, closed, |rng, room| cases(rng, room, bounces, lit)));
@@ -226,6 +226,10 @@ const MIRROR: Declaration = Declaration {
                 cases.extend(self::cases(rng, room, 3, |surface, _, light| {
                     is_mirror(surface) && is_lit(light)
                 }));
+                // Some of these paths play roulette at a mirror.
+                cases.extend(self::cases(rng, room, 7, |surface, _, light| {
+                    is_mirror(surface) && is_lit(light)
+                }));
                 // In others, a light is seen in a mirror, also after a matte surface, or a mirror shows
                 // a matte surface from which the path hits a light.
                 for kinds in [&[true][..], &[false, true], &[true, false]] {
@@ -307,6 +311,7 @@ const ROULETTE: Declaration = Declaration {
             cases.extend(self::cases(rng, room, 7, |_, numbers, light| {
                 is_lit(light) && numbers[3].survive < 0.4
             }));
+            cases.extend(self::cases(rng, room, 20, lit));
             cases
         })
     },

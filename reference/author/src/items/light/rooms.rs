@@ -25,14 +25,23 @@ pub(super) struct PathCase {
     pub(super) light: DVec3,
 }
 
+/// Returns a random colour. In some colours, one of the channels is black.
+fn tint(rng: &mut Rng) -> DVec3 {
+    let mut tint = color(rng);
+    if rng.index(3) == 0 {
+        tint[rng.index(3)] = 0.0;
+    }
+    tint
+}
+
 /// Returns a matte material with a random colour.
 pub(super) fn matte(rng: &mut Rng) -> Material64 {
-    Material64::Lambertian { albedo: color(rng) }
+    Material64::Lambertian { albedo: tint(rng) }
 }
 
 /// Returns a light with a random colour.
 pub(super) fn emitter(rng: &mut Rng) -> Material64 {
-    let radiance = color(rng) * rng.log_uniform(1.0, 20.0);
+    let radiance = tint(rng) * rng.log_uniform(0.05, 500.0);
     Material64::Emitter { radiance }
 }
 
@@ -176,6 +185,16 @@ pub(super) fn next_surface(
         max: f64::INFINITY,
     };
     room.hit(&ray, Some(surface)).value
+}
+
+/// Returns a room of another size.
+pub(super) fn scaled(room: &Room, factor: f64) -> Room {
+    let quads = room.quads().iter().map(|quad| {
+        let shape = quad.shape();
+        let edges = shape.edges.map(|edge| factor * edge);
+        Quad::new(factor * shape.corner, edges, *quad.material())
+    });
+    Room::new(quads.collect(), room.sources().environment.clone())
 }
 
 /// Returns how far from the middle of a room rays start, along each axis.

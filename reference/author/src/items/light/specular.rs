@@ -233,6 +233,7 @@ const FRESNEL_LOW_INDEX: Declaration = Declaration {
     questions: |rng| {
         let mut questions = media(rng, thin, |rng, medium| {
             let mut out = directions_that(rng, medium, above, refracted);
+            out.extend(directions_that(rng, medium, above, total));
             out.extend(directions_that(rng, medium, below, any));
             fresnel(medium, rng.shuffled(out))
         });
@@ -315,11 +316,16 @@ const GLASS_TOTAL: Declaration = Declaration {
     section: "light/glass.md#total-reflection-is-not-scaled",
     tests: &["If the path is reflected, `attenuation` is 1: …"],
     questions: |rng| {
-        media(rng, dense, |rng, medium| {
+        let mut questions = media(rng, dense, |rng, medium| {
             let mut out = directions_that(rng, medium, below, total);
             out.extend(directions_that(rng, medium, below, refracted));
             glass_samples(rng, medium, out, &["direction", "attenuation", "pdf"])
-        })
+        });
+        questions.extend(media(rng, thin, |rng, medium| {
+            let out = directions_that(rng, medium, above, total);
+            glass_samples(rng, medium, out, &["direction", "attenuation", "pdf"])
+        }));
+        questions
     },
     ..Declaration::in_group(SPECULAR)
 };
@@ -337,7 +343,7 @@ fn nearly_along_the_normal(rng: &mut Rng, side: f64) -> DVec3 {
 
 /// Returns the index of a medium that is denser than air.
 fn dense(rng: &mut Rng) -> f64 {
-    rng.uniform(1.2, 2.5)
+    1.0 + rng.log_uniform(0.03, 3.0)
 }
 
 /// Returns the index of a medium that is thinner than what surrounds it.
@@ -427,7 +433,8 @@ fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
         glass_samples(rng, medium, out, judged)
     });
     questions.extend(media(rng, thin, |rng, medium| {
-        let out = directions_that(rng, medium, above, refracted);
+        let mut out = directions_that(rng, medium, above, refracted);
+        out.extend(directions_that(rng, medium, below, any));
         glass_samples(rng, medium, out, judged)
     }));
     questions

@@ -53,13 +53,13 @@ fn each_assignment_that_was_started_gets_its_own_score() {
         .map(|line| line.rsplit("  ").next().unwrap().trim())
         .collect();
     assert_eq!(scores, ["0 / 100", "100 / 100"], "{report}");
-    for (file, id, points) in [
-        ("target/grade/both/score.json", "rays", 0),
-        ("target/grade/both/light/score.json", "light", 100),
+    for (file, task, points) in [
+        ("target/grade/both/score.json", "camera", 0),
+        ("target/grade/both/light/score.json", "lambertian", 100),
     ] {
         let score = fs::read(workspace().join(file)).unwrap();
         let score: Value = serde_json::from_slice(&score).unwrap();
-        assert_eq!(score["exam"]["assignment"], id, "{file}");
+        assert_eq!(score["tasks"][0]["id"], task, "{file}");
         assert_eq!(score["points"], points, "{file}");
     }
 }

@@ -1,6 +1,6 @@
 //! Guarantees about the score file.
 
-use grader::handed_out::RAYS;
+use grader::handed_out::{ASSIGNMENTS, RAYS};
 use insta::assert_snapshot;
 use serde_json::Value;
 
@@ -11,18 +11,21 @@ use crate::harness::{
 
 #[test]
 fn the_reference_gets_full_points() {
-    let out = tempfile::TempDir::new().unwrap();
-    let graded = grade_into("reference".as_ref(), out.path()).output();
-    let graded = graded.unwrap();
-    assert!(graded.status.success(), "{graded:?}");
-    let score = std::fs::read(out.path().join("score.json")).unwrap();
-    let score: Value = serde_json::from_slice(&score).unwrap();
-    assert_eq!(score["points"], 100);
-    assert_eq!(score["max_points"], 100);
-    assert_eq!(score["complete"], true);
-    // The reference's variants contain files with the same names, which must not be treated as
-    // copies.
-    assert_eq!(score["build"]["notes"], serde_json::json!([]));
+    for assignment in ASSIGNMENTS {
+        let out = tempfile::TempDir::new().unwrap();
+        let mut command = grade_into("reference".as_ref(), out.path());
+        command.args(["--assignment", assignment.assignment.id]);
+        let graded = command.output().unwrap();
+        assert!(graded.status.success(), "{graded:?}");
+        let score = std::fs::read(out.path().join("score.json")).unwrap();
+        let score: Value = serde_json::from_slice(&score).unwrap();
+        assert_eq!(score["points"], 100);
+        assert_eq!(score["max_points"], 100);
+        assert_eq!(score["complete"], true);
+        // The reference's variants contain files with the same names, which must not be treated as
+        // copies.
+        assert_eq!(score["build"]["notes"], serde_json::json!([]));
+    }
 }
 
 #[test]

@@ -133,6 +133,6 @@ fn a_key_belongs_to_one_person() {
         "name,login,group\nAnn,a,One\n\nAnn,a,Two\n",
     ] {
         let error = check(table).unwrap_err().to_string();
-        assert!(error.contains("rows 2 and 4 both have"), "{error}");
+        assert!(error.contains("rows 2 and 4 both contain"), "{error}");
     }
 }

@@ -56,6 +56,9 @@ const STUDENT_ONLY: [(&str, &str); 9] = [
     ),
 ];
 
+/// Stands for the assignment's id in templates. An output format is for one assignment.
+pub(crate) const ASSIGNMENT_ID: &str = "ASSIGNMENT_ID";
+
 /// Options for the contents of a bundle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BundleOptions<'a> {
@@ -95,7 +98,7 @@ impl Bundle {
             }
         }
         for (path, text) in STUDENT_ONLY {
-            bundle.insert(path, text);
+            bundle.insert(path, text.replace(ASSIGNMENT_ID, handed_out.assignment.id));
         }
         // Generate these files instead of reading them from `student`, where staff may have solved
         // the assignment.

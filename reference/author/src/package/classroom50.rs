@@ -2,8 +2,9 @@
 //! the grader. Students can read all of it, so it uses the practice exam.
 
 use anyhow::Result;
+use grader::handed_out::HandedOut;
 
-use crate::bundle::{Bundle, archive};
+use crate::bundle::{ASSIGNMENT_ID, Bundle, archive};
 use crate::package::grader_files;
 
 /// The file name and the contents of the script that the runner starts.
@@ -13,7 +14,7 @@ const ENTRY_POINT: (&str, &str) = (
 );
 
 /// Collects all files for the folder. The grader is part of the students' bundle.
-pub(super) fn package(students: &Bundle, policy: &str) -> Result<Bundle> {
+pub(super) fn package(students: &Bundle, policy: &str, handed_out: &HandedOut) -> Result<Bundle> {
     let mut grader = Bundle::default();
     for (path, contents) in grader_files(students) {
         grader.insert(path, contents.clone());
@@ -21,6 +22,10 @@ pub(super) fn package(students: &Bundle, policy: &str) -> Result<Bundle> {
     grader.insert("policy.toml", policy);
     let mut package = Bundle::default();
     package.insert("pathtracing.zip", archive::zip(&grader)?);
-    package.insert(ENTRY_POINT.0, ENTRY_POINT.1);
+    let (name, script) = ENTRY_POINT;
+    package.insert(
+        name,
+        script.replace(ASSIGNMENT_ID, handed_out.assignment.id),
+    );
     Ok(package)
 }

@@ -97,7 +97,9 @@ pub fn collect(
             "the final exam is missing: add --exam-seed S, a long number that is hard to guess, or \
              --exam FILE"
         ),
-        (Platform::Classroom50, None) => classroom50::package(&students()?, &course.policy),
+        (Platform::Classroom50, None) => {
+            classroom50::package(&students()?, &course.policy, handed_out)
+        }
         (Platform::Github, None) => students(),
         (Platform::Classroom50, Some(_)) => {
             bail!("students can read classroom50's folder: {NOT_SECRET}")

@@ -68,7 +68,10 @@ fn is_one_short_read_only_job_of_pinned_actions_that_shows_the_points_of_every_p
     }
     // The workflow shows the points and doesn't fail if some are missing.
     let last = job.steps.last().and_then(|step| step.run.as_deref());
-    assert_eq!(last, Some("cargo grade --out score --format github"));
+    assert_eq!(
+        last,
+        Some("cargo grade --assignment ASSIGNMENT_ID --out score --format github")
+    );
     let mut runs = job.steps.iter().filter_map(|step| step.run.as_deref());
     assert!(!runs.any(|run| run.contains("--require")));
 }

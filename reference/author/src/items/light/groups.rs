@@ -2,7 +2,7 @@
 
 use crate::items::Group;
 
-/// What a matte surface scatters, and with which density.
+/// The light that a matte surface scatters, and its density.
 pub(super) const MATTE: Group = Group("matte surfaces");
 /// The direction in which a matte surface scatters a path.
 pub(super) const MATTE_SAMPLES: Group = Group("samples of matte surfaces");

@@ -1,4 +1,4 @@
-//! What the functions of part two return. Functions with results of the same kind share a type.
+//! The results of part two's functions. Functions with results of the same kind share a type.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};

@@ -28,6 +28,7 @@ def main():
         grader = Path(folder) / "pathtracing"
         command = ["cargo", "run", "--release", "--locked", "--package", "grader", "--"]
         command += [str(checkout), "--untrusted", "--out", str(Path(folder) / "graded")]
+        command += ["--assignment", "ASSIGNMENT_ID"]
         command += ["--policy", str(grader / "policy.toml"), "--format"]
         command += [f"classroom50={checkout / 'result.json'}"]
         command += [f"github={checkout / 'release-body.md'}"]

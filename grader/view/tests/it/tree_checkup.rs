@@ -106,7 +106,7 @@ fn each_defect_of_a_tree_is_named_with_its_node() {
         let first = &tree["checkup"]["kinds"][0]["defects"][0];
         let text = first["text"].as_str().unwrap();
         assert!(text.starts_with(defect), "{text}");
-        let (is_lost, is_no_tree) = (title.contains("no leaf"), title.contains("links"));
+        let (is_lost, is_no_tree) = (title.contains("not in any leaf"), title.contains("links"));
         assert_eq!(
             first["node"].is_number(),
             !is_lost && !is_no_tree,

@@ -151,16 +151,15 @@ pub(super) fn calibrate(
     authoring: &'static Authoring,
     args: CalibrateArgs,
 ) -> CommandResult {
-    if args.check {
-        table::check(root, authoring.handed_out)?;
-    }
     let default = if args.check { FEW_SEEDS } else { MANY_SEEDS };
     let seeds = args.seeds.unwrap_or(default);
     let written = written(&seeds);
     let calibration = proof::calibrate::calibrate(&solutions(authoring)?, seeds, args.mistakes)?;
     let line = calibration.summary_line();
     record_result(args.record, "calibrate", &written, &line)?;
-    if !args.check {
+    if args.check {
+        table::check(root, authoring.handed_out, &calibration)?;
+    } else {
         let table = table::generated_file(authoring.handed_out, &calibration);
         generate(&[table], Mode::Write, "calibrate")?;
     }

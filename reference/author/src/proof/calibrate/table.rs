@@ -25,7 +25,7 @@ fn path(handed_out: &HandedOut) -> String {
 
 fn table(calibration: &Calibration) -> String {
     let mut text = header(calibration);
-    for threshold in Threshold::all() {
+    for threshold in measured(calibration) {
         let margin = calibration.margins.margin(threshold);
         writeln!(text, "{}{}", row_start(threshold), row(&margin))
             .expect("writing to a String cannot fail");
@@ -33,11 +33,24 @@ fn table(calibration: &Calibration) -> String {
     text
 }
 
+/// Returns the thresholds that an assignment's exams use.
+fn measured(calibration: &Calibration) -> impl Iterator<Item = Threshold> {
+    let is_measured = |threshold: &Threshold| {
+        let Margin {
+            worst_correct,
+            mildest_mistake,
+        } = calibration.margins.margin(*threshold);
+        worst_correct.is_some() || mildest_mistake.is_some()
+    };
+    Threshold::all().into_iter().filter(is_measured)
+}
+
 /// Checks that an assignment's table in the workspace at `root` contains the current value of every
-/// threshold.
-pub fn check(root: &Path, handed_out: &HandedOut) -> Result<()> {
+/// threshold that was measured.
+pub fn check(root: &Path, handed_out: &HandedOut, calibration: &Calibration) -> Result<()> {
     let path = path(handed_out);
-    let outdated = outdated_thresholds(&files::read_to_string(root.join(&path))?);
+    let table = files::read_to_string(root.join(&path))?;
+    let outdated = outdated_thresholds(&table, calibration);
     if !outdated.is_empty() {
         bail!(
             "{path} is out of date for these thresholds: {}; run `cargo author calibrate`",
@@ -47,13 +60,13 @@ pub fn check(root: &Path, handed_out: &HandedOut) -> Result<()> {
     Ok(())
 }
 
-/// Returns the thresholds whose current values aren't in the table.
-fn outdated_thresholds(table: &str) -> Vec<&'static str> {
+/// Returns the thresholds that were measured but whose current values aren't in the table.
+fn outdated_thresholds(table: &str, calibration: &Calibration) -> Vec<&'static str> {
     let is_current = |threshold: &Threshold| {
         let start = row_start(*threshold);
         table.lines().any(|line| line.starts_with(&start))
     };
-    let outdated = Threshold::all().into_iter().filter(|it| !is_current(it));
+    let outdated = measured(calibration).filter(|it| !is_current(it));
     outdated.map(Threshold::title).collect()
 }
 
@@ -177,10 +190,14 @@ mod tests {
 
     #[test]
     fn a_changed_threshold_makes_a_table_outdated() {
-        let table = table(&calibration());
-        assert_eq!(outdated_thresholds(&table), [""; 0]);
+        let calibration = calibration();
+        let table = table(&calibration);
+        assert_eq!(outdated_thresholds(&table, &calibration), [""; 0]);
         let older = table.replace("| uv in a picture | 2e-3 |", "| uv in a picture | 1e-3 |");
-        assert_eq!(outdated_thresholds(&older), ["uv in a picture"]);
+        assert_eq!(
+            outdated_thresholds(&older, &calibration),
+            ["uv in a picture"]
+        );
     }
 
     #[test]

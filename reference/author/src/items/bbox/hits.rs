@@ -67,8 +67,8 @@ pub(super) const AXIS_PARALLEL: Declaration = Declaration {
     id: "bbox.axis_parallel",
     title: "directions with components of 0, −0 or almost 0 work too",
     look: "A ray that does not move along an axis is either always or never between the planes of \
-        that axis. Dividing by zero gives infinities, which lead to the right answer if your \
-        comparisons handle them. A component that is almost 0 still moves the ray.",
+        that axis. Dividing by zero gives infinities, which are right if your comparisons \
+        handle them. A component that is almost 0 still moves the ray.",
     section: "boxes.md#zero-and-minus-zero",
     tests: &["A component of `ray.dir`…", "Then the ray is parallel…"],
     questions: |rng| {

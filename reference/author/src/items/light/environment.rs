@@ -27,23 +27,14 @@ const MAX_CHI_SQUARED: f64 = 155.07;
 /// The task `environment`.
 pub static TASK: AuthoredTask = AuthoredTask {
     items: &[
-        UNIFORM,
-        UNIFORM_UNIT,
-        PICK,
-        POSITION,
-        SINE,
-        LUMINANCE,
-        ENDS,
-        BLACK,
-        PDF,
-        SIZES,
+        UNIFORM, PICK, POSITION, SINE, LUMINANCE, ENDS, BLACK, PDF, SIZES,
     ],
     ..AuthoredTask::NEW
 };
 
 const UNIFORM: Declaration = Declaration {
     id: "environment.uniform",
-    points: 3,
+    points: 4,
     title: "uniform directions are spread evenly over the whole sphere",
     look: "Which of your two coordinates must be uniform: the polar angle or the height?",
     section: "light/environment.md#directions-spread-evenly",
@@ -52,6 +43,7 @@ const UNIFORM: Declaration = Declaration {
         "See PBR, section A.5.1.",
         "Any formula will do, as long as evenly distributed numbers give evenly distributed \
          directions.",
+        "The direction has length one.",
     ],
     questions: |rng| {
         let pairs = (0..SPREAD).map(|_| RandomPair {
@@ -61,32 +53,10 @@ const UNIFORM: Declaration = Declaration {
         let key = Key::SpreadEvenly {
             max_chi_squared: MAX_CHI_SQUARED,
         };
-        vec![ExamQuestion::new(question.into(), key)]
-    },
-    ..Declaration::ALONE
-};
-
-const UNIFORM_UNIT: Declaration = Declaration {
-    id: "environment.uniform_unit",
-    points: 1,
-    title: "uniform directions have length one, even for the extreme random numbers",
-    look: "What is under your square root if a random number is 0, or just below 1?",
-    section: "light/environment.md#directions-spread-evenly",
-    tests: &["The direction has length one."],
-    questions: |rng| {
-        let below_one = 1.0 - f32::EPSILON / 2.0;
-        let ends = [0.0, 1e-7, 0.5, below_one];
-        let corners = ends.into_iter().flat_map(|x| ends.map(|y| Vec2::new(x, y)));
-        let mut pairs: Vec<Vec2> = corners.collect();
-        pairs.extend((0..CALLS).map(|_| random_pair(rng)));
-        let pairs: Vec<RandomPair> = pairs
-            .into_iter()
-            .map(|random| RandomPair { random })
-            .collect();
-        // Only the length is judged, so any direction will do.
-        let rows = directions(pairs.iter().map(|_| DVec3::Y));
-        let question = LightQuestion::UniformSphere(Table::of_list((), pairs));
-        vec![table(question, &["unit_direction"], rows)]
+        vec![
+            ExamQuestion::new(question.into(), key),
+            unit_at_the_ends(rng),
+        ]
     },
     ..Declaration::ALONE
 };
@@ -312,6 +282,21 @@ const SIZES: Declaration = Declaration {
     },
     ..Declaration::ALONE
 };
+
+/// Returns a question about the lengths of uniform directions at the ends of the random numbers.
+fn unit_at_the_ends(rng: &mut Rng) -> ExamQuestion {
+    let below_one = 1.0 - f32::EPSILON / 2.0;
+    let ends = [0.0, 1e-7, 0.5, below_one];
+    let corners = ends.into_iter().flat_map(|x| ends.map(|y| Vec2::new(x, y)));
+    let mut pairs: Vec<Vec2> = corners.collect();
+    pairs.extend((0..CALLS).map(|_| random_pair(rng)));
+    let pairs = pairs.into_iter().map(|random| RandomPair { random });
+    let pairs: Vec<RandomPair> = pairs.collect();
+    // Only the length is judged, so any direction will do.
+    let rows = directions(pairs.iter().map(|_| DVec3::Y));
+    let question = LightQuestion::UniformSphere(Table::of_list((), pairs));
+    table(question, &["unit_direction"], rows)
+}
 
 /// Returns a map whose pixels have random colours, some of which are very bright.
 fn colorful(rng: &mut Rng, size: UVec2) -> MapImage {

@@ -129,8 +129,8 @@ mod tests {
             max_chi_squared: 100.0,
             answer,
         };
-        let measured = spread.measure().into_iter();
-        let is_right = measured.fold(true, |all, one| all && one.deciding_deviation().is_right());
+        let mut measured = spread.measure().into_iter();
+        let is_right = measured.all(|one| one.deciding_deviation().is_right());
         let failure = spread.judge().failure;
         assert_eq!(failure.is_none(), is_right);
         match failure?.kind {
@@ -150,7 +150,7 @@ mod tests {
         assert_eq!(judged(&turned), None);
         let crowded = spread_by(|x, y| on_sphere((std::f32::consts::PI * x).cos(), y));
         assert_eq!(judged(&crowded).as_deref(), Some("spread"));
-        let half = spread_by(|x, y| on_sphere(x, y));
+        let half = spread_by(on_sphere);
         assert_eq!(judged(&half).as_deref(), Some("spread"));
     }
 

@@ -1,5 +1,10 @@
 //! Properties of every exam.
 
+#![allow(
+    clippy::wildcard_enum_match_arm,
+    reason = "only some kinds of answers are treated in a special way"
+)]
+
 use std::collections::BTreeSet;
 
 use author::authoring;

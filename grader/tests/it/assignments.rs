@@ -1,4 +1,4 @@
-//! A submission may contain several assignments. Each is graded by itself.
+//! A submission may contain several assignments. Each is graded separately.
 
 use std::fs;
 use std::path::Path;

@@ -45,7 +45,7 @@ pub enum Key {
         alternatives: Vec<(u32, Option<Surface>)>,
     },
     /// Key for a table of directions that must be spread evenly over the sphere. Every direction
-    /// must have length one, but it doesn't matter which random numbers lead to which direction.
+    /// must have length one. Any random numbers may lead to any direction.
     SpreadEvenly {
         /// The maximum χ² of the numbers of directions in cells of equal area.
         max_chi_squared: f64,

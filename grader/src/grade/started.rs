@@ -9,8 +9,8 @@ use crate::submission::Submission;
 use crate::workspace::Workspace;
 
 /// Returns the assignments to grade if nothing selects one: the default assignment and every other
-/// one that the submission has started. An assignment isn't started if its files are unchanged. If only another assignment's files are in the submission, the default assignment is
-/// left out.
+/// one that the submission has started. An assignment isn't started if its files are unchanged. If
+/// only another assignment's files are in the submission, the default assignment is left out.
 pub fn started_assignments(submission: Option<&Path>) -> Result<Vec<&'static HandedOut>, Error> {
     let [default, others @ ..] = ASSIGNMENTS;
     if others.is_empty() {

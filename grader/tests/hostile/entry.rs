@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use grader::handed_out::RAYS;
+use grader::handed_out::{HandedOut, RAYS};
 use grader::sandbox::Isolation;
 use serde::Deserialize;
 
@@ -25,9 +25,12 @@ const DESCRIPTION: &str = "//!";
 const HOLE: &str = include_str!("hole.rs");
 
 /// A hostile submission, read from `entries/`.
+#[derive(Clone)]
 pub struct Entry {
     pub name: String,
     pub expect: Expectation,
+    /// The assignment that is handed in.
+    handed_out: &'static HandedOut,
     /// The text that is appended to a task file.
     attack: String,
     /// The folder of an entry with several files.
@@ -35,7 +38,7 @@ pub struct Entry {
 }
 
 /// The description of an entry.
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// A description of the attack in one sentence: "It …".
@@ -83,6 +86,25 @@ pub struct Expectation {
     pub slow: bool,
     #[serde(default)]
     pub arguments: Vec<String>,
+    /// The places in other assignments, by assignment id, that the attack is also run at.
+    #[serde(default)]
+    also: BTreeMap<String, Target>,
+}
+
+/// The place of an attack in another assignment.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Target {
+    /// The task file that the attack is appended to.
+    into: String,
+    /// The methods that get `call` as their first statement.
+    within: Vec<String>,
+    /// See [`Expectation::call`].
+    #[serde(default = "Expectation::default_call")]
+    call: String,
+    /// See [`Expectation::points`].
+    #[serde(default)]
+    points: BTreeMap<String, u64>,
 }
 
 #[derive(Clone, Copy, Default, Deserialize)]
@@ -117,6 +139,8 @@ impl Entry {
         let paths = paths.map(|entry| entry.expect("the folder can be read").path());
         let others = paths.filter(|path| !path.ends_with(PACKAGED_FILE));
         entries.extend(others.map(Entry::read));
+        let elsewhere: Vec<Entry> = entries.iter().flat_map(Entry::elsewhere).collect();
+        entries.extend(elsewhere);
         entries.sort_by(|one, other| one.name.cmp(&other.name));
         entries
     }
@@ -137,6 +161,7 @@ impl Entry {
             (description, attack.concat(), None)
         };
         Entry {
+            handed_out: &RAYS,
             expect: toml::from_str(&description).unwrap_or_else(|error| panic!("{name}: {error}")),
             attack,
             folder,
@@ -151,16 +176,37 @@ impl Entry {
         let entry = |(name, expect)| Entry {
             name,
             expect,
+            handed_out: &RAYS,
             attack: String::new(),
             folder: None,
         };
         descriptions.into_iter().map(entry).collect()
     }
 
+    /// Returns the same attack on each of the other assignments that its description names.
+    fn elsewhere(&self) -> impl Iterator<Item = Entry> {
+        self.expect.also.iter().map(|(assignment, target)| {
+            let target = target.clone();
+            Entry {
+                name: format!("{} in {assignment}", self.name),
+                handed_out: HandedOut::find(assignment).expect("the id of an assignment"),
+                expect: Expectation {
+                    into: Some(target.into),
+                    within: target.within,
+                    call: target.call,
+                    points: target.points,
+                    ..self.expect.clone()
+                },
+                ..self.clone()
+            }
+        })
+    }
+
     /// Returns an entry that submits the unchanged reference.
     pub fn reference() -> Self {
         Entry {
             name: "reference".to_owned(),
+            handed_out: &RAYS,
             expect: toml::from_str("does = 'It is correct.'\nwall = 300").expect("valid TOML"),
             attack: String::new(),
             folder: None,
@@ -177,7 +223,7 @@ impl Entry {
             Base::Reference => u64::from(points),
             Base::Starter => 0,
         };
-        let tasks = RAYS.assignment.tasks.iter();
+        let tasks = self.handed_out.assignment.tasks.iter();
         tasks.map(move |task| (task.id, full(task.points)))
     }
 
@@ -193,12 +239,12 @@ impl Entry {
 
     fn write_folder(&self, target: &Path, placeholders: &[(&str, String)]) {
         let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let base = match self.expect.base {
-            Base::Reference => project.join("reference/src"),
-            Base::Starter => project.join("grader/starter"),
-        };
+        let base = project.join(match self.expect.base {
+            Base::Reference => self.handed_out.reference,
+            Base::Starter => self.handed_out.starter,
+        });
         fs::create_dir_all(target).expect("the folder can be created");
-        for file in RAYS.file_names() {
+        for file in self.handed_out.file_names() {
             fs::copy(base.join(file), target.join(file)).expect("the file can be copied");
         }
         if let Some(folder) = &self.folder {

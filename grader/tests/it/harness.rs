@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-use grader::handed_out::RAYS;
+use grader::handed_out::{HandedOut, RAYS};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -47,21 +47,27 @@ pub struct Submission {
 impl Submission {
     /// Creates a submission in a folder called `name`, with the reference's task files.
     pub fn reference(name: &str) -> Self {
-        Submission::copy_of(name, &workspace().join("reference/src"))
+        Submission::reference_of(name, &RAYS)
     }
 
     /// Copies the task files of the starter.
     pub fn starter(name: &str) -> Self {
-        Submission::copy_of(name, &workspace().join("grader/starter"))
+        Submission::copy_of(name, &RAYS, RAYS.starter)
     }
 
-    fn copy_of(name: &str, source: &Path) -> Self {
+    /// Copies the task files of an assignment's reference.
+    pub fn reference_of(name: &str, handed_out: &HandedOut) -> Self {
+        Submission::copy_of(name, handed_out, handed_out.reference)
+    }
+
+    fn copy_of(name: &str, handed_out: &HandedOut, source: &str) -> Self {
+        let source = workspace().join(source);
         let submission = Submission {
             folder: TempDir::new().unwrap(),
             name: name.to_owned(),
         };
         fs::create_dir(submission.path()).unwrap();
-        for file in RAYS.file_names() {
+        for file in handed_out.file_names() {
             fs::copy(source.join(file), submission.path().join(file)).unwrap();
         }
         submission

@@ -20,6 +20,7 @@ mod isolation;
 mod next_steps;
 mod ordinary_user;
 mod packages;
+mod part_two;
 mod policies;
 mod reset;
 #[cfg(unix)]

@@ -6,6 +6,13 @@
 //!
 //! [points]
 //! camera = 0
+//!
+//! [also.light]
+//! into = "lights.rs"
+//! within = ["point"]
+//!
+//! [also.light.points]
+//! lights = 0
 
 fn attack() {
     eprintln!(concat!("reac", "hed: {}"), include_str!("@KEY@"));

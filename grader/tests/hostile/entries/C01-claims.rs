@@ -6,6 +6,13 @@
 //!
 //! [points]
 //! camera = 0
+//!
+//! [also.light]
+//! into = "direct.rs"
+//! within = ["direct"]
+//!
+//! [also.light.points]
+//! direct = 0
 
 fn attack() {
     println!("{{\"points\": 100, \"complete\": true}}");

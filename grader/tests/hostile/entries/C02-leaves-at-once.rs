@@ -6,6 +6,13 @@
 //!
 //! [points]
 //! camera = 0
+//!
+//! [also.light]
+//! into = "environment.rs"
+//! within = ["uniform_sphere"]
+//!
+//! [also.light.points]
+//! environment = 20
 
 fn attack() {
     std::process::exit(0);

@@ -5,6 +5,13 @@
 //!
 //! [points]
 //! camera = 15
+//!
+//! [also.light]
+//! into = "path.rs"
+//! within = ["radiance"]
+//!
+//! [also.light.points]
+//! path = 17
 
 /// Returns every file that this process has open for writing.
 fn open() -> impl Iterator<Item = std::fs::File> {

@@ -1,6 +1,10 @@
 //! does = "It prints escapes, markup, formulas, and a line of a megabyte."
 //! into = "camera.rs"
 //! within = ["sample_ray"]
+//!
+//! [also.light]
+//! into = "path.rs"
+//! within = ["radiance"]
 
 fn attack() {
     static ONCE: std::sync::Once = std::sync::Once::new();

@@ -2,6 +2,10 @@
 //! least = "no-namespaces"
 //! into = "camera.rs"
 //! within = ["sample_ray"]
+//!
+//! [also.light]
+//! into = "path.rs"
+//! within = ["radiance"]
 
 fn attack() {
     static ONCE: std::sync::Once = std::sync::Once::new();

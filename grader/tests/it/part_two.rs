@@ -1,0 +1,75 @@
+//! Submissions of part two that don't compile or that misbehave. Each gets a report, and the points
+//! of other tasks don't change.
+
+use grader::handed_out::LIGHT;
+use insta::assert_snapshot;
+
+use crate::harness::{GradeRun, Submission};
+
+/// Returns the ids of the tasks that don't get full points.
+fn tasks_that_lose_points(graded: &GradeRun) -> Vec<&'static str> {
+    let points = graded.points();
+    let tasks = LIGHT.assignment.tasks.iter();
+    let lost = tasks.filter(|task| points[task.id] < u64::from(task.points));
+    lost.map(|task| task.id).collect()
+}
+
+#[test]
+fn a_file_that_does_not_compile_costs_its_own_tasks() {
+    for file in LIGHT.file_names() {
+        let broken = Submission::reference_of(file, &LIGHT).with(file, "fn (");
+        let graded = broken.grade_with_reference();
+        let tasks = LIGHT.assignment.tasks.iter();
+        let own: Vec<&str> = tasks
+            .filter(|task| task.file == file)
+            .map(|task| task.id)
+            .collect();
+        assert_eq!(tasks_that_lose_points(&graded), own, "{file}");
+        for task in own {
+            assert_eq!(graded.points()[task], 0, "{task}");
+            assert_eq!(graded.verdicts(task), ["not_compiled"], "{task}");
+        }
+    }
+}
+
+/// Returns the report of the reference with a statement at the beginning of a function. Panics
+/// unless only `task` loses points, for items with this verdict.
+#[track_caller]
+fn report_with([file, function, statement]: [&str; 3], task: &str, verdict: &str) -> String {
+    let path = Submission::reference_of("x", &LIGHT).path().join(file);
+    let text = std::fs::read_to_string(path).unwrap();
+    let start = text.find(&format!("fn {function}(")).unwrap();
+    let line = text[start..].lines().next().unwrap();
+    let changed = format!("{line}\n        {statement}");
+    let submission = Submission::reference_of("bad", &LIGHT).with_replaced(file, line, &changed);
+    let mut command = submission.command();
+    let graded = submission.run(command.args(["--cpu-limit", "2", "--task", task]));
+    assert!(
+        graded.verdicts(task).contains(&verdict.to_owned()),
+        "{:?}",
+        graded.verdicts(task)
+    );
+    graded.report()
+}
+
+#[test]
+fn a_panic_an_endless_path_and_nonsense_are_named() {
+    let reports = [
+        report_with(
+            ["path.rs", "radiance", "if bounces > 0 { loop {} }"],
+            "path",
+            "timed_out",
+        ),
+        report_with(
+            ["direct.rs", "direct", "if true { return Vec3::NAN; }"],
+            "direct",
+            "wrong",
+        ),
+        report_with(
+            ["material.rs", "refract", "assert!(ior != 1.0);"],
+            "specular",
+            "panicked",
+        ),
+    ];
+    assert_snapshot!(reports.join("\n\n"));
+}

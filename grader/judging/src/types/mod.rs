@@ -18,6 +18,8 @@ use protocol::Value;
 
 use crate::symptom::Side;
 
+use portion::Portion;
+
 pub use interval::{optional_text as span, text as interval};
 pub use number::number;
 pub use point::text as point;
@@ -85,9 +87,9 @@ pub(crate) fn of<'a>(value: &'a Value<'_>) -> Box<dyn FieldType + 'a> {
         Value::Index(index) => Box::new(index::Index(*index)),
         Value::Shapes(list) => Box::new(shapes::Shapes(list)),
         Value::Color(color) => Box::new(color::Color(*color)),
-        Value::Density(density) => Box::new(portion::Density(*density)),
-        Value::OptionalDensity(density) => Box::new(portion::OptionalDensity(*density)),
-        Value::Fraction(fraction) => Box::new(portion::Fraction(*fraction)),
+        Value::Density(density) => Box::new(Portion::density(Some(*density))),
+        Value::OptionalDensity(density) => Box::new(Portion::density(*density)),
+        Value::Fraction(fraction) => Box::new(Portion::fraction(*fraction)),
         Value::Count(_)
         | Value::Angle(_)
         | Value::Ratio(_)

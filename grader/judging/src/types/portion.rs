@@ -12,46 +12,47 @@ pub(crate) const TOLERANCE: f64 = 1e-3;
 /// of numbers of the order of one, are compared as if they had this size.
 const SMALLEST_FRACTION: f64 = 0.01;
 
-/// A density that there always is.
-pub(super) struct Density(pub(super) f32);
+/// A probability density or a fraction of the light.
+pub(super) struct Portion {
+    /// The number, or `None` if a sample has no density.
+    number: Option<f32>,
+    /// The smallest number that the tolerance is relative to.
+    smallest: f64,
+}
 
-/// A density, or `None` if a sample has no density.
-pub(super) struct OptionalDensity(pub(super) Option<f32>);
-
-/// A fraction of the light.
-pub(super) struct Fraction(pub(super) f32);
-
-impl FieldType for Density {
-    fn text(&self) -> String {
-        number(self.0)
+impl Portion {
+    /// Creates a density.
+    pub(super) fn density(number: Option<f32>) -> Self {
+        Portion {
+            number,
+            smallest: 0.0,
+        }
     }
 
-    fn tolerance(&self) -> Option<Tolerance> {
-        Some(Tolerance::Relative)
-    }
-
-    fn error(&self, wanted: &Value, _: f32) -> f64 {
-        let Value::Density(wanted) = *wanted else {
-            return f64::INFINITY;
-        };
-        relative_error(self.0, wanted, 0.0)
-    }
-
-    fn side(&self, wanted: &Value) -> Option<Side> {
-        let Value::Density(wanted) = *wanted else {
-            return None;
-        };
-        Side::of(self.0, wanted)
-    }
-
-    fn in_tolerances(&self, _: f32) -> Vec<f32> {
-        in_tolerances(&[self.0])
+    /// Creates a fraction of the light.
+    pub(super) fn fraction(number: f32) -> Self {
+        Portion {
+            number: Some(number),
+            smallest: SMALLEST_FRACTION,
+        }
     }
 }
 
-impl FieldType for OptionalDensity {
+/// Returns the number in an expected value: `None` for a sample without a density, and NaN if the
+/// value is of another type.
+fn number_in(wanted: &Value) -> Option<f32> {
+    if let Value::OptionalDensity(number) = *wanted {
+        number
+    } else if let Value::Density(number) | Value::Fraction(number) = *wanted {
+        Some(number)
+    } else {
+        Some(f32::NAN)
+    }
+}
+
+impl FieldType for Portion {
     fn text(&self) -> String {
-        self.0.map_or("None".to_owned(), number)
+        self.number.map_or("None".to_owned(), number)
     }
 
     fn tolerance(&self) -> Option<Tolerance> {
@@ -59,55 +60,24 @@ impl FieldType for OptionalDensity {
     }
 
     fn error(&self, wanted: &Value, _: f32) -> f64 {
-        let Value::OptionalDensity(wanted) = *wanted else {
-            return f64::INFINITY;
-        };
-        match (self.0, wanted) {
+        match (self.number, number_in(wanted)) {
             (None, None) => 0.0,
-            (Some(got), Some(wanted)) => relative_error(got, wanted, 0.0),
+            (Some(got), Some(wanted)) => relative_error(got, wanted, self.smallest),
             (Some(_), None) | (None, Some(_)) => f64::INFINITY,
         }
     }
 
     fn side(&self, wanted: &Value) -> Option<Side> {
-        let Value::OptionalDensity(Some(wanted)) = *wanted else {
-            return None;
-        };
-        Side::of(self.0?, wanted)
+        Side::of(self.number?, number_in(wanted)?)
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {
-        // Distinguish `None` from every density.
-        self.0
-            .map_or(vec![-1.0], |density| in_tolerances(&[density]))
-    }
-}
-
-impl FieldType for Fraction {
-    fn text(&self) -> String {
-        number(self.0)
-    }
-
-    fn tolerance(&self) -> Option<Tolerance> {
-        Some(Tolerance::Relative)
-    }
-
-    fn error(&self, wanted: &Value, _: f32) -> f64 {
-        let Value::Fraction(wanted) = *wanted else {
-            return f64::INFINITY;
-        };
-        relative_error(self.0, wanted, SMALLEST_FRACTION)
-    }
-
-    fn side(&self, wanted: &Value) -> Option<Side> {
-        let Value::Fraction(wanted) = *wanted else {
-            return None;
-        };
-        Side::of(self.0, wanted)
-    }
-
-    fn in_tolerances(&self, _: f32) -> Vec<f32> {
-        vec![self.0 / (TOLERANCE * SMALLEST_FRACTION) as f32]
+        match self.number {
+            // This distinguishes `None` from every density.
+            None => vec![-1.0],
+            Some(number) if self.smallest == 0.0 => in_tolerances(&[number]),
+            Some(number) => vec![number / (TOLERANCE * self.smallest) as f32],
+        }
     }
 }
 
@@ -136,7 +106,7 @@ mod tests {
 
     #[test]
     fn densities_are_compared_relative_to_the_expected_one() {
-        let error = |got, wanted| OptionalDensity(got).error(&Value::OptionalDensity(wanted), 1.0);
+        let error = |got, wanted| Portion::density(got).error(&Value::OptionalDensity(wanted), 1.0);
         assert!(error(Some(1000.9), Some(1000.0)) <= 1.0);
         assert!(error(Some(1001.1), Some(1000.0)) > 1.0);
         assert!(error(Some(1.1e-6), Some(1e-6)) > 1.0);
@@ -154,7 +124,7 @@ mod tests {
 
     #[test]
     fn tiny_fractions_are_equal_to_zero() {
-        let error = |got, wanted| Fraction(got).error(&Value::Fraction(wanted), 1.0);
+        let error = |got, wanted| Portion::fraction(got).error(&Value::Fraction(wanted), 1.0);
         assert!(error(5e-6, 0.0) <= 1.0);
         assert!(error(5e-5, 0.0) > 1.0);
         assert!(error(0.5004, 0.5) <= 1.0);

@@ -1,26 +1,16 @@
-//! Part two's files, generated from `reference/light`. Students get them either as stubs or solved.
-//! If they are solved, part one's pictures are fully lit.
+//! Part two's files, generated from its reference. Students get them either as stubs or solved. If
+//! they are solved, part one's pictures are fully lit.
 
 use std::path::Path;
 
 use anyhow::{Result, anyhow};
 use clap::ValueEnum;
 use grader::files;
+use grader::handed_out::LIGHT;
 
 use crate::generated_file::GeneratedFile;
+use crate::starter;
 
-/// The folder with the solution, relative to the workspace.
-pub const REFERENCE: &str = "reference/light/src";
-/// The folder that students get, relative to the workspace.
-pub const STUDENT: &str = "student/light/src";
-/// The files that students write, in lecture order.
-pub const FILES: [&str; 5] = [
-    "material.rs",
-    "lights.rs",
-    "direct.rs",
-    "path.rs",
-    "environment.rs",
-];
 /// The first line of the worked examples at the end of a file.
 const EXAMPLES: &str = "#[cfg(test)]\n";
 
@@ -38,28 +28,32 @@ pub enum LightFiles {
 impl LightFiles {
     /// Generates the files from the reference in the workspace at `root`.
     pub fn generate(self, root: &Path) -> Result<Vec<GeneratedFile>> {
-        let mut generated = Vec::new();
-        for path in files::read_dir(root.join(REFERENCE))? {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let source = files::read_to_string(&path)?;
-            let is_solved = self == LightFiles::Solved && FILES.contains(&&*name);
-            let text = if is_solved {
-                projection::solution(&source).map(|text| without_examples(&text).to_owned())
-            } else {
-                projection::starter(&source)
-            };
-            let text = text.map_err(|error| anyhow!("{}:{error}", path.display()))?;
-            generated.push(GeneratedFile::new(format!("{STUDENT}/{name}"), text));
+        let mut generated = starter::generated_files(root, &LIGHT)?;
+        if self == LightFiles::Stubs {
+            return Ok(generated);
+        }
+        generated.retain(|file| !file.path.starts_with(LIGHT.starter));
+        for file in &mut generated {
+            if let Some(name) = task_file(&file.path) {
+                let path = root.join(LIGHT.reference).join(name);
+                let text = projection::solution(&files::read_to_string(&path)?)
+                    .map_err(|error| anyhow!("{}:{error}", path.display()))?;
+                file.contents = without_examples(&text).to_owned();
+            }
         }
         Ok(generated)
     }
 
     /// Returns whether students write this file of the bundle.
     pub fn is_students_own(self, path: &str) -> bool {
-        let name = path.strip_prefix(STUDENT);
-        let name = name.and_then(|name| name.strip_prefix('/'));
-        self == LightFiles::Stubs && name.is_some_and(|name| FILES.contains(&name))
+        self == LightFiles::Stubs && task_file(path).is_some()
     }
+}
+
+/// Returns the name of a task file in the folder that students get.
+fn task_file(path: &str) -> Option<&str> {
+    let name = path.strip_prefix(LIGHT.student)?.strip_prefix("/src/")?;
+    LIGHT.task_file(name).map(|file| file.name)
 }
 
 /// Returns the text of a file without the worked examples, which only help students who write the

@@ -22,7 +22,7 @@ use std::path::Path;
 use anyhow::{Result, bail};
 use grader::files;
 use grader::given_files;
-use grader::handed_out::{HandedOut, LIGHT};
+use grader::handed_out::HandedOut;
 
 use crate::authoring;
 use crate::light::LightFiles;
@@ -102,11 +102,10 @@ impl Bundle {
         }
         // Generate these files instead of reading them from `student`, where staff may have solved
         // the assignment.
-        let mut starter = starter::generated_files(root, handed_out)?;
+        let starter = starter::generated_files(root, handed_out)?;
         match light {
             LightFiles::Solved => part_two::remove(&mut bundle)?,
             LightFiles::Stubs => {
-                starter.extend(starter::generated_files(root, &LIGHT)?);
                 let exam = files::read(root.join(authoring::LIGHT.practice_exam))?;
                 bundle.insert(authoring::LIGHT.practice_exam, exam);
             }

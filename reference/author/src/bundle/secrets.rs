@@ -10,11 +10,12 @@ use std::path::Path;
 
 use anyhow::Result;
 use grader::files;
+use grader::handed_out::LIGHT;
 use judging::exam::Exam;
 
 use crate::authoring::Authoring;
 use crate::bundle::Bundle;
-use crate::light::{self, LightFiles};
+use crate::light::LightFiles;
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
@@ -100,7 +101,7 @@ impl Secrets {
             }
         }
         if light == LightFiles::Stubs {
-            secrets.read(root, light::REFERENCE)?;
+            secrets.read(root, LIGHT.reference)?;
         }
         let files = light.generate(root)?;
         let light = files.iter().map(|file| file.contents.as_str());

@@ -6,11 +6,11 @@ use clap::{Args, CommandFactory, Parser};
 use class::cli::{ClassArguments, Cli as ClassCli};
 use grader::cli::Arguments;
 use grader::hand_in::HandInArguments;
+use grader::handed_out::ASSIGNMENTS;
 
 use super::SourceFile;
 use super::pages::{Page, Snippet};
 use crate::cli::Cli;
-use crate::light;
 
 /// The files that define the options of `cargo render` and `cargo view`. Each option is a field of
 /// a struct. The files are read as text, because the crates aren't linked here.
@@ -18,8 +18,6 @@ const OPTIONS: [&str; 2] = [
     "student/framework/src/harness/cli/options.rs",
     "grader/view/src/cli.rs",
 ];
-/// The folders with task files, which contain the examples.
-const EXAMPLES_FOLDERS: [&str; 2] = ["student/src", light::STUDENT];
 /// The flags of `cargo examples`. The code that parses them isn't linked here.
 const EXAMPLES_FLAGS: [&str; 1] = ["--nocapture"];
 /// Commands in the handout that run other programs.
@@ -127,10 +125,12 @@ fn unknown_flag(text: &str, sources: &[SourceFile]) -> Option<String> {
 /// file nor a flag of the test harness. Returns `None` if there is no such argument.
 fn unknown_example(words: &[&str], sources: &[SourceFile]) -> Option<String> {
     let unknown = words.iter().find(|word| {
-        let files = EXAMPLES_FOLDERS.map(|folder| format!("{folder}/{word}.rs"));
+        let files = ASSIGNMENTS.map(|it| format!("{}/src/{word}.rs", it.student));
         !EXAMPLES_FLAGS.contains(word) && !sources.iter().any(|it| files.contains(&it.path))
     })?;
-    Some(format!("no file with examples is named {unknown}.rs"))
+    Some(format!(
+        "there is no file with examples called {unknown}.rs"
+    ))
 }
 
 #[cfg(test)]

@@ -13,8 +13,8 @@ use author::bundle::archive::{unzip, zip};
 use author::bundle::secrets::{Leak, Secrets};
 use author::bundle::{Bundle, BundleOptions, archive};
 use author::exams;
-use author::light::{self, LightFiles};
-use grader::handed_out::RAYS;
+use author::light::LightFiles;
+use grader::handed_out::{LIGHT, RAYS};
 use tempfile::TempDir;
 
 use crate::harness::{BUNDLE, author_fails, author_succeeds, root, text};
@@ -94,7 +94,7 @@ fn a_bundle_has_part_two_solved_or_as_stubs_and_no_other_solution() {
         let (mut bundle, leaks) = leaks_with(light, name);
         assert_eq!(leaks, [], "{name}");
         let is_solved = light == LightFiles::Solved;
-        for file in light::FILES {
+        for file in LIGHT.file_names() {
             let text = bundle.text(&format!("student/light/src/{file}")).unwrap();
             assert_eq!(!text.contains("todo!("), is_solved, "{name}: {file}");
             assert_eq!(!text.contains("#[cfg(test)]"), is_solved, "{name}: {file}");
@@ -110,7 +110,7 @@ fn a_bundle_has_part_two_solved_or_as_stubs_and_no_other_solution() {
 #[test]
 fn an_update_with_stubs_leaves_part_two_to_the_student() {
     let light = LightFiles::Stubs;
-    for file in light::FILES {
+    for file in LIGHT.file_names() {
         let path = format!("student/light/src/{file}");
         assert!(light.is_students_own(&path) && !LightFiles::Solved.is_students_own(&path));
     }

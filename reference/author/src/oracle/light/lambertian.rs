@@ -52,8 +52,7 @@ pub fn sample_cosine_hemisphere(random: DVec2) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::light::evenness::uniform_sphere;
-    use crate::oracle::light::grid;
+    use crate::oracle::light::{grid, uniform_sphere};
 
     const ALBEDO: DVec3 = DVec3::new(0.9, 0.5, 0.1);
 

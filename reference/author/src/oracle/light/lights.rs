@@ -134,8 +134,7 @@ mod tests {
     use glam::dvec3;
 
     use super::*;
-    use crate::oracle::light::evenness::uniform_sphere;
-    use crate::oracle::light::grid;
+    use crate::oracle::light::{grid, uniform_sphere};
 
     fn light(is_triangle: bool, radiance: f64) -> FlatLight64 {
         FlatLight64 {

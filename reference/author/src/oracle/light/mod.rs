@@ -10,7 +10,6 @@
 //! far the numbers are from changing the decision. Questions with a small margin must be avoided.
 
 pub mod environment;
-pub mod evenness;
 pub mod flat_shape;
 pub mod frame;
 pub mod lambertian;
@@ -111,4 +110,14 @@ fn nearest_border(number: f64, borders: impl IntoIterator<Item = f64>) -> f64 {
 fn grid(side: u32) -> impl Iterator<Item = DVec2> {
     let middle = move |n: u32| (f64::from(n) + 0.5) / f64::from(side);
     (0..side * side).map(move |n| DVec2::new(middle(n % side), middle(n / side)))
+}
+
+/// Returns a uniformly distributed direction for two uniformly distributed numbers in `[0, 1)`, by
+/// Archimedes' theorem: projecting a sphere to the cylinder around it preserves areas.
+#[cfg(test)]
+fn uniform_sphere(random: DVec2) -> DVec3 {
+    let y = 2.0 * random.y - 1.0;
+    let radius = libm::sqrt((1.0 - y) * (1.0 + y));
+    let (sine, cosine) = libm::sincos(std::f64::consts::TAU * random.x);
+    DVec3::new(radius * cosine, y, radius * sine)
 }

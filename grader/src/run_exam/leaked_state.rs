@@ -44,7 +44,7 @@ pub fn is_right_alone(
 /// Returns whether the code has been written and has given an answer.
 fn is_answer(failure: &Failure) -> bool {
     match &failure.kind {
-        FailureKind::Wrong { .. } => true,
+        FailureKind::Wrong { .. } | FailureKind::Uneven { .. } => true,
         FailureKind::Panicked(panic) => !panic.is_unimplemented(),
         FailureKind::Protocol(_) => false,
     }

@@ -226,6 +226,11 @@ fn score_answers(
             score.message = wrong_answer_message(what, item, judgements, (question, failure));
             (partial(Verdict::Wrong), got.clone(), wanted.clone())
         }
+        FailureKind::Uneven { got, wanted } => {
+            score.symptom = Some(Symptom::of("spread"));
+            score.message = "wrong: spread".to_owned();
+            (partial(Verdict::Wrong), got.clone(), wanted.clone())
+        }
         FailureKind::Panicked(panic) if panic.is_unimplemented() => {
             score.verdict = Verdict::Unimplemented;
             let location = sanitize(&panic.location, MAX_TEXT_CHARS);
@@ -269,7 +274,11 @@ fn score_answers(
         }
     };
     score.verdict = verdict;
-    score.evidence = Some(evidence(item, (question, failure.element), [got, wanted]));
+    let mut evidence = evidence(item, (question, failure.element), [got, wanted]);
+    if matches!(failure.kind, FailureKind::Uneven { .. }) {
+        evidence.asked = describe::all_elements(&item.questions[question].question);
+    }
+    score.evidence = Some(evidence);
 }
 
 /// Returns the name of the library that a panic's location is in, or `None` if it is in the

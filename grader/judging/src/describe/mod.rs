@@ -30,6 +30,12 @@ pub fn element(question: &Question, element: usize) -> String {
     table.map_or_else(String::new, |table| row(table, element))
 }
 
+/// Describes all elements of a question together.
+pub fn all_elements(question: &Question) -> String {
+    let name = question.table().map_or("the method", AnyTable::name);
+    format!("{} calls to {name}", question.count())
+}
+
 fn row(table: &dyn AnyTable, row: usize) -> String {
     let input = table.input(row);
     let records: Vec<&dyn Record> = input

@@ -38,6 +38,7 @@ pub fn element_error(question: &ExamQuestion, answer: &Answer, element: usize) -
                 .fold(0.0, f64::max);
             with_size(&what, largest)
         }
+        FailureKind::Uneven { .. } => "unevenly spread".to_owned(),
         FailureKind::Panicked(panic) if panic.is_unimplemented() => "not written yet".to_owned(),
         FailureKind::Panicked(_) => "a panic".to_owned(),
         FailureKind::Protocol(why) => why,

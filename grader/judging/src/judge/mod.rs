@@ -66,6 +66,13 @@ pub enum FailureKind {
         /// The expected value.
         wanted: String,
     },
+    /// The answers are wrong together: they are unevenly spread. The element means nothing.
+    Uneven {
+        /// How uneven the answers are.
+        got: String,
+        /// How uneven they may be.
+        wanted: String,
+    },
     /// The submission's code panicked.
     Panicked(Panic),
     /// The answer is well formed, but doesn't belong to this question.

@@ -55,12 +55,6 @@ impl Spread<'_> {
 impl Comparison for Spread<'_> {
     fn judge(&self) -> Judgement {
         let first = self.lengths().position(|length| !length.is_right());
-        let wrong = |what: &str, got: String, wanted: String| FailureKind::Wrong {
-            what: what.to_owned(),
-            side: None,
-            got,
-            wanted,
-        };
         let (element, kind) = match first.map(|element| (element, &self.answer[element])) {
             Some((element, ElementOutcome::Panicked(panic))) => {
                 (element, FailureKind::Panicked(panic.clone()))
@@ -69,18 +63,24 @@ impl Comparison for Spread<'_> {
                 (element, FailureKind::Protocol("skipped".to_owned()))
             }
             Some((element, ElementOutcome::Value(LocalDirection { direction }))) => {
-                let length = UnitLength(*direction).text();
-                (
-                    element,
-                    wrong("length of direction", length, "1".to_owned()),
-                )
+                let kind = FailureKind::Wrong {
+                    what: "length of direction".to_owned(),
+                    side: None,
+                    got: UnitLength(*direction).text(),
+                    wanted: "1".to_owned(),
+                };
+                (element, kind)
             }
             None if self.spread().is_right() => return Judgement::RIGHT,
             None => {
                 let [got, limit] = [self.chi_squared(), self.max_chi_squared];
-                let text = |value: f64| number(value as f32);
-                let got = format!("a χ² of {}", text(got));
-                (0, wrong("spread", got, format!("at most {}", text(limit))))
+                let [got, limit] = [got, limit].map(|value| number(value as f32));
+                let [bands, sectors] = CELLS;
+                let kind = FailureKind::Uneven {
+                    got: format!("a χ² of {got} over {bands} × {sectors} cells of equal area"),
+                    wanted: format!("at most {limit}"),
+                };
+                (0, kind)
             }
         };
         Judgement::wrong(Failure {
@@ -135,6 +135,7 @@ mod tests {
         assert_eq!(failure.is_none(), is_right);
         match failure?.kind {
             FailureKind::Wrong { what, .. } => Some(what),
+            FailureKind::Uneven { .. } => Some("spread".to_owned()),
             FailureKind::Panicked(_) | FailureKind::Protocol(_) => None,
         }
     }

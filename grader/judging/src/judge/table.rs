@@ -305,7 +305,9 @@ mod tests {
     fn the_first_quantity_that_is_wrong_is_named() {
         let what = |answer| match judge(&pixel().single(0), &answer).failure?.kind {
             FailureKind::Wrong { what, .. } => Some(what),
-            other @ (FailureKind::Panicked(_) | FailureKind::Protocol(_)) => panic!("{other:?}"),
+            other @ (FailureKind::Uneven { .. }
+            | FailureKind::Panicked(_)
+            | FailureKind::Protocol(_)) => panic!("{other:?}"),
         };
         let what = |origin, direction, range| what(rays(origin, direction, range).single(0)?);
         assert_eq!(what(2.0, 9.0, 9.0).as_deref(), Some("origin"));

@@ -87,8 +87,8 @@ pub struct Arguments {
     #[arg(long, value_name = "ITEM[#N]", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<QuestionRef>,
 
-    /// Restore a task, such as sphere, or a whole file, such as bvh, to its stub, or restore a
-    /// given file, such as world.rs; your version is kept as a copy, such as bvh.rs.bak-1
+    /// Reset a task (sphere) or a whole file (bvh) to its stub, or restore a given file (world.rs);
+    /// your version is kept as a copy (bvh.rs.bak-1)
     #[arg(long, value_name = "TASK")]
     pub reset: Option<String>,
 

@@ -65,8 +65,8 @@ pub struct ClassArguments {
     #[arg(long, requires = "out", conflicts_with_all = ["dry_run", "regrade", "shard"])]
     pub estimate: bool,
 
-    /// Write the lines that students added to the starter to this new folder, without names, for a
-    /// similarity checker; the key and a list of identical submissions are written next to it
+    /// Write each student's additions to the starter into this new folder, with names removed, for
+    /// a similarity checker; the key and a list of identical submissions are written next to it
     #[arg(long, value_name = "FOLDER")]
     pub similarity_input: Option<PathBuf>,
 

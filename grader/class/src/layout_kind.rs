@@ -24,7 +24,7 @@ pub enum Layout {
     /// Clones of repositories from GitHub Classroom or classroom50
     #[value(name = "github", alias = "classroom50")]
     GitHub,
-    /// Clones of a GitLab group, or a folder for each tutorial with a folder for each student
+    /// Clones of a GitLab group's projects, or a folder per tutorial that contains a folder per student
     /// (alias: `tutorials`)
     #[value(name = "gitlab", alias = "tutorials")]
     GitLab,

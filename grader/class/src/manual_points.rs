@@ -104,7 +104,7 @@ impl ManualPointsList {
             let Some((first, id)) = found.next() else {
                 let remedy = match missing.iter().find(|person| points.is_for(person)) {
                     Some(person) => format!(
-                        "to give points anyway, add an empty submission by {:?}, named like the others",
+                        "to give points anyway, add an empty submission for {:?}, named like the others",
                         person.display_name()
                     ),
                     None => "use the email address, the student number, the account name or the \

@@ -45,7 +45,7 @@ pub enum Command {
         /// Change nothing; fail if a list differs from what would be written
         #[arg(long, conflicts_with = "book")]
         check: bool,
-        /// Build the book into this folder; only available as `cargo book`
+        /// Build the book into this folder; only available with `cargo book`
         #[arg(long, value_name = "FOLDER", num_args = 0..=1)]
         book: Option<Option<PathBuf>>,
         /// With --book: leave out the chapters for instructors; the default folder is

@@ -264,7 +264,9 @@ impl PersonGrade {
                 Some(format!("No points count towards the grade: {problem}."))
             }
             // The other problems are for staff, and may name other people.
-            (Some(_), _) => Some("No points count yet: the staff still have to decide.".to_owned()),
+            (Some(_), _) => Some(
+                "None of the points count yet: the staff still have to decide on them.".to_owned(),
+            ),
             (None, Some(counted)) => counted.explanation_if_changed(),
             (None, None) => None,
         };

@@ -222,9 +222,9 @@ fn notes_give_the_reason_why_there_are_no_points() {
 fn a_problem_is_explained_instead_of_points() {
     let texts = problems().map(|problem| with_problem(problem).explanation().join("\n"));
     insta::assert_snapshot!(texts.join("\n"), @"
-    No points count yet: the staff still have to decide.
+    None of the points count yet: the staff still have to decide on them.
     No points count towards the grade: submission b from the same person counts instead.
-    No points count yet: the staff still have to decide.
+    None of the points count yet: the staff still have to decide on them.
     ");
     assert_eq!(PersonGrade::default().explanation(), Vec::<String>::new());
 }

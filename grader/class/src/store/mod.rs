@@ -129,8 +129,8 @@ impl Store {
         (stamp.key == key).then(|| self.read_score(id))?.ok()
     }
 
-    /// Returns whether there is nothing to grade according to this outcome, and the outcome is stored
-    /// for the entry.
+    /// Returns true if there is nothing to grade according to this outcome and the outcome is the
+    /// one stored for the entry.
     pub fn has_nothing_to_grade(&self, id: &str, outcome: &EntryOutcome) -> bool {
         let stamp = self.read_stamp(id).ok().flatten();
         matches!(outcome, EntryOutcome::NothingToGrade(_))

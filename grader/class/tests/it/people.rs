@@ -35,7 +35,7 @@ fn the_policy_says_which_of_several_attempts_counts() {
         let page = class.read(&format!("students/{submission}/feedback.html"));
         assert_contains(
             &page,
-            &["No points count yet: the staff still have to decide."],
+            &["None of the points count yet: the staff still have to decide on them."],
         );
         assert!(!page.contains("[attempts]"), "this is for staff: {page}");
     }

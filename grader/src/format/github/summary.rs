@@ -1,4 +1,4 @@
-//! The summary on the page of a run, in GitHub Flavored Markdown.
+//! The summary on a run's page, in GitHub Flavored Markdown.
 
 use std::fmt::{self, Write};
 

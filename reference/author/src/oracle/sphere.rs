@@ -16,7 +16,7 @@ pub struct Sphere {
     pub radius: f64,
 }
 
-/// The relation of a ray's whole line to a sphere.
+/// How the whole line through a ray relates to a sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct LineIntersection {
     /// The smallest distance from the centre to the line, as a multiple of the radius. The line

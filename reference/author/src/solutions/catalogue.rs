@@ -132,8 +132,8 @@ fn share_hints(mistakes: &mut [Mistake]) -> Result<()> {
         let mut others = others.chain(mistake.true_of_pairs.iter().flatten());
         if !is_complete || !others.all(|other| find(other).is_some()) {
             bail!(
-                "{}: add a `nudge` and a `hint`, or set `same_hint_as` to a different mistake of the same \
-                 task that has them; `also_true_of` and `true_of_pairs` must name other mistakes",
+                "{}: add a `nudge` and a `hint`, or set `same_hint_as` to another mistake in the same task \
+                 that has both; `also_true_of` and `true_of_pairs` must name other mistakes",
                 mistake.id
             );
         }

@@ -31,7 +31,7 @@ pub enum Request {
     Aim(Aim),
     /// Draws some pixels.
     Draw(Draw),
-    /// Returns the tree, which has this size.
+    /// Returns the tree of this size.
     Tree(TreeSize),
     /// Records the tests made for a ray or a path.
     Follow(Follow),

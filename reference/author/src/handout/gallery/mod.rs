@@ -99,7 +99,7 @@ pub fn with_pictures(
         let path = format!("{CHAPTERS}/{}", chapter.page);
         let page = chapters.iter_mut().find(|file| file.path == path);
         let page =
-            page.with_context(|| format!("{LIST}: {} is not a task's chapter", chapter.page))?;
+            page.with_context(|| format!("{LIST}: no task has the chapter {}", chapter.page))?;
         let (before, after) = page.contents.split_once(BEGIN).unwrap_or_default();
         let end = after.find(END);
         let end = end.with_context(|| format!("{path} needs the lines {BEGIN:?} and {END:?}"))?;

@@ -377,8 +377,8 @@ fn ray_to_a_place_in_a_leaf() -> impl FnMut(&mut Rng, &Tree) -> Ray {
 pub(super) const DEEP: Declaration = Declaration {
     id: "traverse.deep",
     title: "a tree of 60 levels is traversed to the end",
-    look: "Neither a depth limit nor a fixed-size stack that is too small may stop the traversal \
-        before the deepest level. If you push nodes, pop all of them.",
+    look: "Does your traversal reach the deepest level, or does a depth limit or a small fixed-size \
+        stack cut it short? If you push nodes, pop all of them.",
     look_fits: &[Symptom::MISS, Symptom::more("distance")],
     section: "traversal.md#deep-trees",
     tests: &["The tree can be 60…"],

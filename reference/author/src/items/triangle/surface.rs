@@ -57,7 +57,7 @@ pub(super) const UV: Declaration = Declaration {
 pub(super) const UV_CORNERS: Declaration = Declaration {
     id: "triangle.uv_corners",
     title: "near a corner, that corner's texture coordinates dominate",
-    look: "Close to a corner, that corner's weight is nearly 1 and the two others are nearly 0. w \
+    look: "Close to a corner, that corner's weight is nearly 1 and the other two are nearly 0. w \
            = 1 − u − v belongs to p0, u to p1 and v to p2.",
     look_fits: &[Symptom::of("uv")],
     section: "triangle.md#each-weight-belongs-to-its-corner",

@@ -23,10 +23,11 @@ const COPIED: [&str; 7] = [
 /// occur.
 const EXCLUDED_NAMES: [&str; 5] = ["tests", "snapshots", "benches", "fuzz", "target"];
 /// Files and folders about grading a class or running untrusted code, which are only for staff.
-const STAFF_PATHS: [&str; 6] = [
+const STAFF_PATHS: [&str; 7] = [
     "grader/class",
     "grader/SECURITY.md",
     "handout/src/class.md",
+    "handout/src/drill.md",
     "handout/src/gradescope.md",
     "handout/src/classroom50.md",
     "handout/src/github.md",

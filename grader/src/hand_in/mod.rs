@@ -11,7 +11,7 @@ use crate::build::Builder;
 use crate::error::Error;
 use crate::grade::options::GradeOptions;
 use crate::grade::{PreparedSubmission, build_report};
-use crate::handed_out::{HandedOut, is_unwritten};
+use crate::handed_out::{ASSIGNMENTS, HandedOut, is_unwritten};
 use crate::machine::backup;
 use crate::machine::files;
 use crate::report::atomic_write;
@@ -21,8 +21,14 @@ use crate::workspace::Workspace;
 
 pub use archive::archive_bytes;
 
-/// The name of the archive, which is written to the workspace's root by default.
-const ARCHIVE: &str = "handin.zip";
+/// Returns the name of the archive, which is written to the workspace's root by default.
+fn archive_name(handed_out: &'static HandedOut) -> String {
+    if handed_out == <&HandedOut>::default() {
+        "handin.zip".to_owned()
+    } else {
+        format!("handin-{}.zip", handed_out.assignment.id)
+    }
+}
 
 /// Packs the archive to hand in, checks it the way the grader will, and lists its contents
 ///
@@ -34,12 +40,13 @@ pub struct HandInArguments {
     /// The folder with the task files; default: student
     pub folder: Option<PathBuf>,
 
-    /// The archive to write; default: handin.zip in the assignment's folder
+    /// The archive to write; default: handin.zip in the project's folder, or handin-ID.zip for
+    /// another assignment than the default one
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
     /// The assignment; default: rays
-    #[arg(long, value_name = "ID", value_parser = HandedOut::find, hide = true)]
+    #[arg(long, value_name = "ID", value_parser = HandedOut::find, hide = ASSIGNMENTS.len() == 1)]
     pub assignment: Option<&'static HandedOut>,
 }
 
@@ -84,7 +91,7 @@ impl HandIn {
         } = PreparedSubmission::new(&options)?;
         let archive = match arguments.out {
             Some(path) => path,
-            None => workspace.root().join(ARCHIVE),
+            None => workspace.root().join(archive_name(handed_out)),
         };
         if original.files.iter().all(|(_, text)| text.is_err()) {
             return Err(Error::User(format!(

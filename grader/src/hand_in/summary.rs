@@ -24,7 +24,7 @@ impl fmt::Display for HandIn {
         let count = counted(count.count(), "file");
         writeln!(f, "\n  {archive}: {count}\n")?;
         for (file, text) in &self.original.files {
-            writeln!(f, "  {:14}{}", file.name, self.state(file, text))?;
+            writeln!(f, "  {:16}{}", file.name, self.state(file, text))?;
         }
         writeln!(f)?;
         for note in self.build.all_notes() {

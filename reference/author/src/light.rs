@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Result, anyhow};
 use clap::ValueEnum;
 use grader::files;
-use grader::handed_out::LIGHT;
+use grader::handed_out::{HandedOut, LIGHT, RAYS};
 
 use crate::generated_file::GeneratedFile;
 use crate::starter;
@@ -34,7 +34,7 @@ impl LightFiles {
         }
         generated.retain(|file| !file.path.starts_with(LIGHT.starter));
         for file in &mut generated {
-            if let Some(name) = task_file(&file.path) {
+            if let Some(name) = task_file(&file.path, &LIGHT) {
                 let path = root.join(LIGHT.reference).join(name);
                 let text = projection::solution(&files::read_to_string(&path)?)
                     .map_err(|error| anyhow!("{}:{error}", path.display()))?;
@@ -44,16 +44,29 @@ impl LightFiles {
         Ok(generated)
     }
 
-    /// Returns whether students write this file of the bundle.
-    pub fn is_students_own(self, path: &str) -> bool {
-        self == LightFiles::Stubs && task_file(path).is_some()
+    /// Returns whether students write this file of an assignment's bundle.
+    pub fn is_students_own(self, path: &str, handed_out: &HandedOut) -> bool {
+        let is_light = self == LightFiles::Stubs && task_file(path, &LIGHT).is_some();
+        is_light || task_file(path, part_one(handed_out)).is_some()
     }
 }
 
-/// Returns the name of a task file in the folder that students get.
-fn task_file(path: &str) -> Option<&str> {
-    let name = path.strip_prefix(LIGHT.student)?.strip_prefix("/src/")?;
-    LIGHT.task_file(name).map(|file| file.name)
+/// Returns the assignment in the folder `student`: part one if the assignment is part two, whose
+/// program uses part one's files.
+pub fn part_one(handed_out: &HandedOut) -> &HandedOut {
+    if *handed_out == LIGHT {
+        &RAYS
+    } else {
+        handed_out
+    }
+}
+
+/// Returns the name of an assignment's task file in the folder that students get.
+fn task_file<'a>(path: &str, handed_out: &'a HandedOut) -> Option<&'a str> {
+    let name = path
+        .strip_prefix(handed_out.student)?
+        .strip_prefix("/src/")?;
+    handed_out.task_file(name).map(|file| file.name)
 }
 
 /// Returns the text of a file without the worked examples, which only help students who write the

@@ -119,7 +119,7 @@ mod tests {
     }
 
     fn on_sphere(height: f32, turn: f32) -> Vec3 {
-        let radius = (1.0 - height * height).max(0.0).sqrt();
+        let radius = (1.0 - height.powi(2)).max(0.0).sqrt();
         let (sin, cos) = (std::f32::consts::TAU * turn).sin_cos();
         Vec3::new(cos * radius, height, sin * radius)
     }

@@ -19,13 +19,13 @@ mod version;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use grader::files;
 use grader::given_files;
-use grader::handed_out::HandedOut;
+use grader::handed_out::{HandedOut, LIGHT};
 
 use crate::authoring;
-use crate::light::LightFiles;
+use crate::light::{LightFiles, part_one};
 use crate::starter;
 
 /// The files that only students see: their paths in the bundle and their contents.
@@ -81,6 +81,10 @@ impl Bundle {
     /// for instructors.
     pub fn collect(root: &Path, handed_out: &HandedOut, options: BundleOptions) -> Result<Self> {
         let BundleOptions { book, light } = options;
+        ensure!(
+            *handed_out != LIGHT || light == LightFiles::Stubs,
+            "the assignment `light` needs --light stubs: otherwise, the files contain its solution"
+        );
         let mut bundle = Bundle::default();
         folders::copy(root, &mut bundle)?;
         test_modules::remove(&mut bundle);
@@ -102,7 +106,7 @@ impl Bundle {
         }
         // Generate these files instead of reading them from `student`, where staff may have solved
         // the assignment.
-        let starter = starter::generated_files(root, handed_out)?;
+        let starter = starter::generated_files(root, part_one(handed_out))?;
         match light {
             LightFiles::Solved => part_two::remove(&mut bundle)?,
             LightFiles::Stubs => {
@@ -129,7 +133,7 @@ impl Bundle {
     /// Removes the files that students write, so that the bundle can be unpacked over an older one.
     pub fn without_students_files(mut self, handed_out: &HandedOut, light: LightFiles) -> Self {
         self.files
-            .retain(|path, _| !version::is_students_own(path, handed_out, light));
+            .retain(|path, _| !light.is_students_own(path, handed_out));
         self
     }
 

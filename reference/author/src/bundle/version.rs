@@ -30,7 +30,7 @@ pub(super) fn add(
     // The dependencies are part of what students get.
     hash.add(&files::read(root.join("Cargo.lock"))?);
     let given = bundle.files.iter();
-    for (path, contents) in given.filter(|(path, _)| !is_students_own(path, handed_out, light)) {
+    for (path, contents) in given.filter(|(path, _)| !light.is_students_own(path, handed_out)) {
         hash.add(path.as_bytes());
         hash.add(contents);
     }
@@ -54,13 +54,6 @@ pub(super) fn find(manifest: &str) -> Option<String> {
     let version = manifest.get("workspace")?.get("package")?.get("version")?;
     let (_, version) = version.as_str()?.split_once('+')?;
     Some(version.to_owned())
-}
-
-/// Returns whether students write this file.
-pub(super) fn is_students_own(path: &str, handed_out: &HandedOut, light: LightFiles) -> bool {
-    let name = path.strip_prefix("student/src/");
-    let is_own = |name| handed_out.task_file(name).is_some();
-    name.is_some_and(is_own) || light.is_students_own(path)
 }
 
 /// Appends the bundle's version to the version in a `package` table, if there is one.

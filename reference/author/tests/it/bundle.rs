@@ -112,9 +112,13 @@ fn an_update_with_stubs_leaves_part_two_to_the_student() {
     let light = LightFiles::Stubs;
     for file in LIGHT.file_names() {
         let path = format!("student/light/src/{file}");
-        assert!(light.is_students_own(&path) && !LightFiles::Solved.is_students_own(&path));
+        for handed_out in [&RAYS, &LIGHT] {
+            assert!(light.is_students_own(&path, handed_out));
+            assert!(light.is_students_own("student/src/bvh.rs", handed_out));
+        }
+        assert!(!LightFiles::Solved.is_students_own(&path, &RAYS));
     }
-    assert!(!light.is_students_own("student/light/src/world.rs"));
+    assert!(!light.is_students_own("student/light/src/world.rs", &LIGHT));
 }
 
 #[test]
@@ -306,7 +310,10 @@ fn every_package_has_the_bundles_version_and_so_has_the_lock_file() {
 fn an_update_has_everything_but_the_students_files_and_the_same_version() {
     let folder = TempDir::new().unwrap();
     let archive = folder.path().join("update.zip");
-    author_succeeds(&bundle_to(&archive, &["--update".as_ref()]));
+    author_succeeds(&bundle_to(
+        &archive,
+        &["--light", "solved", "--update"].map(OsStr::new),
+    ));
     let update = unzip(&fs::read(archive).unwrap()).unwrap();
     let missing = BUNDLE.files.keys();
     let missing = missing.filter(|path| !update.files.contains_key(*path));

@@ -165,7 +165,7 @@ pub fn render_changes(changes: &Changes) -> String {
     let mut text: String = changes.regrade.iter().map(render_regrade).collect();
     let resubmitted = with_changed_points(&changes.resubmitted);
     if !resubmitted.is_empty() {
-        let rest = " (replaced.json has the earlier score)";
+        let rest = " (see replaced.json for the earlier score)";
         text += &section("changed submissions", rest, change_lines(&resubmitted, ""));
     }
     let grades = changes.grades.iter().filter(|grades| !grades.is_empty());

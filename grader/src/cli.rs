@@ -338,8 +338,8 @@ fn format_help() -> String {
     // The list comes last, so that when it grows, the text before it doesn't have to be rewrapped.
     format!(
         "Also write the report in these formats, which only show what the policy lets students see. Append \
-         =PATH to choose the file; by default, it is written where the platform expects it, or else to the \
-         --out folder.\n\
+         =PATH to choose the file; by default, it is written where the platform expects it or, failing \
+         that, to the --out folder.\n\
          Formats: {known}"
     )
 }

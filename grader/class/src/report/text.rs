@@ -187,7 +187,7 @@ fn render_regrade(regrade: &RegradeChanges) -> String {
     let title = format!("regraded: {} changed", count_or_no(changes.len(), "score"));
     let count = regrade.scores.len() - changes.len();
     let same = format!(
-        "{count} more with the same total, but different points for some items, in drift.json"
+        "{count} more in drift.json, with the same total but different points for some items"
     );
     let same = (count > 0).then_some(same);
     let lines = change_lines(&changes, ", in drift.json").chain(same);

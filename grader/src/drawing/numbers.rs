@@ -37,7 +37,7 @@ pub(super) fn direction_difference(name: &str, wanted: Vec3, got: Vec3) -> Strin
     let (wanted, direction) = (wanted.as_dvec3(), got.as_dvec3());
     let length = direction.length();
     if !(length.is_finite() && length > 0.0) {
-        return format!("Your {name} {} has no direction.", describe::point(got));
+        return format!("Your {name} {} is not a direction.", describe::point(got));
     }
     let degrees = direction.angle_between(wanted).to_degrees();
     match degrees {

@@ -1,11 +1,13 @@
 //! Draws all rows of a table about a matte surface on a disk, as seen from above the surface. The
 //! projection keeps areas, so that the dots show the density of samples per solid angle.
 
+use std::f64::consts::SQRT_2;
+
 use glam::{DVec2, DVec3};
 use judging::exam::ExamQuestion;
-use protocol::{Answer, Record};
+use protocol::{Answer, Record, Value};
 
-use super::row::{RowComparison, angle_text, direction, first_direction};
+use super::row::{RowComparison, angle_text, directions, last_direction};
 use crate::drawing::Drawing;
 use crate::drawing::canvas::{Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
@@ -30,41 +32,33 @@ pub(super) fn draw(
     let rows = (0..count).map(|row| RowComparison::new(question, row, answer));
     let rows: Vec<RowComparison> = rows.collect::<Option<_>>()?;
     let shown = rows.get(row)?;
-    let wanted: Vec<Dot> = rows
+    let wanted = rows
         .iter()
-        .map(|row| Dot::new(row, row.wanted.as_deref(), true))
-        .collect();
-    let got: Vec<Dot> = rows
+        .map(|row| Dot::new(row, row.wanted.as_deref(), true));
+    let got = rows
         .iter()
-        .map(|row| Dot::new(row, row.got_record(), row.is_right()))
-        .collect();
-    let values = || wanted.iter().chain(&got).filter_map(|dot| dot.value);
-    // Values that are far too large don't shrink all others to nothing.
+        .map(|row| Dot::new(row, row.got, row.is_right()));
+    let (wanted, got): (Vec<Dot>, Vec<Dot>) = (wanted.collect(), got.collect());
     let max = |dots: &[Dot]| {
-        dots.iter()
-            .filter_map(|dot| dot.value)
-            .filter(|value| value.is_finite())
-            .fold(0.0, f64::max)
+        let values = dots.iter().filter_map(|dot| dot.value);
+        values.filter(|value| value.is_finite()).fold(0.0, f64::max)
     };
+    // Values that are far too large don't shrink all others to nothing.
     let largest = max(&got).clamp(max(&wanted), 4.0 * max(&wanted));
     let is_below = |dot: &Dot| dot.direction.is_some_and(|direction| direction.z < -1e-6);
     let has_below = wanted.iter().chain(&got).any(is_below);
+    let edge = if has_below { SQRT_2 } else { 1.0 };
 
     let mut sheet = Sheet::default();
-    let panels = sheet.panels(["wanted, from above", "got, from above"], 166.0);
-    let edge = if has_below {
-        project(DVec3::NEG_Z)
-    } else {
-        DVec2::X
-    };
+    let right = answer.map_or("got: no answer", |_| "got, from above");
+    let panels = sheet.panels(["wanted, from above", right], 166.0);
     for (panel, dots) in panels.into_iter().zip([&wanted, &got]) {
-        let radius = edge.length();
-        let window = Window::around(panel, [DVec2::splat(-radius), DVec2::splat(radius)]);
+        let window = Window::around(panel, [DVec2::splat(-edge), DVec2::splat(edge)]);
         let canvas = &mut sheet.canvas;
         let center = window.page_position(DVec2::ZERO);
         canvas.circle(
             center,
-            window.page_length(radius),
+            window.page_length(edge),
             LineStyle::Grid,
             Fill::None,
         );
@@ -74,31 +68,29 @@ pub(super) fn draw(
             dot.draw(canvas, &window, largest, index == row);
         }
     }
-    let wrong = rows.iter().filter(|row| !row.is_right()).count();
-    let what = if values().next().is_some() {
-        "a dot's area is the value; a small ring is 0"
+    let (what, symbols) = if wanted.iter().any(|dot| dot.value.is_some()) {
+        let what = format!("a dot's area is its {}; a small ring is 0", shown.judged);
+        (what, [RIGHT, WRONG].map(Symbol::Area))
     } else {
-        "the directions of all rows"
+        let what = format!("the directions of {count} samples");
+        (what, [Mark::Right, Mark::Wrong].map(Symbol::Mark))
     };
-    sheet.add_wanted(Symbol::Area(RIGHT), what);
+    sheet.add_wanted(symbols[0], &what);
     if answer.is_some() {
-        let text = format!(
-            "{wrong} of {count} rows {} wrong",
-            if wrong == 1 { "is" } else { "are" }
-        );
-        sheet.add_got(Symbol::Area(WRONG), &text);
+        let wrong = rows.iter().filter(|row| !row.is_right()).count();
+        let are = if wrong == 1 { "is" } else { "are" };
+        sheet.add_got(symbols[1], &format!("{wrong} of these {count} {are} wrong"));
     }
-    if let Some(out) = first_direction(shown.input.as_ref()) {
-        let text = format!("the row above, whose out is {}", angle_text(out));
-        sheet.add_legend(Symbol::Mark(Mark::Origin), &text);
-    }
+    let out = directions(shown.input.as_ref()).next()?;
+    let text = format!("the question above; out is {}", angle_text(out));
+    sheet.add_legend(Symbol::Mark(Mark::Origin), &text);
     let horizon = if has_below {
         "the horizon; directions outside this circle are below the surface"
     } else {
         "the horizon; the normal is in the middle"
     };
     sheet.add_legend(Symbol::Line(LineStyle::Outline), horizon);
-    let title = "The rows of the table on a disk, seen from above the surface";
+    let title = "All calls on a disk, seen from above the surface";
     Some(sheet.finish(title, shown.caption()))
 }
 
@@ -121,10 +113,10 @@ struct Dot {
 impl Dot {
     /// Creates a dot for a result. It is at the result's own direction, if it has one.
     fn new(row: &RowComparison, result: Option<&dyn Record>, is_right: bool) -> Dot {
-        let own = result.and_then(direction);
+        let of_input = last_direction(row.input.as_ref()).filter(|_| result.is_some());
         Dot {
-            direction: own.or_else(|| direction(row.input.as_ref()).filter(|_| result.is_some())),
-            value: result.and_then(|result| row.judged_value(result)),
+            direction: result.and_then(last_direction).or(of_input),
+            value: result.and_then(|result| number(result, row.judged)),
             is_right,
         }
     }
@@ -141,20 +133,35 @@ impl Dot {
             }
             Some(_) => 2.5,
         };
-        let is_zero = self.value.is_some_and(|value| value.abs() <= 0.0);
-        let (fill, line) = if self.is_right {
-            (RIGHT, LineStyle::Grid)
-        } else {
-            (WRONG, LineStyle::Wrong)
+        let (fill, line) = match (self.is_right, self.value) {
+            (true, Some(0.0)) => (Fill::None, LineStyle::Outline),
+            (true, _) => (RIGHT, LineStyle::Grid),
+            (false, Some(0.0)) => (Fill::None, LineStyle::Wrong),
+            (false, _) => (WRONG, LineStyle::Wrong),
         };
-        let line = if is_zero && self.is_right {
-            LineStyle::Outline
-        } else {
-            line
-        };
-        canvas.circle(at, radius, line, if is_zero { Fill::None } else { fill });
+        match (self.value, self.is_right) {
+            (Some(_), _) => canvas.circle(at, radius, line, fill),
+            (None, true) => canvas.mark(at, Mark::Right),
+            (None, false) => canvas.mark(at, Mark::Wrong),
+        }
         if is_shown {
             canvas.circle(at, radius + 5.0, LineStyle::Outline, Fill::None);
         }
+    }
+}
+
+/// Returns a number for the field with this name, or `None` if it is a direction or its length. No
+/// density counts as 0, and a colour as the mean of its channels.
+fn number(record: &dyn Record, name: &str) -> Option<f64> {
+    let index = record.names().iter().position(|other| *other == name)?;
+    let value = record.value(index);
+    if let Value::Density(number) = value {
+        Some(number.into())
+    } else if let Value::OptionalDensity(density) = value {
+        Some(density.map_or(0.0, f64::from))
+    } else if let Value::Color(color) = value {
+        Some(color.as_dvec3().element_sum() / 3.0)
+    } else {
+        None
     }
 }

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, dvec2};
 use protocol::Value;
 use protocol::light::lights::FlatLight;
 
-use super::row::{RowComparison, direction};
+use super::row::{RowComparison, last_direction};
 use crate::drawing::Drawing;
 use crate::drawing::canvas::{Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
@@ -15,6 +15,8 @@ use crate::drawing::window::Window;
 
 /// The number of parts that each edge is drawn in, since straight edges appear bent.
 const PARTS: u32 = 6;
+/// The height of the picture, in page units.
+const HEIGHT: f64 = 220.0;
 /// The maximum angle between the picture's centre and a mark that the picture should show.
 const MAX_DEGREES: f64 = 100.0;
 
@@ -28,52 +30,32 @@ pub(super) fn draw(lights: &[FlatLight], row: &RowComparison) -> Option<Drawing>
             None
         }
     })?;
-    let asked = direction(row.input.as_ref());
+    let asked = last_direction(row.input.as_ref());
     let (wanted, got) = (row.wanted_direction(), row.wrong_direction());
     let toward = |light: &FlatLight| light.corner.as_dvec3() - from;
     let center = asked.or(wanted).or(got);
-    let center = center.or_else(|| lights.first().map(toward))?;
-    let view = View::new(from, center)?;
-    let outlines: Vec<Outline> = lights
-        .iter()
-        .filter_map(|light| view.outline(light))
-        .collect();
-
-    // The light in the middle and the marks must be in the picture.
+    let view = View::new(from, center.or_else(|| lights.first().map(toward))?)?;
+    let outlines = lights.iter().filter_map(|light| view.outline(light));
+    let outlines: Vec<Outline> = outlines.collect();
     let marks = [
         (asked, Mark::Origin),
         (wanted, Mark::Right),
         (got, Mark::Wrong),
-    ]
-    .map(|(direction, mark)| {
-        (
-            direction.and_then(|direction| view.project(direction)),
-            mark,
-        )
-    });
-    let distance = |outline: &&Outline| -> f64 {
-        let middle = outline.points.iter().sum::<DVec2>() / outline.points.len() as f64;
-        middle.length()
-    };
+    ];
+    let marks = marks.map(|(direction, mark)| (direction.and_then(|to| view.project(to)), mark));
+
+    // The picture shows the marks and the light that is nearest to its centre.
     let nearest = outlines
         .iter()
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let near = |point: &DVec2| point.length() < MAX_DEGREES;
-    let seen = nearest
-        .iter()
-        .flat_map(|outline| outline.points.iter().copied());
-    let seen = seen
-        .chain(marks.iter().filter_map(|(point, _)| *point))
-        .filter(near);
-    // Both axes, so that the picture isn't narrow.
-    let seen: Vec<DVec2> = seen.collect();
-    let half = seen
-        .iter()
-        .fold(1.0, |most: f64, point| most.max(point.abs().max_element()));
+        .min_by(|a, b| a.distance().total_cmp(&b.distance()));
+    let points = nearest.iter().flat_map(|outline| outline.points.iter());
+    let points = points.chain(marks.iter().filter_map(|(point, _)| point.as_ref()));
+    let near = points.filter(|point| point.length() < MAX_DEGREES);
+    let half = near.fold(1.0, |most: f64, point| most.max(point.abs().max_element()));
 
     let mut sheet = Sheet::default();
     sheet.title("the lights, as seen from the point");
-    let panel = sheet.panel(220.0);
+    let panel = sheet.panel(HEIGHT);
     let window = Window::around(panel, [DVec2::splat(-half), DVec2::splat(half)]);
     for outline in &outlines {
         outline.draw(&mut sheet.canvas, &window);
@@ -82,16 +64,23 @@ pub(super) fn draw(lights: &[FlatLight], row: &RowComparison) -> Option<Drawing>
         sheet.canvas.mark_pinned(&window, point, mark);
     }
     row.add_results(&mut sheet, [Mark::Right, Mark::Wrong].map(Symbol::Mark));
+    let is_off = |point: DVec2| window.distance_outside(point) > 0.0;
+    if got.is_some() && marks[2].0.is_none_or(is_off) {
+        sheet.add_legend(Symbol::None, "your direction is outside the picture");
+    }
     if asked.is_some() {
         sheet.add_legend(Symbol::Mark(Mark::Origin), "the direction");
     }
-    let has = |is_lit| outlines.iter().any(|outline| outline.is_lit == is_lit);
     for (is_lit, text) in [(true, "a light"), (false, "a light that faces away")] {
-        if has(is_lit) {
+        let mut alike = outlines.iter().filter(|outline| outline.is_lit == is_lit);
+        if alike.any(|outline| !outline.points.iter().all(|point| is_off(*point))) {
             sheet.add_legend(Symbol::Line(line(is_lit)), text);
         }
     }
-    let text = format!("the picture is at least {}° high", short(2.0 * half));
+    let text = format!(
+        "the picture is {}° high",
+        short(window.world_length(HEIGHT))
+    );
     sheet.add_legend(Symbol::None, &text);
     Some(sheet.finish("The lights as seen from the point", row.caption()))
 }
@@ -173,6 +162,12 @@ struct Outline {
 }
 
 impl Outline {
+    /// Returns the distance between the centre of the picture and the middle of the light.
+    fn distance(&self) -> f64 {
+        let sum: DVec2 = self.points.iter().sum();
+        sum.length() / self.points.len() as f64
+    }
+
     fn draw(&self, canvas: &mut Canvas, window: &Window) {
         let line = line(self.is_lit);
         let pinned = self.points.iter().map(|point| window.pin_to_border(*point));

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3, UVec2, Vec3, dvec2};
 use protocol::light::environment::MapImage;
 
-use super::row::{RowComparison, direction};
+use super::row::{RowComparison, last_direction};
 use crate::drawing::Drawing;
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
@@ -19,7 +19,7 @@ const MAX_COLUMNS: u32 = 32;
 /// The number of different shades.
 const SHADES: usize = 8;
 /// The opacity of the strongest shade.
-const MAX_TINT: f64 = 0.6;
+const MAX_TINT: f64 = 0.45;
 /// The minimum width of a cell that is labelled with its share.
 const MIN_LABELLED: f64 = 33.0;
 
@@ -28,12 +28,12 @@ const MIN_LABELLED: f64 = 33.0;
 pub(super) fn draw(map: &MapImage, row: &RowComparison) -> Option<Drawing> {
     let grid = Grid::new(map)?;
     let mut sheet = Sheet::default();
-    sheet.title("columns: φ from 0 to 2π; rows: θ from 0 at the top to π");
+    sheet.title("the map: φ to the right, θ downward");
     let height = (WIDTH - 2.0) * f64::from(grid.size.y) / f64::from(grid.size.x);
     let panel = sheet.panel(height.clamp(60.0, 240.0) + 2.0);
     grid.draw(&mut sheet.canvas, panel);
 
-    let asked = direction(row.input.as_ref());
+    let asked = last_direction(row.input.as_ref());
     let marks = [
         (asked, Mark::Origin),
         (row.wanted_direction(), Mark::Right),
@@ -54,7 +54,8 @@ pub(super) fn draw(map: &MapImage, row: &RowComparison) -> Option<Drawing> {
         sheet.add_legend(Symbol::Mark(Mark::Origin), &text);
     }
     let fill = Fill::Tint(Ink::Text, 0.5 * MAX_TINT);
-    let text = "the stronger the shade, the more often a pixel should be picked; black pixels have no shade";
+    let text =
+        "the more often a pixel should be picked, the stronger its shade; black pixels have none";
     sheet.add_legend(Symbol::Area(fill), text);
     let title = "The environment map, shaded by how often each pixel should be picked";
     Some(sheet.finish(title, row.caption()))
@@ -126,10 +127,16 @@ impl Grid {
             canvas.polygons(cells, LineStyle::Grid, Fill::Tint(Ink::Text, tint));
         }
         if step.x >= MIN_LABELLED {
-            for (cell, share) in self.shares.iter().enumerate() {
+            let shares = self.shares.iter().enumerate();
+            for (cell, share) in shares.filter(|(_, share)| **share > 0.0) {
                 let at = corner(cell) + dvec2(0.5 * step.x, step.y - 5.0);
-                let percent = format!("{:.0}%", 100.0 * share);
-                canvas.text(at, Anchor::Middle, Ink::Text, &percent);
+                let percent = 100.0 * share;
+                let text = if percent < 0.5 {
+                    "<1%".to_owned()
+                } else {
+                    format!("{percent:.0}%")
+                };
+                canvas.text(at, Anchor::Middle, Ink::Text, &text);
             }
         }
     }

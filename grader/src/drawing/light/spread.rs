@@ -26,7 +26,7 @@ pub(super) fn draw(answer: &[ElementOutcome<LocalDirection>], shown: usize) -> D
 
     let mut sheet = Sheet::default();
     sheet.title("the number of directions in each cell of the sphere");
-    let left = 34.0;
+    let left = 40.0;
     let width = (WIDTH - 1.0 - left) / columns as f64;
     // The first band is at the bottom of the sphere, and is drawn at the bottom.
     for (row, counts) in counts.iter().rev().enumerate() {
@@ -64,12 +64,12 @@ pub(super) fn draw(answer: &[ElementOutcome<LocalDirection>], shown: usize) -> D
     );
     let wanted = format!("about {} in every cell", short(expected));
     sheet.add_wanted(Symbol::None, &wanted);
-    let got = format!("from {least} to {most}; the more, the stronger the shade");
+    let got = format!("{least} to {most}; a stronger shade means more");
     sheet.add_got(
         Symbol::Area(Fill::Tint(Ink::Wrong, 2.0 * EXPECTED_TINT)),
         &got,
     );
-    let text = "every cell has the same area: the rows are equally high in y";
+    let text = "every cell covers the same area of the sphere";
     sheet.add_legend(Symbol::None, text);
 
     let direction = answer.get(shown).and_then(ElementOutcome::value);
@@ -80,7 +80,7 @@ pub(super) fn draw(answer: &[ElementOutcome<LocalDirection>], shown: usize) -> D
             direction_difference("direction", *direction, *direction)
         }
         Some(_) | None => format!(
-            "Of {} directions, a cell contains from {least} to {most}; it should contain about {}.",
+            "The cells contain {least} to {most} of the {} directions; each should contain about {}.",
             answer.len(),
             short(expected)
         ),

@@ -4,19 +4,21 @@
 use glam::{DVec2, DVec3, dvec2};
 use protocol::Value;
 
-use super::row::{RowComparison, angle_text, first_direction};
+use super::row::{RowComparison, angle_text, directions};
 use crate::drawing::Drawing;
 use crate::drawing::canvas::{Anchor, Canvas, Mark};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::sheet::{Sheet, Symbol};
 use crate::drawing::window::{Panel, Window};
 
+/// The upper right corner of both views, which leaves space for labels beyond the unit circle.
+const EXTENT: DVec2 = DVec2::splat(1.12);
 /// The fill of the inside of glass.
 const GLASS: Fill = Fill::Tint(Ink::Text, 0.12);
 
 /// Draws the direction to where the path came from, the expected direction and the submitted one.
 pub(super) fn draw(row: &RowComparison) -> Option<Drawing> {
-    let out = first_direction(row.input.as_ref())?;
+    let out = directions(row.input.as_ref()).next()?;
     let frame = Frame::new(out);
     let is_glass = row
         .subject
@@ -25,7 +27,7 @@ pub(super) fn draw(row: &RowComparison) -> Option<Drawing> {
 
     let mut sheet = Sheet::default();
     let panels = sheet.panels(["from the side", "from above"], 166.0);
-    let windows = panels.map(|panel| Window::around(panel, [DVec2::NEG_ONE, DVec2::ONE]));
+    let windows = panels.map(|panel| Window::around(panel, [-EXTENT, EXTENT]));
     draw_surface(&mut sheet.canvas, panels[0], &windows[0], is_glass);
     let horizon = windows[1].page_length(1.0);
     let center = windows[1].page_position(DVec2::ZERO);
@@ -37,8 +39,8 @@ pub(super) fn draw(row: &RowComparison) -> Option<Drawing> {
         wanted: row.wanted_direction(),
         got: row.wrong_direction(),
     };
-    arrows.draw(canvas, &windows[0], |direction| frame.from_side(direction));
-    arrows.draw(canvas, &windows[1], |direction| frame.from_above(direction));
+    arrows.draw(canvas, &windows[0], |direction| frame.side_view(direction));
+    arrows.draw(canvas, &windows[1], |direction| frame.top_view(direction));
 
     let text = format!("out, {}", angle_text(out));
     sheet.add_legend(Symbol::Line(LineStyle::Ray), &text);
@@ -64,11 +66,11 @@ impl Frame {
         Frame { right, up }
     }
 
-    fn from_side(&self, direction: DVec3) -> DVec2 {
+    fn side_view(&self, direction: DVec3) -> DVec2 {
         dvec2(direction.dot(self.right), direction.z)
     }
 
-    fn from_above(&self, direction: DVec3) -> DVec2 {
+    fn top_view(&self, direction: DVec3) -> DVec2 {
         dvec2(direction.dot(self.right), direction.dot(self.up))
     }
 }
@@ -85,8 +87,8 @@ fn draw_surface(canvas: &mut Canvas, panel: Panel, window: &Window, is_glass: bo
     canvas.line(left, right, LineStyle::Outline);
     let top = window.page_position(DVec2::Y);
     canvas.line(center, top, LineStyle::Behind);
-    let at = top - dvec2(0.0, 4.0);
-    canvas.text(at, Anchor::Middle, Ink::Faint, "normal");
+    let at = top + dvec2(5.0, 6.0);
+    canvas.text(at, Anchor::Start, Ink::Faint, "normal");
 }
 
 /// The directions to draw as arrows from the same point.
@@ -117,7 +119,10 @@ impl Arrows {
                 .any(|other| got.angle_between(other) < 0.1);
             arrow(got, if is_same_way { 6.0 } else { 0.0 }, LineStyle::Wrong);
         }
-        let label = window.page_position(1.14 * project(self.out)) + dvec2(0.0, 4.0);
+        let tip = project(self.out);
+        let beyond = tip.try_normalize().unwrap_or(DVec2::NEG_X);
+        let label = window.page_position(tip + window.world_length(14.0) * beyond);
+        let label = label + dvec2(0.0, 4.0);
         canvas.text(label, Anchor::Middle, Ink::Text, "out");
         canvas.mark(window.page_position(DVec2::ZERO), Mark::Origin);
     }

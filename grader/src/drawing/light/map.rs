@@ -77,7 +77,8 @@ struct Grid {
 }
 
 impl Grid {
-    /// Sums up the weights of the pixels in each cell. Returns `None` if the map has no pixels.
+    /// Sums up the weights of the pixels in each cell, which the starter defines. Returns `None` if
+    /// the map has no pixels.
     fn new(map: &MapImage) -> Option<Grid> {
         let block = map.size.x.div_ceil(MAX_COLUMNS).max(1);
         let size = UVec2::new(map.size.x.div_ceil(block), map.size.y.div_ceil(block));

@@ -86,7 +86,9 @@ impl PointsPolicy {
                 (rest, task.max_points.saturating_sub(max_lost))
             }
         };
+        // Manual points must not make up for points lost in another task.
         let points = i128::from(points) + i128::from(task.manual);
+        let points = points.clamp(0, i128::from(max_points));
         let (weight, of, max_points) = match self.tasks.get(task.id) {
             Some(own) => (i128::from(*own), i128::from(max_points), *own),
             None => (1, 1, max_points),

@@ -7,6 +7,8 @@ use std::hash::{BuildHasher, RandomState};
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
+use crate::manual_points::PSEUDONYM_PREFIX;
+use crate::outcome::EntryOutcome;
 use crate::store::{Store, json};
 
 /// The name of the key in the output folder.
@@ -34,7 +36,12 @@ impl Pseudonyms {
         hidden.rows.retain(is_shown);
         for row in &mut hidden.rows {
             // Each `RandomState` has random keys from the operating system.
-            let random = || format!("anon-{:010x}", RandomState::new().hash_one(()) >> 24);
+            let random = || {
+                format!(
+                    "{PSEUDONYM_PREFIX}{:010x}",
+                    RandomState::new().hash_one(()) >> 24
+                )
+            };
             let pseudonym = self.0.entry(row.result.id.clone());
             hide_row(row, pseudonym.or_insert_with(random));
         }

@@ -99,6 +99,11 @@ fn points_by_hand_can_name_a_pseudonym() {
         );
     }
     assert_eq!(table(&class.read("grades.csv")).len(), 5);
+    // As in the graders' table.
+    let one = rows.replace(&key["kimono"], &format!("\"{}, member 2\"", key["kimono"]));
+    class.graded_with(&exam, &[("manual-points", &one)], &[]);
+    let manual = |name: &str| cell(&class, "kimono", name, "manual");
+    assert_eq!(["Bobby Kimono", "Carla Owlet"].map(manual), ["", "1"]);
     let refused = |folder: &str| {
         let folder = class.path_beside(folder).display().to_string();
         let error = class.refused(&exam, &["--anonymous", &folder]);
@@ -198,4 +203,24 @@ fn only_attempts_that_may_count_are_in_the_copy() {
     assert_eq!(row("bob1")["status"], "several attempts");
     let why = "the same person also submitted another attempt";
     assert_contains(&row("bob1")["why"], &[why]);
+
+    // Points for a pseudonym stay with this attempt, even if another one counts later.
+    let manual = format!(
+        "student,task,delta,comment,author\n{},camera,-1,copied,Tess\n",
+        key["ann2"]
+    );
+    let own = || ["ann1", "ann2"].map(|id| cell(&class, id, "Ann Lee", "counts"));
+    class.graded_with(&exam, &[("manual-points", &manual)], &[]);
+    assert_eq!(own(), ["", "1"]);
+    let later = roster.replace("2026-11-20T10", "2026-11-22T10");
+    let later = class.write_beside("later.csv", &later);
+    let output = class.grade(&exam, &["--roster", &later]);
+    successful_stdout(&output);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_contains(&error, &["row 2: another attempt counts instead"]);
+    assert_eq!(own(), ["0", ""]);
+    fs::remove_dir_all(class.input().join("ann2")).unwrap();
+    let error = class.refused(&exam, &[]);
+    let why = "the submission with this pseudonym is not in the input";
+    assert_contains(&error, &[why]);
 }

@@ -153,7 +153,7 @@ fn preview_with(text: &str) -> String {
 /// Returns everything that a teacher reads: the name and the text of each output.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let class = class_with(text);
-    let summary = ClassSummary::new(&class, &BTreeSet::new());
+    let summary = ClassSummary::new(&class, &Policy::default(), &BTreeSet::new());
     let changes = vec![ScoreChange {
         id: text.to_owned(),
         was: 1,

@@ -13,6 +13,8 @@ use crate::store::{Store, json};
 
 /// The name of the key in the output folder.
 const KEY: &str = "anonymous-key.json";
+/// The text that replaces sentences with names.
+const HIDDEN: &str = "(hidden)";
 
 /// The pseudonyms for a class, keyed by the ids of its entries.
 pub struct Pseudonyms(BTreeMap<String, String>);
@@ -65,6 +67,10 @@ fn hide_row(row: &mut ClassRow, pseudonym: &str) {
         from: pseudonym.to_owned(),
         ..EntryInfo::default()
     };
+    if let EntryOutcome::Graded(score) = &mut row.result.outcome {
+        let notes = score.build.ignored_copies.iter_mut();
+        notes.for_each(|note| HIDDEN.clone_into(note));
+    }
     pseudonym.clone_into(&mut row.result.id);
     for grade in &mut row.grades {
         grade.problem.iter_mut().for_each(hide_problem);
@@ -76,7 +82,7 @@ fn hide_row(row: &mut ClassRow, pseudonym: &str) {
 
 /// Removes the names of people and submissions, and times.
 fn hide_problem(problem: &mut GradeProblem) {
-    let hidden = "(hidden)".to_owned();
+    let hidden = HIDDEN.to_owned();
     match problem {
         GradeProblem::UnclearTime(time) => time.why = hidden,
         GradeProblem::UnclearPerson(text) | GradeProblem::OtherAttempt(text) => *text = hidden,

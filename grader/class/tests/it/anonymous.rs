@@ -22,6 +22,11 @@ const SECRETS: [&str; 9] = [
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("leeward")
+        .with(
+            "leeward/Annabel_Leeward_hw/old/sphere_final.rs",
+            "fn hit() {}",
+        )
+        .with("leeward/leeward_notes.rs", "text")
         .with_offset_mistake("kimono")
         .with("peeta/bvh_of_peeta.txt", "nothing to grade");
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
@@ -53,6 +58,8 @@ fn nothing_in_the_copy_names_anybody_and_pseudonyms_stay() {
     let key = key(&class);
     let ids: Vec<&str> = key.keys().map(String::as_str).collect();
     assert_eq!(ids, ["kimono", "leeward"]);
+    let page = class.read("students/leeward/feedback.html");
+    assert_contains(&page, &["old/sphere_final.rs", "leeward_notes.rs"]);
     // Graders can read the pages and run a question again.
     let bob = &key["kimono"];
     let page = fs::read_to_string(blind.join(format!("students/{bob}/report.html"))).unwrap();

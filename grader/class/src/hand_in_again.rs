@@ -80,6 +80,12 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
         email => format!(" <{}>", sanitize_line(email, MAX_CHARS)),
     };
     let reason = |why: &String| format!("- {}\n", sanitize_line(why, MAX_CHARS));
+    let (default, id) = (<&HandedOut>::default(), handed_out.assignment.id);
+    let (option, archive) = if id == default.assignment.id {
+        (String::new(), "handin.zip".to_owned())
+    } else {
+        (format!(" --assignment {id}"), format!("handin-{id}.zip"))
+    };
     format!(
         "To: {name}{address}\n\
          Subject: Please resubmit your work\n\
@@ -90,13 +96,13 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
          \n\
          {}\n\
          Please pack your files again. To do so, run this command in the assignment's folder:\n\
-         \n    cargo handin\n\
+         \n    cargo handin{option}\n\
          \n\
-         It creates the archive handin.zip from your {}.\n\
+         It creates the archive {archive} from your {}.\n\
          It also checks the archive the way the grader will and lists each file. If one is\n\
          missing, put it next to the others, with exactly the name listed, and run it again.\n\
          \n\
-         Then send us handin.zip in reply to this message. Your original submission time still\n\
+         Then send us {archive} in reply to this message. Your original submission time still\n\
          counts, so please hand in the same code as before, without changes.\n",
         reasons.iter().map(reason).collect::<String>(),
         handed_out.file_list(),

@@ -15,7 +15,8 @@ use crate::archive::ArchiveWriter;
 use crate::entry::{NUMBER, Person, WHO};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
-use crate::names::{are_equal, joined};
+use crate::layout::unique_name;
+use crate::names::joined;
 use crate::store::Store;
 
 /// The name of the archive in the output folder.
@@ -50,7 +51,7 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         let (ready, others): (Vec<_>, Vec<_>) = row.people().partition(ready);
         // The page for the attempt that counts says everything.
         for (person, grade) in others.into_iter().filter(|(_, own)| !own.is_superseded()) {
-            let (name, status) = (person.display_name(), row.status(grade));
+            let (name, status) = (class.distinct_name(person), row.status(grade));
             left_out.push(format!("{name}: {status}: {}", row.why(grade)));
         }
         if ready.is_empty() {
@@ -66,11 +67,11 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
             continue;
         }
         for (person, grade) in ready {
-            let who = safe_folder_name(&unique_name(class, person));
+            let who = class.file_name(person);
             let own = with_counted(&page, &own_texts(row, person, grade));
             let added = match name {
                 Some(_) if person.own_number().is_empty() => {
-                    left_out.push(format!("{}: {NO_NUMBER}", person.display_name()));
+                    left_out.push(format!("{}: {NO_NUMBER}", class.distinct_name(person)));
                     continue;
                 }
                 Some(name) => {
@@ -87,24 +88,6 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         archive: archive.finish().map_err(cannot_write)?,
         left_out,
     })
-}
-
-/// Returns a person's name, followed by an identifier if somebody else in the class has the same
-/// name.
-fn unique_name<'a>(class: &'a GradedClass, person: &'a Person) -> String {
-    let name = person.display_name();
-    let people = class.rows.iter().flat_map(|row| &row.result.info.people);
-    let mut namesakes = people.filter(|other| are_equal(other.display_name(), name));
-    let identifiers = |person: &'a Person| {
-        let own = person.own_identifiers().into_iter();
-        own.chain([person.number.as_str()])
-    };
-    let identifier = identifiers(person).find(|own| !own.is_empty() && *own != name);
-    let is_shared = namesakes.any(|other| !identifiers(other).eq(identifiers(person)));
-    match identifier.filter(|_| is_shared) {
-        Some(identifier) => format!("{name} {identifier}"),
-        None => name.to_owned(),
-    }
 }
 
 /// Returns the error to report if the archive cannot be written, e.g. because it is too large.

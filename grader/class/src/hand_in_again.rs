@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use grader::files;
 use grader::handed_out::HandedOut;
-use judging::sanitize::{safe_folder_name, sanitize_line};
+use judging::sanitize::sanitize_line;
 
 use crate::entry::Person;
 use crate::error::Error;
@@ -63,7 +63,7 @@ pub fn write_messages(
         let reasons: Option<Vec<String>> = attempts.iter().map(reason).collect();
         if let (Some(reasons), [(row, index), ..]) = (reasons, attempts.as_slice()) {
             let person = &class.rows[*row].result.info.people[*index];
-            let name = unique_name(&safe_folder_name(person.display_name()), &mut used);
+            let name = unique_name(&class.file_name(person), &mut used);
             let text = render(person, &reasons, handed_out);
             store.write(format!("{FOLDER}/{name}.txt"), text)?;
             messages.push(attempts.iter().map(|(row, _)| *row).collect());
@@ -75,9 +75,10 @@ pub fn write_messages(
 /// Renders the message that tells a person what could not be graded and how to hand in again.
 pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> String {
     let name = sanitize_line(person.display_name(), MAX_CHARS);
-    let address = match person.email.as_str() {
-        "" => String::new(),
-        email => format!(" <{}>", sanitize_line(email, MAX_CHARS)),
+    let address = match (person.email.as_str(), person.login.as_str()) {
+        ("", login) if login.is_empty() || login == person.display_name() => String::new(),
+        ("", login) => format!(" ({})", sanitize_line(login, MAX_CHARS)),
+        (email, _) => format!(" <{}>", sanitize_line(email, MAX_CHARS)),
     };
     let reason = |why: &String| format!("- {}\n", sanitize_line(why, MAX_CHARS));
     let (default, id) = (<&HandedOut>::default(), handed_out.assignment.id);

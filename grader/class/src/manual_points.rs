@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
-use crate::identity::person_ids;
+use crate::identity::{distinct_name, person_ids};
 use crate::names::{are_equal, are_same_name, with_detail};
 use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
@@ -131,7 +131,8 @@ impl ManualPointsList {
                 ));
             };
             if let Some((other, _)) = found.find(|(_, other)| *other != id) {
-                let [first, other] = [first, other].map(|person| person.display_name());
+                let shown = |person| distinct_name(person, people.iter().copied());
+                let [first, other] = [*first, *other].map(shown);
                 return Err(self.error(
                     row,
                     format!(

@@ -3,8 +3,10 @@
 use std::iter;
 
 use grader::policy::{FinalPoints, Policy, TaskPoints};
+use judging::sanitize::safe_folder_name;
 
 use crate::entry::Person;
+use crate::identity::distinct_name;
 use crate::late::{UnclearTime, lateness};
 use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
@@ -68,6 +70,17 @@ impl GradedClass {
         let rows = self.rows.iter().filter(counts);
         let results = rows.map(|row| &row.result);
         results.filter_map(|result| Some((result, result.score()?)))
+    }
+
+    /// Returns a person's name, with an identifier in brackets if others in the class share the name.
+    pub fn distinct_name(&self, person: &Person) -> String {
+        let people = self.rows.iter().flat_map(|row| &row.result.info.people);
+        distinct_name(person, people.chain(&self.missing))
+    }
+
+    /// Returns this name in a form that is safe in file names.
+    pub fn file_name(&self, person: &Person) -> String {
+        safe_folder_name(&self.distinct_name(person).replace(['(', ')'], ""))
     }
 
     /// Returns the exam's tasks, including the points from the first score. The slice is empty if

@@ -6,6 +6,7 @@
 //! therefore put into a zip as well. Moodle splits a name at its underscores into full name,
 //! participant, plug-in type, plug-in and file name, so the full name must not contain any.
 
+use std::collections::BTreeSet;
 use std::io;
 
 use grader::report::html::with_counted;
@@ -21,6 +22,8 @@ use crate::store::Store;
 
 /// The name of the archive in the output folder.
 pub const ARCHIVE: &str = "hand-back.zip";
+/// The subfolder of the output folder for pages that can't be in the archive.
+const FOLDER: &str = "hand-back";
 /// The suffix of a page's file name, after the person's name.
 const PAGE: &str = "feedback.html";
 
@@ -28,6 +31,11 @@ const PAGE: &str = "feedback.html";
 /// group, the wrong person would get the page.
 const NO_NUMBER: &str = "the number in the file name could be a person's or a group's, and no list \
                          says which: pass Moodle's worksheet with --moodle";
+
+/// The warning about a group that gets a single page.
+const ONE_PAGE: &str = "the platform gives all members of a group the same page, which doesn't show \
+                        their different points or comments: send them their own pages, which are \
+                        in the folder hand-back";
 
 /// An archive to hand back to students.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,6 +52,8 @@ pub struct HandBack {
 pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> {
     let mut archive = ArchiveWriter::default();
     let mut left_out = Vec::new();
+    let mut used = BTreeSet::new();
+    store.clear(FOLDER, PAGE)?;
     for row in &class.rows {
         // Without a score, there is no page.
         let has_page = row.result.score().is_some();
@@ -61,9 +71,17 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         let name = row.result.info.hand_back_as.as_deref();
         if let Some(name) = name.filter(|name| !name.contains(NUMBER)) {
             // The platform forwards the page to the members of a group.
-            let names = ready.iter().map(|(person, _)| person.display_name());
-            let names = safe_folder_name(&joined(names, " + "));
-            add_as(&mut archive, name, &names, &page).map_err(cannot_write)?;
+            let names = joined(ready.iter().map(|(person, _)| person.display_name()), " + ");
+            let who = safe_folder_name(&names);
+            add_as(&mut archive, name, &who, &page).map_err(cannot_write)?;
+            if row.has_private_texts() {
+                left_out.push(format!("{names}: {ONE_PAGE}"));
+                for (person, grade) in ready {
+                    let who = unique_name(&class.file_name(person), &mut used);
+                    let own = with_counted(&page, &own_texts(row, person, grade));
+                    store.write(format!("{FOLDER}/{who}_{PAGE}"), own)?;
+                }
+            }
             continue;
         }
         for (person, grade) in ready {

@@ -3,7 +3,6 @@
 
 use std::collections::BTreeSet;
 
-use grader::files;
 use grader::handed_out::HandedOut;
 use judging::sanitize::sanitize_line;
 
@@ -14,7 +13,7 @@ use crate::identity::{Attempt, attempts_by_person};
 use crate::layout::unique_name;
 use crate::names::joined;
 use crate::outcome::EntryOutcome;
-use crate::store::{Store, is_temporary};
+use crate::store::Store;
 
 /// The subfolder of the output folder for the messages.
 pub const FOLDER: &str = "hand-in-again";
@@ -29,12 +28,7 @@ pub fn write_messages(
     store: &Store,
     handed_out: &HandedOut,
 ) -> Result<Vec<BTreeSet<usize>>, Error> {
-    for path in store.list(FOLDER)? {
-        let is_message = path.extension().is_some_and(|extension| extension == "txt");
-        if is_message || is_temporary(path.file_name().unwrap_or_default()) {
-            files::remove_if_exists(path)?;
-        }
-    }
+    store.clear(FOLDER, ".txt")?;
     let mut used = BTreeSet::new();
     let mut messages = Vec::new();
     let people = class.rows.iter();

@@ -163,15 +163,20 @@ impl ClassRow {
     /// Returns these sentences for a page that all members of a group can see. If they differ, the
     /// page must not show one member's points to another.
     pub fn texts_for_everyone(&self) -> Vec<String> {
-        let mut all = self.grades.iter().map(PersonGrade::explanation);
-        let first = all.next();
-        if all.all(|texts| Some(texts) == first) {
+        if !self.has_private_texts() {
             return self.counted_texts();
         }
         let note = "The members of this group have different final points, so this page doesn't show \
             them.";
         let texts = iter::once(note).chain(self.correction());
         texts.map(str::to_owned).collect()
+    }
+
+    /// Returns whether the members of the group have different grades or comments.
+    pub fn has_private_texts(&self) -> bool {
+        let mut all = self.grades.iter().map(PersonGrade::explanation);
+        let first = all.next();
+        !all.all(|texts| Some(texts) == first)
     }
 
     /// Returns a sentence about the files of a submission that was handed in again.

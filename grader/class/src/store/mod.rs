@@ -103,6 +103,18 @@ impl Store {
         Ok(list_if_exists(&self.folder.join(name))?)
     }
 
+    /// Removes the files with this suffix, and temporary files, from a subfolder of the output
+    /// folder.
+    pub fn clear(&self, name: &str, suffix: &str) -> Result<(), Error> {
+        for path in self.list(name)? {
+            let name = path.file_name().unwrap_or_default();
+            if name.to_string_lossy().ends_with(suffix) || is_temporary(name) {
+                files::remove_if_exists(&path)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Writes one of the class's files, such as `class.json`, into the output folder.
     pub fn write(&self, name: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> Result<(), Error> {
         Ok(atomic_write::write(contents, &self.folder.join(name))?)

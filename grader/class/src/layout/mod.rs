@@ -36,6 +36,7 @@ pub use crate::layout_kind::{Layout, LayoutChoice};
 pub use class_folder::find_class_folder;
 pub use gradescope::METADATA;
 pub use mixture::side_by_side;
+pub use names::strip_archive_extension;
 
 /// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]

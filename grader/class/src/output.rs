@@ -84,12 +84,12 @@ impl ClassContext<'_> {
         };
         let messages = write_messages(class, store, self.handed_out)?;
         let with_message = messages.iter().flatten().copied().collect();
-        let summary = write_results(class, store, &changes, &similar, &with_message)?;
+        let summary = write_results(class, self.policy, store, &changes, &similar, &with_message)?;
         print(text::render_summary(&summary));
         print(text::render_changes(&changes));
         write_for_platforms(class, store, lists)?;
         if let Some(folder) = &lists.anonymous {
-            write_for_graders(class, store, run, folder)?;
+            write_for_graders(class, self.policy, store, run, folder)?;
         }
         print_line("");
         for name in ["grades.csv", "class.html"] {
@@ -112,12 +112,13 @@ impl ClassContext<'_> {
 /// submissions that there are messages about.
 fn write_results(
     class: &GradedClass,
+    policy: &Policy,
     store: &Store,
     changes: &Changes,
     similar: &[SimilarPair],
     with_message: &BTreeSet<usize>,
 ) -> Result<ClassSummary, Error> {
-    let summary = ClassSummary::new(class, with_message);
+    let summary = ClassSummary::new(class, policy, with_message);
     for row in &class.rows {
         let id = &row.result.id;
         let names = row.result.info.display_names();
@@ -139,6 +140,7 @@ fn write_results(
 /// Writes a copy of the class with pseudonyms, which graders can use like the output folder.
 fn write_for_graders(
     class: &GradedClass,
+    policy: &Policy,
     store: &Store,
     run: &Run,
     folder: &Path,
@@ -160,7 +162,8 @@ fn write_for_graders(
         ..run.clone()
     })?;
     // Graders don't send messages.
-    write_results(&hidden, &copy, &Changes::default(), &[], &BTreeSet::new())?;
+    let changes = Changes::default();
+    write_results(&hidden, policy, &copy, &changes, &[], &BTreeSet::new())?;
     print_path(&copy, "class.html");
     Ok(())
 }

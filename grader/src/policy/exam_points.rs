@@ -113,6 +113,16 @@ impl PointsPolicy {
         out
     }
 
+    /// Returns the ids of the items without an effect on this submission's final points: those that
+    /// are removed or couldn't be graded for this reason, and those of tasks that are left out.
+    pub fn ignored_items(&self, tasks: &[TaskPoints]) -> BTreeSet<String> {
+        let is_left_out = |task: &&TaskPoints| self.tasks.get(task.id) == Some(&0);
+        let left_out = tasks.iter().filter(is_left_out);
+        let left_out = left_out.flat_map(|task| &task.items).map(|item| item.id);
+        let all = self.items_out(tasks).into_iter().chain(left_out);
+        all.map(str::to_owned).collect()
+    }
+
     /// Returns whether the policy removes this item.
     pub fn is_void(&self, item: &str) -> bool {
         self.void.iter().any(|void| void == item)

@@ -114,6 +114,7 @@ fn class_with(text: &str) -> GradedClass {
             comment: text.to_owned(),
             author: text.to_owned(),
             date: text.to_owned(),
+            pseudonym: String::new(),
         };
         let result = EntryResult { id, info, outcome };
         ClassRow::new(result, &Policy::default(), vec![vec![manual]], &[])

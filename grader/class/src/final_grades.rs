@@ -247,6 +247,8 @@ impl FinalGrade {
         }
         if !was.is_corrected && self.is_corrected {
             why.push("the files were handed in again".to_owned());
+        } else if was.is_corrected && !self.is_corrected {
+            why.push("the corrected files are no longer used".to_owned());
         }
         if was.manual != self.manual {
             why.push(format!(

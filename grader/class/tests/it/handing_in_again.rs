@@ -107,7 +107,9 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
     assert_contains(&refused, &[expected]);
     let empty = class.path_beside("empty");
     fs::create_dir(&empty).unwrap();
-    class.graded(&exam, &["--corrected", empty.to_str().unwrap()]);
+    let printed = class.graded(&exam, &["--corrected", empty.to_str().unwrap()]);
+    let why = "previously graded 2, the corrected files are no longer used";
+    assert_contains(&printed, &[why]);
     assert_eq!(
         of("bob", "Bob Kim", columns),
         ["nothing to grade", "2026-11-20 12:00:00 +0000", "bob.zip"]

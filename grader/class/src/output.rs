@@ -64,7 +64,7 @@ impl ClassContext<'_> {
         } = self;
         let similar = read_similar_pairs(lists)?;
         let regrade = find_regrade_changes(store, run, &results)?;
-        let resubmitted = find_score_changes(store, &results, REPLACED)?;
+        let mut resubmitted = find_score_changes(store, &results, REPLACED)?;
         let (manual, tasks) = (&self.findings.manual, exam_tasks(&run.items));
         let rows = count_points(results, self.policy, manual, &tasks)?;
         let class = &GradedClass {
@@ -76,8 +76,13 @@ impl ClassContext<'_> {
         // changes.
         let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
         store.write(final_grades::FILE, json(&history))?;
+        // List each change only until the next one.
+        resubmitted.retain(|change| history.is_since(&change.id, change.was));
+        if let Some(regrade) = &regrade {
+            store.write("drift.json", json(&regrade.scores))?;
+        }
         let changes = Changes {
-            regrade,
+            regrade: regrade.filter(|_| history.is_of_regrade()),
             resubmitted,
             removed,
             grades: history.changes(),
@@ -131,9 +136,6 @@ fn write_results(
     let page = page::render_page(class, &summary, changes, similar);
     store.write("class.html", page)?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
-    if let Some(regrade) = &changes.regrade {
-        store.write("drift.json", json(&regrade.scores))?;
-    }
     Ok(summary)
 }
 

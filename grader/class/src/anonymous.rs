@@ -7,10 +7,14 @@ use std::hash::{BuildHasher, RandomState};
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
+use crate::manual_points::PSEUDONYM_PREFIX;
+use crate::outcome::EntryOutcome;
 use crate::store::{Store, json};
 
 /// The name of the key in the output folder.
 const KEY: &str = "anonymous-key.json";
+/// The text that replaces sentences with names.
+const HIDDEN: &str = "(hidden)";
 
 /// The pseudonyms for a class, keyed by the ids of its entries.
 pub struct Pseudonyms(BTreeMap<String, String>);
@@ -34,7 +38,12 @@ impl Pseudonyms {
         hidden.rows.retain(is_shown);
         for row in &mut hidden.rows {
             // Each `RandomState` has random keys from the operating system.
-            let random = || format!("anon-{:010x}", RandomState::new().hash_one(()) >> 24);
+            let random = || {
+                format!(
+                    "{PSEUDONYM_PREFIX}{:010x}",
+                    RandomState::new().hash_one(()) >> 24
+                )
+            };
             let pseudonym = self.0.entry(row.result.id.clone());
             hide_row(row, pseudonym.or_insert_with(random));
         }
@@ -58,6 +67,10 @@ fn hide_row(row: &mut ClassRow, pseudonym: &str) {
         from: pseudonym.to_owned(),
         ..EntryInfo::default()
     };
+    if let EntryOutcome::Graded(score) = &mut row.result.outcome {
+        let notes = score.build.ignored_copies.iter_mut();
+        notes.for_each(|note| HIDDEN.clone_into(note));
+    }
     pseudonym.clone_into(&mut row.result.id);
     for grade in &mut row.grades {
         grade.problem.iter_mut().for_each(hide_problem);
@@ -69,7 +82,7 @@ fn hide_row(row: &mut ClassRow, pseudonym: &str) {
 
 /// Removes the names of people and submissions, and times.
 fn hide_problem(problem: &mut GradeProblem) {
-    let hidden = "(hidden)".to_owned();
+    let hidden = HIDDEN.to_owned();
     match problem {
         GradeProblem::UnclearTime(time) => time.why = hidden,
         GradeProblem::UnclearPerson(text) | GradeProblem::OtherAttempt(text) => *text = hidden,

@@ -24,10 +24,15 @@ pub fn count_points(
     let mut rows = Vec::new();
     for result in results {
         let people = result.info.people.iter();
-        let own = people.map(|person| manual.of(person)).collect();
+        let own = people.map(|person| manual.of(person, &result.info));
+        let own = own.collect();
         rows.push(ClassRow::new(result, policy, own, exam));
     }
     apply_rule(policy, &mut rows);
+    for row in &rows {
+        let unused = row.people().filter(|(_, grade)| grade.is_superseded());
+        unused.for_each(|(person, _)| manual.warn_about_attempt(person, &row.result.info));
+    }
     let is_set_aside = |own: &GradeProblem| matches!(own, OtherAttempt(_) | SeveralAttempts(..));
     for row in &rows {
         let grades = row.grades.iter();

@@ -11,7 +11,7 @@ use crate::entry::{Entry, Person};
 use crate::error::Error;
 use crate::file_tree::list_folder;
 use crate::identity::find_submission;
-use crate::layout::{Layout, LayoutChoice, RecognisedClass, recognise};
+use crate::layout::{Layout, LayoutChoice, RecognisedClass, recognise, strip_archive_extension};
 use crate::paths::contains;
 use crate::store::Store;
 
@@ -47,7 +47,18 @@ pub fn replace_files(
         let path = sanitize_line(&info.from, MAX_CHARS);
         let all = class.entries.iter();
         let all = all.map(|entry| (entry.id.as_str(), &entry.info));
-        let index = find_submission(&info.display_names(), &all.collect::<Vec<_>>(), &counts)
+        let who = info.display_names();
+        // The original may be an archive that has been unpacked, or one of several files.
+        let is_named = |name: &str| name == info.from || strip_archive_extension(name) == who;
+        let is_named_path = |path: &Path| path.file_name()?.to_str().map(is_named);
+        let by_file = || {
+            class.entries.iter().position(|Entry { info, source, .. }| {
+                let mut paths = source.paths().into_iter();
+                is_named(&info.from) || paths.any(|path| is_named_path(path) == Some(true))
+            })
+        };
+        let index = find_submission(&who, &all.collect::<Vec<_>>(), &counts)
+            .or_else(|why| by_file().ok_or(why))
             .map_err(|why| Error::user(format!("{shown}: {path}: {why}")))?;
         let entry = &mut class.entries[index];
         if let Some(other) = used.insert(index, path.clone()) {

@@ -109,6 +109,19 @@ impl GradeHistory {
         }
     }
 
+    /// Returns whether the grades haven't changed since the last regrade.
+    pub fn is_of_regrade(&self) -> bool {
+        let before = self.before.as_ref();
+        before.is_none_or(|before| before.round != self.now.round)
+    }
+
+    /// Returns whether the grades to compare with include no other score for this submission.
+    pub fn is_since(&self, submission: &str, points: u32) -> bool {
+        let before = self.before.iter();
+        let mut grades = before.flat_map(|before| before.of(submission));
+        grades.all(|own| own.graded == Some(points))
+    }
+
     /// Returns the changes, or `None` if there is nothing to compare with.
     pub fn changes(&self) -> Option<GradeChanges> {
         let before = self.before.as_ref()?;
@@ -247,6 +260,8 @@ impl FinalGrade {
         }
         if !was.is_corrected && self.is_corrected {
             why.push("the files were handed in again".to_owned());
+        } else if was.is_corrected && !self.is_corrected {
+            why.push("the corrected files are no longer used".to_owned());
         }
         if was.manual != self.manual {
             why.push(format!(

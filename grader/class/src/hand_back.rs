@@ -6,6 +6,7 @@
 //! therefore put into a zip as well. Moodle splits a name at its underscores into full name,
 //! participant, plug-in type, plug-in and file name, so the full name must not contain any.
 
+use std::collections::BTreeSet;
 use std::io;
 
 use grader::report::html::with_counted;
@@ -15,11 +16,14 @@ use crate::archive::ArchiveWriter;
 use crate::entry::{NUMBER, Person, WHO};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
-use crate::names::{are_equal, joined};
+use crate::layout::unique_name;
+use crate::names::joined;
 use crate::store::Store;
 
 /// The name of the archive in the output folder.
 pub const ARCHIVE: &str = "hand-back.zip";
+/// The subfolder of the output folder for pages that can't be in the archive.
+const FOLDER: &str = "hand-back";
 /// The suffix of a page's file name, after the person's name.
 const PAGE: &str = "feedback.html";
 
@@ -27,6 +31,11 @@ const PAGE: &str = "feedback.html";
 /// group, the wrong person would get the page.
 const NO_NUMBER: &str = "the number in the file name could be a person's or a group's, and no list \
                          says which: pass Moodle's worksheet with --moodle";
+
+/// The warning about a group that gets a single page.
+const ONE_PAGE: &str = "the platform gives all members of a group the same page, which doesn't show \
+                        their different points or comments: send them their own pages, which are \
+                        in the folder hand-back";
 
 /// An archive to hand back to students.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,6 +52,8 @@ pub struct HandBack {
 pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> {
     let mut archive = ArchiveWriter::default();
     let mut left_out = Vec::new();
+    let mut used = BTreeSet::new();
+    store.clear(FOLDER, PAGE)?;
     for row in &class.rows {
         // Without a score, there is no page.
         let has_page = row.result.score().is_some();
@@ -50,7 +61,7 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         let (ready, others): (Vec<_>, Vec<_>) = row.people().partition(ready);
         // The page for the attempt that counts says everything.
         for (person, grade) in others.into_iter().filter(|(_, own)| !own.is_superseded()) {
-            let (name, status) = (person.display_name(), row.status(grade));
+            let (name, status) = (class.distinct_name(person), row.status(grade));
             left_out.push(format!("{name}: {status}: {}", row.why(grade)));
         }
         if ready.is_empty() {
@@ -60,17 +71,25 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         let name = row.result.info.hand_back_as.as_deref();
         if let Some(name) = name.filter(|name| !name.contains(NUMBER)) {
             // The platform forwards the page to the members of a group.
-            let names = ready.iter().map(|(person, _)| person.display_name());
-            let names = safe_folder_name(&joined(names, " + "));
-            add_as(&mut archive, name, &names, &page).map_err(cannot_write)?;
+            let names = joined(ready.iter().map(|(person, _)| person.display_name()), " + ");
+            let who = safe_folder_name(&names);
+            add_as(&mut archive, name, &who, &page).map_err(cannot_write)?;
+            if row.has_private_texts() {
+                left_out.push(format!("{names}: {ONE_PAGE}"));
+                for (person, grade) in ready {
+                    let who = unique_name(&class.file_name(person), &mut used);
+                    let own = with_counted(&page, &own_texts(row, person, grade));
+                    store.write(format!("{FOLDER}/{who}_{PAGE}"), own)?;
+                }
+            }
             continue;
         }
         for (person, grade) in ready {
-            let who = safe_folder_name(&unique_name(class, person));
+            let who = class.file_name(person);
             let own = with_counted(&page, &own_texts(row, person, grade));
             let added = match name {
                 Some(_) if person.own_number().is_empty() => {
-                    left_out.push(format!("{}: {NO_NUMBER}", person.display_name()));
+                    left_out.push(format!("{}: {NO_NUMBER}", class.distinct_name(person)));
                     continue;
                 }
                 Some(name) => {
@@ -87,24 +106,6 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         archive: archive.finish().map_err(cannot_write)?,
         left_out,
     })
-}
-
-/// Returns a person's name, followed by an identifier if somebody else in the class has the same
-/// name.
-fn unique_name<'a>(class: &'a GradedClass, person: &'a Person) -> String {
-    let name = person.display_name();
-    let people = class.rows.iter().flat_map(|row| &row.result.info.people);
-    let mut namesakes = people.filter(|other| are_equal(other.display_name(), name));
-    let identifiers = |person: &'a Person| {
-        let own = person.own_identifiers().into_iter();
-        own.chain([person.number.as_str()])
-    };
-    let identifier = identifiers(person).find(|own| !own.is_empty() && *own != name);
-    let is_shared = namesakes.any(|other| !identifiers(other).eq(identifiers(person)));
-    match identifier.filter(|_| is_shared) {
-        Some(identifier) => format!("{name} {identifier}"),
-        None => name.to_owned(),
-    }
 }
 
 /// Returns the error to report if the archive cannot be written, e.g. because it is too large.

@@ -3,9 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use grader::files;
 use grader::handed_out::HandedOut;
-use judging::sanitize::{safe_folder_name, sanitize_line};
+use judging::sanitize::sanitize_line;
 
 use crate::entry::Person;
 use crate::error::Error;
@@ -14,7 +13,7 @@ use crate::identity::{Attempt, attempts_by_person};
 use crate::layout::unique_name;
 use crate::names::joined;
 use crate::outcome::EntryOutcome;
-use crate::store::{Store, is_temporary};
+use crate::store::Store;
 
 /// The subfolder of the output folder for the messages.
 pub const FOLDER: &str = "hand-in-again";
@@ -29,12 +28,7 @@ pub fn write_messages(
     store: &Store,
     handed_out: &HandedOut,
 ) -> Result<Vec<BTreeSet<usize>>, Error> {
-    for path in store.list(FOLDER)? {
-        let is_message = path.extension().is_some_and(|extension| extension == "txt");
-        if is_message || is_temporary(path.file_name().unwrap_or_default()) {
-            files::remove_if_exists(path)?;
-        }
-    }
+    store.clear(FOLDER, ".txt")?;
     let mut used = BTreeSet::new();
     let mut messages = Vec::new();
     let people = class.rows.iter();
@@ -63,7 +57,7 @@ pub fn write_messages(
         let reasons: Option<Vec<String>> = attempts.iter().map(reason).collect();
         if let (Some(reasons), [(row, index), ..]) = (reasons, attempts.as_slice()) {
             let person = &class.rows[*row].result.info.people[*index];
-            let name = unique_name(&safe_folder_name(person.display_name()), &mut used);
+            let name = unique_name(&class.file_name(person), &mut used);
             let text = render(person, &reasons, handed_out);
             store.write(format!("{FOLDER}/{name}.txt"), text)?;
             messages.push(attempts.iter().map(|(row, _)| *row).collect());
@@ -75,11 +69,18 @@ pub fn write_messages(
 /// Renders the message that tells a person what could not be graded and how to hand in again.
 pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> String {
     let name = sanitize_line(person.display_name(), MAX_CHARS);
-    let address = match person.email.as_str() {
-        "" => String::new(),
-        email => format!(" <{}>", sanitize_line(email, MAX_CHARS)),
+    let address = match (person.email.as_str(), person.login.as_str()) {
+        ("", login) if login.is_empty() || login == person.display_name() => String::new(),
+        ("", login) => format!(" ({})", sanitize_line(login, MAX_CHARS)),
+        (email, _) => format!(" <{}>", sanitize_line(email, MAX_CHARS)),
     };
     let reason = |why: &String| format!("- {}\n", sanitize_line(why, MAX_CHARS));
+    let (default, id) = (<&HandedOut>::default(), handed_out.assignment.id);
+    let (option, archive) = if id == default.assignment.id {
+        (String::new(), "handin.zip".to_owned())
+    } else {
+        (format!(" --assignment {id}"), format!("handin-{id}.zip"))
+    };
     format!(
         "To: {name}{address}\n\
          Subject: Please resubmit your work\n\
@@ -90,14 +91,14 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
          \n\
          {}\n\
          Please pack your files again. To do so, run this command in the assignment's folder:\n\
-         \n    cargo handin\n\
+         \n    cargo handin{option}\n\
          \n\
-         It creates the archive handin.zip from your {}.\n\
+         It creates the archive {archive} from your {}.\n\
          It also checks the archive the way the grader will and lists each file. If one is\n\
          missing, put it next to the others, with exactly the name listed, and run the\n\
          command again.\n\
          \n\
-         Then send us handin.zip in reply to this message. Your original submission time still\n\
+         Then send us {archive} in reply to this message. Your original submission time still\n\
          counts, so please hand in the same code as before, without changes.\n",
         reasons.iter().map(reason).collect::<String>(),
         handed_out.file_list(),

@@ -74,6 +74,27 @@ pub fn find_submission(
     })
 }
 
+/// Returns a person's name, followed by an identifier in brackets if somebody else among `people` has
+/// the same name.
+pub fn distinct_name<'a>(
+    person: &'a Person,
+    mut people: impl Iterator<Item = &'a Person>,
+) -> String {
+    let name = person.display_name();
+    let identifiers = |person: &'a Person| {
+        let own = person.own_identifiers().into_iter();
+        own.chain([person.number.as_str()])
+    };
+    let is_shared = people.any(|other| {
+        are_equal(other.display_name(), name) && !identifiers(other).eq(identifiers(person))
+    });
+    let identifier = identifiers(person).find(|own| !own.is_empty() && *own != name);
+    match identifier.filter(|_| is_shared) {
+        Some(identifier) => format!("{name} ({identifier})"),
+        None => name.to_owned(),
+    }
+}
+
 /// Returns a number for each person in the list. All records of the same person get the same
 /// number.
 pub fn person_ids(people: &[&Person]) -> Vec<usize> {

@@ -98,8 +98,8 @@ impl Input {
             let why = sanitize_line(&why, MAX_CHARS);
             return refused(&format!(
                 "cannot be read as a class: {why}{unpack}. Alternatively, pass --layout tutorials \
-                 if each folder contains several students' folders, or --layout folders if each \
-                 folder is one submission"
+                 if each folder contains several students' folders, --layout teams if the folders \
+                 are from Microsoft Teams, or --layout folders if each folder is one submission"
             ));
         }
         if class.entries.is_empty() {

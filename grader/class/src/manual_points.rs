@@ -7,17 +7,20 @@ use std::mem;
 use std::path::{Path, PathBuf};
 
 use grader::handed_out::HandedOut;
+use grader::printing::print_error_line;
 use serde::Serialize;
 
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
-use crate::identity::person_ids;
+use crate::identity::{distinct_name, person_ids};
 use crate::names::{are_equal, are_same_name, with_detail};
 use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
 
 /// The required columns. A `date` column is optional.
 const COLUMNS: [&str; 5] = ["student", "task", "delta", "comment", "author"];
+/// The prefix of every pseudonym.
+pub const PSEUDONYM_PREFIX: &str = "anon-";
 const REMEDY: &str = "manual points need the columns student, task, delta, comment and author";
 
 /// Points that staff gave somebody for a task, and the reason.
@@ -38,6 +41,9 @@ pub struct ManualPoints {
     /// The date of the decision, as written in the file. May be empty.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub date: String,
+    /// The pseudonym in the file, which stands for one attempt, or an empty string.
+    #[serde(skip)]
+    pub pseudonym: String,
 }
 
 /// The manual points of a class.
@@ -70,22 +76,26 @@ impl ManualPointsList {
         Ok(list)
     }
 
-    /// Replaces each row for a pseudonym with rows for the people who handed in the submission. If
-    /// a name in a row differs from a person's name only in punctuation, replaces it with the
-    /// person's name.
+    /// Replaces each row for a pseudonym with rows for the people who handed in the submission, or
+    /// with a row for one member of the group. If a name in a row differs from a person's name only
+    /// in punctuation, replaces it with the person's name.
     pub fn resolve_names(&mut self, entries: &[&mut EntryInfo]) {
         let resolve = |points: ManualPoints| {
-            let is_meant = |info: &&&mut EntryInfo| info.pseudonym == points.student;
+            let (pseudonym, member) = split_pseudonym(&points.student);
+            let is_meant = |info: &&&mut EntryInfo| info.pseudonym == pseudonym;
             let Some(info) = entries.iter().find(is_meant) else {
                 return vec![points.with_name_of(entries)];
             };
-            let people = info.people.iter();
-            let names = people.filter_map(|own| own.identifiers().next());
+            let people = (1..).zip(&info.people);
+            let people = people.filter(|(number, _)| member.is_none_or(|own| own == *number));
+            let names = people.filter_map(|(_, own)| own.identifiers().next());
             let of_person = |name: &str| ManualPoints {
                 student: name.to_owned(),
+                pseudonym: pseudonym.to_owned(),
                 ..points.clone()
             };
-            names.map(of_person).collect()
+            let own: Vec<ManualPoints> = names.map(of_person).collect();
+            if own.is_empty() { vec![points] } else { own }
         };
         let all = mem::take(&mut self.all).into_iter();
         self.all = all.flat_map(resolve).collect();
@@ -107,6 +117,10 @@ impl ManualPointsList {
                         "to give points anyway, add an empty submission for {:?}, named like the others",
                         person.display_name()
                     ),
+                    None if student.starts_with(PSEUDONYM_PREFIX) => "the submission with this \
+                        pseudonym is not in the input: remove the row, or use the name of the \
+                        student, who is listed in anonymous-key.json"
+                        .to_owned(),
                     None => "use the email address, the student number, the account name or the \
                              full name"
                         .to_owned(),
@@ -117,7 +131,8 @@ impl ManualPointsList {
                 ));
             };
             if let Some((other, _)) = found.find(|(_, other)| *other != id) {
-                let [first, other] = [first, other].map(|person| person.display_name());
+                let shown = |person| distinct_name(person, people.iter().copied());
+                let [first, other] = [*first, *other].map(shown);
                 return Err(self.error(
                     row,
                     format!(
@@ -136,10 +151,25 @@ impl ManualPointsList {
         Ok(())
     }
 
-    /// Returns the manual points of a person.
-    pub fn of(&self, person: &Person) -> Vec<ManualPoints> {
+    /// Returns the manual points of a person for a submission. A row for a pseudonym isn't used for
+    /// the person's other submissions.
+    pub fn of(&self, person: &Person, submission: &EntryInfo) -> Vec<ManualPoints> {
+        let is_for_submission =
+            |own: &&ManualPoints| ["", &submission.pseudonym].contains(&&*own.pseudonym);
         let own = self.all.iter().filter(|points| points.is_for(person));
-        own.cloned().collect()
+        own.filter(is_for_submission).cloned().collect()
+    }
+
+    /// Prints a warning for each row that is for this submission's pseudonym, because another
+    /// attempt by the person counts.
+    pub fn warn_about_attempt(&self, person: &Person, submission: &EntryInfo) {
+        for points in self.of(person, submission) {
+            if !points.pseudonym.is_empty() {
+                let problem = "another attempt counts instead, so these points have no effect: \
+                               remove the row, or use the student's name";
+                print_error_line(self.error(points.row, problem));
+            }
+        }
     }
 
     /// Checks that no task gets more than its maximum or fewer than 0 points. `exam` contains the
@@ -186,6 +216,14 @@ impl ManualPointsList {
     }
 }
 
+/// Splits `anon-1, member 2`, as shown in the graders' tables, into the pseudonym and the number.
+fn split_pseudonym(student: &str) -> (&str, Option<usize>) {
+    let parts = student.split_once(", member ");
+    let parts = parts.filter(|(own, _)| !own.is_empty());
+    let member = parts.and_then(|(own, number)| Some((own, number.parse().ok()?)));
+    member.map_or((student, None), |(own, number)| (own, Some(number)))
+}
+
 impl ManualPoints {
     /// Parses a row. `cells` contains its cells in the order of [`COLUMNS`].
     fn parse(
@@ -216,6 +254,7 @@ impl ManualPoints {
             comment,
             author,
             date,
+            pseudonym: String::new(),
         })
     }
 

@@ -64,7 +64,7 @@ impl ClassContext<'_> {
         } = self;
         let similar = read_similar_pairs(lists)?;
         let regrade = find_regrade_changes(store, run, &results)?;
-        let resubmitted = find_score_changes(store, &results, REPLACED)?;
+        let mut resubmitted = find_score_changes(store, &results, REPLACED)?;
         let (manual, tasks) = (&self.findings.manual, exam_tasks(&run.items));
         let rows = count_points(results, self.policy, manual, &tasks)?;
         let class = &GradedClass {
@@ -76,20 +76,25 @@ impl ClassContext<'_> {
         // changes.
         let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
         store.write(final_grades::FILE, json(&history))?;
+        // List each change only until the next one.
+        resubmitted.retain(|change| history.is_since(&change.id, change.was));
+        if let Some(regrade) = &regrade {
+            store.write("drift.json", json(&regrade.scores))?;
+        }
         let changes = Changes {
-            regrade,
+            regrade: regrade.filter(|_| history.is_of_regrade()),
             resubmitted,
             removed,
             grades: history.changes(),
         };
         let messages = write_messages(class, store, self.handed_out)?;
         let with_message = messages.iter().flatten().copied().collect();
-        let summary = write_results(class, store, &changes, &similar, &with_message)?;
+        let summary = write_results(class, self.policy, store, &changes, &similar, &with_message)?;
         print(text::render_summary(&summary));
         print(text::render_changes(&changes));
         write_for_platforms(class, store, lists)?;
         if let Some(folder) = &lists.anonymous {
-            write_for_graders(class, store, run, folder)?;
+            write_for_graders(class, self.policy, store, run, folder)?;
         }
         print_line("");
         for name in ["grades.csv", "class.html"] {
@@ -112,12 +117,13 @@ impl ClassContext<'_> {
 /// submissions that there are messages about.
 fn write_results(
     class: &GradedClass,
+    policy: &Policy,
     store: &Store,
     changes: &Changes,
     similar: &[SimilarPair],
     with_message: &BTreeSet<usize>,
 ) -> Result<ClassSummary, Error> {
-    let summary = ClassSummary::new(class, with_message);
+    let summary = ClassSummary::new(class, policy, with_message);
     for row in &class.rows {
         let id = &row.result.id;
         let names = row.result.info.display_names();
@@ -130,15 +136,13 @@ fn write_results(
     let page = page::render_page(class, &summary, changes, similar);
     store.write("class.html", page)?;
     store.write("grades.csv", grades::grades_table(class).to_csv())?;
-    if let Some(regrade) = &changes.regrade {
-        store.write("drift.json", json(&regrade.scores))?;
-    }
     Ok(summary)
 }
 
 /// Writes a copy of the class with pseudonyms, which graders can use like the output folder.
 fn write_for_graders(
     class: &GradedClass,
+    policy: &Policy,
     store: &Store,
     run: &Run,
     folder: &Path,
@@ -160,7 +164,8 @@ fn write_for_graders(
         ..run.clone()
     })?;
     // Graders don't send messages.
-    write_results(&hidden, &copy, &Changes::default(), &[], &BTreeSet::new())?;
+    let changes = Changes::default();
+    write_results(&hidden, policy, &copy, &changes, &[], &BTreeSet::new())?;
     print_path(&copy, "class.html");
     Ok(())
 }

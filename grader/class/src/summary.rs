@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::iter;
 
+use grader::policy::{Policy, TaskPoints};
 use serde::Serialize;
 
 use crate::distribution::Distribution;
@@ -185,7 +186,7 @@ impl Outlier {
 impl ClassSummary {
     /// Summarises a class. `with_message` contains the indices of the submissions that there are
     /// messages to students about.
-    pub fn new(class: &GradedClass, with_message: &BTreeSet<usize>) -> Self {
+    pub fn new(class: &GradedClass, policy: &Policy, with_message: &BTreeSet<usize>) -> Self {
         let scores: Vec<&ScoreSummary> = class.scores().map(|(_, score)| score).collect();
         let max_points = scores.first().map_or(0, |score| score.max_points);
         let points: Vec<u32> = scores.iter().map(|score| score.points).collect();
@@ -205,7 +206,9 @@ impl ClassSummary {
                 decisions.push(manual.clone());
             }
         }
-        let (sections, failed) = failure_rates(class);
+        let counting = without_ignored_items(class, policy);
+        let counting_scores: Vec<&ScoreSummary> = counting.scores().map(|(_, own)| own).collect();
+        let (sections, failed) = failure_rates(&counting);
         ClassSummary {
             schema: SCHEMA,
             exam: class.settings.exam.clone(),
@@ -227,12 +230,34 @@ impl ClassSummary {
             tasks: tasks(&scores),
             sections,
             failed,
-            causes: causes(&scores),
+            causes: causes(&counting_scores),
             outliers: outliers(class, points.as_ref(), with_message),
             decisions,
             points,
         }
     }
+}
+
+/// Returns the class without the items that the policy removes and those of tasks that it leaves
+/// out.
+fn without_ignored_items(class: &GradedClass, policy: &Policy) -> GradedClass {
+    let mut class = class.clone();
+    for row in &mut class.rows {
+        let EntryOutcome::Graded(score) = &mut row.result.outcome else {
+            continue;
+        };
+        let tasks = score.tasks.iter().map(|task| task.for_policy(0));
+        let ignored = policy
+            .points
+            .ignored_items(&tasks.collect::<Vec<TaskPoints>>());
+        for task in &mut score.tasks {
+            task.items.retain(|item| !ignored.contains(&item.id));
+            task.points = task.items.iter().map(|item| item.points).sum();
+            task.max_points = task.items.iter().map(|item| item.max_points).sum();
+        }
+        score.tasks.retain(|task| !task.items.is_empty());
+    }
+    class
 }
 
 fn has_nothing(row: &ClassRow) -> bool {

@@ -86,7 +86,9 @@ impl PointsPolicy {
                 (rest, task.max_points.saturating_sub(max_lost))
             }
         };
+        // Manual points must not make up for points lost in another task.
         let points = i128::from(points) + i128::from(task.manual);
+        let points = points.clamp(0, i128::from(max_points));
         let (weight, of, max_points) = match self.tasks.get(task.id) {
             Some(own) => (i128::from(*own), i128::from(max_points), *own),
             None => (1, 1, max_points),
@@ -109,6 +111,16 @@ impl PointsPolicy {
             }
         }
         out
+    }
+
+    /// Returns the ids of the items without an effect on this submission's final points: those that
+    /// are removed or couldn't be graded for this reason, and those of tasks that are left out.
+    pub fn ignored_items(&self, tasks: &[TaskPoints]) -> BTreeSet<String> {
+        let is_left_out = |task: &&TaskPoints| self.tasks.get(task.id) == Some(&0);
+        let left_out = tasks.iter().filter(is_left_out);
+        let left_out = left_out.flat_map(|task| &task.items).map(|item| item.id);
+        let all = self.items_out(tasks).into_iter().chain(left_out);
+        all.map(str::to_owned).collect()
     }
 
     /// Returns whether the policy removes this item.

@@ -99,7 +99,19 @@ pub fn grade_class_with(
         (Some(folder), _) => {
             let history = out.map(|out| Store::new(out).read(final_grades::FILE));
             let history: Option<GradeHistory> = history.transpose()?.flatten();
-            let counts = |id: &str, own: &Person| history.iter().any(|all| all.counts(id, own));
+            let mut last = out.map_or(Ok(Vec::new()), |out| Store::new(out).results())?;
+            last.retain(|result| result.info.is_corrected);
+            // Corrected files may earn fewer points than another attempt, which then counts. Used
+            // again, a person's name must still stand for the same attempt.
+            let counts = |id: &str, own: &Person| {
+                let is_own =
+                    |last: &&EntryResult| last.info.people.iter().any(|it| it.is_same(own));
+                let mut corrected = last.iter().filter(is_own).peekable();
+                match corrected.peek() {
+                    Some(_) => corrected.any(|last| last.id == id),
+                    None => history.iter().any(|all| all.counts(id, own)),
+                }
+            };
             corrected::replace_files(&mut recognised, folder, path, handed_out, counts)?;
         }
         (None, Some(out)) => corrected::check_none_lost(&Store::new(out))?,

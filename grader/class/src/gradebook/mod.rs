@@ -280,7 +280,7 @@ fn match_rows<'c>(
             if grade.is_superseded() {
                 continue;
             }
-            let who = person.display_name();
+            let who = class.distinct_name(person);
             let found = keys.iter().zip(&indices).find_map(|(key, index)| {
                 let texts = key.person_texts(person);
                 let rows = texts.iter().find_map(|text| index.get(text))?;

@@ -3,8 +3,10 @@
 use std::iter;
 
 use grader::policy::{FinalPoints, Policy, TaskPoints};
+use judging::sanitize::safe_folder_name;
 
 use crate::entry::Person;
+use crate::identity::distinct_name;
 use crate::late::{UnclearTime, lateness};
 use crate::manual_points::ManualPoints;
 use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary, TaskScore};
@@ -68,6 +70,17 @@ impl GradedClass {
         let rows = self.rows.iter().filter(counts);
         let results = rows.map(|row| &row.result);
         results.filter_map(|result| Some((result, result.score()?)))
+    }
+
+    /// Returns a person's name, with an identifier in brackets if others in the class share the name.
+    pub fn distinct_name(&self, person: &Person) -> String {
+        let people = self.rows.iter().flat_map(|row| &row.result.info.people);
+        distinct_name(person, people.chain(&self.missing))
+    }
+
+    /// Returns this name in a form that is safe in file names.
+    pub fn file_name(&self, person: &Person) -> String {
+        safe_folder_name(&self.distinct_name(person).replace(['(', ')'], ""))
     }
 
     /// Returns the exam's tasks, including the points from the first score. The slice is empty if
@@ -150,15 +163,20 @@ impl ClassRow {
     /// Returns these sentences for a page that all members of a group can see. If they differ, the
     /// page must not show one member's points to another.
     pub fn texts_for_everyone(&self) -> Vec<String> {
-        let mut all = self.grades.iter().map(PersonGrade::explanation);
-        let first = all.next();
-        if all.all(|texts| Some(texts) == first) {
+        if !self.has_private_texts() {
             return self.counted_texts();
         }
         let note = "The members of this group have different final points, so this page doesn't show \
             them.";
         let texts = iter::once(note).chain(self.correction());
         texts.map(str::to_owned).collect()
+    }
+
+    /// Returns whether the members of the group have different grades or comments.
+    pub fn has_private_texts(&self) -> bool {
+        let mut all = self.grades.iter().map(PersonGrade::explanation);
+        let first = all.next();
+        !all.all(|texts| Some(texts) == first)
     }
 
     /// Returns a sentence about the files of a submission that was handed in again.

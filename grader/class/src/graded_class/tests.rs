@@ -84,6 +84,7 @@ fn points_by_hand(delta: i32) -> ManualPoints {
         comment: "nice".to_owned(),
         author: "Lee".to_owned(),
         date: String::new(),
+        pseudonym: String::new(),
     }
 }
 

@@ -133,10 +133,14 @@ fn submissions_inside<'a>(node: &'a Node, handed_out: &HandedOut) -> Option<Vec<
 /// by its task files or by the hidden folder `.git`, which can't be part of a submission because
 /// Git never commits it.
 pub(super) fn is_section(node: &Node, handed_out: &HandedOut) -> bool {
-    let is_repository = |node: &Node| node.path.join(".git").exists();
     let has_repositories = || node.children().iter().any(is_repository);
     let is_section = || has_repositories() || submissions_inside(node, handed_out).is_some();
     !node.is_link && !is_repository(node) && is_section()
+}
+
+/// Returns whether a folder is a clone of a repository.
+pub(super) fn is_repository(node: &Node) -> bool {
+    node.path.join(".git").exists()
 }
 
 /// Returns whether a folder has task files in one of the locations where students are expected to

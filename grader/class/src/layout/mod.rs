@@ -21,6 +21,7 @@ use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
 
+use self::mixture::is_repository;
 use self::names::{common_prefix, first_readings, is_name};
 use self::platforms::{
     CLASSROOM50_RESULT, CLASSROOM50_SCORES, Platform, SUBMISSIONS_SUFFIX, TEAMS_SUBMITTED,
@@ -36,6 +37,7 @@ pub use crate::layout_kind::{Layout, LayoutChoice};
 pub use class_folder::find_class_folder;
 pub use gradescope::METADATA;
 pub use mixture::side_by_side;
+pub use names::strip_archive_extension;
 
 /// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -178,6 +180,11 @@ fn recognise_layout<'a>(
     match layouts_by_names(&Vec::from_iter(names), reader).as_slice() {
         [] if root.name == TEAMS_SUBMITTED => Ok(Layout::Teams),
         [] if is_github_classroom(root) => Ok(Layout::GitHub),
+        [] if are_clones(root) => Err(Error::user(
+            "the folders are clones whose names have the same beginning, which may be the \
+             assignment's title or part of people's names; choose one with --layout gitlab or \
+             --layout github if it is the title, or --layout folders if it isn't",
+        )),
         [] => Ok(Layout::Plain),
         [only] => Ok(*only),
         [one, other, ..] => Err(Error::user(format!(
@@ -189,6 +196,13 @@ fn recognise_layout<'a>(
             other.name()
         ))),
     }
+}
+
+/// Returns whether all folders are repositories and their names have a common prefix.
+fn are_clones(root: &Node) -> bool {
+    let folders = || root.children().iter().filter(|node| node.is_folder());
+    let names = Vec::from_iter(folders().map(|node| node.name.as_str()));
+    !common_prefix(&names, '-').is_empty() && folders().all(is_repository)
 }
 
 /// Returns whether the folders are clones from GitHub Classroom or classroom50.

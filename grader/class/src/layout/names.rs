@@ -342,7 +342,7 @@ pub(super) fn common_prefix<'a>(names: &[&'a str], separator: char) -> &'a str {
 }
 
 /// Returns the name without the archive's extension.
-fn strip_archive_extension(name: &str) -> &str {
+pub fn strip_archive_extension(name: &str) -> &str {
     let lower = name.to_ascii_lowercase();
     let end = ARCHIVE_ENDS.iter().find(|end| lower.ends_with(**end));
     &name[..name.len() - end.map_or(0, |end| end.len())]

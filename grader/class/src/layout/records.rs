@@ -70,7 +70,7 @@ pub(super) fn read_files_in_folder(
     files: &[SubmissionNode],
 ) -> Result<SubmissionRecord, Error> {
     let read = |name| read_text(files.iter().find_map(|found| found.node.find(name)));
-    let members = read(SAKAI_MEMBERS)?;
+    let members = read(SAKAI_MEMBERS)?.map(|text| decode_entities(&text));
     let members = read_members(members.as_deref().unwrap_or(parts.get("members")).trim());
     let people = members.unwrap_or_default().into_iter().map(|parts| Person {
         login: parts.get("eid").to_owned(),
@@ -80,6 +80,21 @@ pub(super) fn read_files_in_folder(
     let time = read(SAKAI_TIME)?.map(|text| text.trim().to_owned());
     let time = time.map(|text| normalize_time(&text).unwrap_or(text));
     Ok(SubmissionRecord { people, time })
+}
+
+/// Replaces entities such as `&#252;`, which Sakai writes for each UTF-16 unit outside ASCII.
+fn decode_entities(text: &str) -> String {
+    let mut units: Vec<u16> = Vec::new();
+    for (index, part) in text.split("&#").enumerate() {
+        let entity = part.split_once(';').filter(|_| index > 0);
+        let entity = entity.and_then(|(unit, rest)| Some((unit.parse().ok()?, rest)));
+        let (before, rest) = if index > 0 { ("&#", part) } else { ("", part) };
+        match entity {
+            Some((unit, rest)) => units.extend([unit].into_iter().chain(rest.encode_utf16())),
+            None => units.extend(before.encode_utf16().chain(rest.encode_utf16())),
+        }
+    }
+    String::from_utf16_lossy(&units)
 }
 
 /// Reads a file written by the platform. Links are not followed, since they may lead anywhere.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use grader::handed_out::HandedOut;
 
 use crate::entry::{Entry, Person};
-use crate::identity::attempts_by_person;
+use crate::identity::{attempts_by_person, distinct_name};
 use crate::input::collect_submission;
 use crate::layout::{RecognisedClass, UnmatchedPath};
 use crate::names::joined;
@@ -42,7 +42,9 @@ pub fn render_preview(
         text += "\n  on a roster, but without a submission:\n";
     }
     for person in missing {
-        text += &format!("      {}\n", sentence(person.display_name()));
+        let people = class.entries.iter().flat_map(|entry| &entry.info.people);
+        let name = distinct_name(person, people.chain(missing));
+        text += &format!("      {}\n", sentence(&name));
     }
     let count = class.entries.len();
     text + &format!("\n  {gradable} of {count} can be graded\n\n")

@@ -271,11 +271,24 @@ pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
     }
 }
 
-/// Returns the people on the lists who match nobody in `people`, without duplicates.
+/// Returns the people on the lists who match nobody in `people`, without duplicates. A name that is
+/// unique both in the list and in `people` is enough.
 pub fn missing(rows: &[Member], people: &[&Person]) -> Vec<Person> {
+    let differ =
+        |one: &str, other: &str| !one.is_empty() && !other.is_empty() && !are_equal(one, other);
+    let is_only_one = |row: &Member, person: &Person| {
+        !row.has_namesake
+            && row.is_called(person)
+            && !differ(&row.person.sid, &person.sid)
+            && !differ(&row.person.number, &person.number)
+            && people
+                .iter()
+                .all(|other| !row.is_called(other) || other.is_same(person))
+    };
     let is_there = |row: &&Member| {
-        let is_theirs =
-            |person: &&Person| row.matches(person) || is_repetition(&row.person, person);
+        let is_theirs = |person: &&Person| {
+            row.matches(person) || is_repetition(&row.person, person) || is_only_one(row, person)
+        };
         people.iter().any(is_theirs)
     };
     let absent: Vec<Member> = rows.iter().filter(|row| !is_there(row)).cloned().collect();

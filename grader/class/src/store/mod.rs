@@ -8,10 +8,11 @@ use std::path::{self, Path, PathBuf};
 use grader::files::{self, PathError};
 use grader::hand_in::archive_bytes;
 use grader::report::atomic_write;
-use grader::report::html::{with_name, write_counted};
+use grader::report::html::{with_name, without_file_notes, write_counted};
 use grader::rerun_command::with_moved_submission;
 use grader::submission::Submission;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 use zip::ZipArchive;
 
 use crate::error::Error;
@@ -100,6 +101,18 @@ impl Store {
     /// Returns the paths of the files in a subfolder of the output folder.
     pub fn list(&self, name: &str) -> Result<Vec<PathBuf>, Error> {
         Ok(list_if_exists(&self.folder.join(name))?)
+    }
+
+    /// Removes the files with this suffix, and temporary files, from a subfolder of the output
+    /// folder.
+    pub fn clear(&self, name: &str, suffix: &str) -> Result<(), Error> {
+        for path in self.list(name)? {
+            let name = path.file_name().unwrap_or_default();
+            if name.to_string_lossy().ends_with(suffix) || is_temporary(name) {
+                files::remove_if_exists(&path)?;
+            }
+        }
+        Ok(())
     }
 
     /// Writes one of the class's files, such as `class.json`, into the output folder.
@@ -224,8 +237,8 @@ impl Store {
     }
 
     /// Replaces an entry's files, apart from the stamp, with those of the entry `old_id` in another
-    /// store. If the two ids differ, the new id replaces the old one in pages and scores, and the
-    /// scores of earlier runs are left out.
+    /// store. If the two ids differ, the new id replaces the old one in pages and scores. The scores
+    /// of earlier runs and notes with the names of other files are left out.
     pub fn copy_files(&self, id: &str, from: &Store, old_id: &str) -> Result<(), Error> {
         let folder = self.entry_folder(id);
         files::create_dir_all(&folder)?;
@@ -235,17 +248,23 @@ impl Store {
             files::remove_if_exists(file)?;
         }
         let [was, now] = [from.submission_path(old_id), self.submission_path(id)];
-        let is_kept = |name: &OsStr| id == old_id || (name != PREVIOUS && name != REPLACED);
+        let is_other = id != old_id;
+        let is_kept = |name: &OsStr| !is_other || (name != PREVIOUS && name != REPLACED);
         for source in files::read_dir(from.entry_folder(old_id))? {
             let name = source.file_name().unwrap_or_default();
             let contents = if name == REPORT || name == FEEDBACK {
                 let page = with_moved_submission(&files::read_to_string(&source)?, &was, &now);
-                with_name(&page, old_id, id).into_bytes()
-            } else if name == SCORE {
-                let field = |id: &str| format!("\"submission\": {}", json(&id).trim_end());
-                let score = files::read_to_string(&source)?;
-                let score = score.replacen(&field(old_id), &field(id), 1);
-                score.into_bytes()
+                let page = with_name(&page, old_id, id);
+                let hidden = is_other.then(|| without_file_notes(&page));
+                hidden.unwrap_or(page).into_bytes()
+            } else if name == SCORE && is_other {
+                let score: Option<Value> = read_json(source.clone())?;
+                let mut score = score.unwrap_or_default();
+                score["submission"] = id.into();
+                for notes in ["ignored_copies", "notes"] {
+                    score["build"][notes] = Value::Array(Vec::new());
+                }
+                json(&score).into_bytes()
             } else if name != STAMP && !is_temporary(name) && is_kept(name) {
                 files::read(&source)?
             } else {

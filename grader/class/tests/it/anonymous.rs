@@ -22,6 +22,11 @@ const SECRETS: [&str; 9] = [
 fn graded() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_reference("leeward")
+        .with(
+            "leeward/Annabel_Leeward_hw/old/sphere_final.rs",
+            "fn hit() {}",
+        )
+        .with("leeward/leeward_notes.rs", "text")
         .with_offset_mistake("kimono")
         .with("peeta/bvh_of_peeta.txt", "nothing to grade");
     let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
@@ -53,6 +58,8 @@ fn nothing_in_the_copy_names_anybody_and_pseudonyms_stay() {
     let key = key(&class);
     let ids: Vec<&str> = key.keys().map(String::as_str).collect();
     assert_eq!(ids, ["kimono", "leeward"]);
+    let page = class.read("students/leeward/feedback.html");
+    assert_contains(&page, &["old/sphere_final.rs", "leeward_notes.rs"]);
     // Graders can read the pages and run a question again.
     let bob = &key["kimono"];
     let page = fs::read_to_string(blind.join(format!("students/{bob}/report.html"))).unwrap();
@@ -99,6 +106,11 @@ fn points_by_hand_can_name_a_pseudonym() {
         );
     }
     assert_eq!(table(&class.read("grades.csv")).len(), 5);
+    // As in the graders' table.
+    let one = rows.replace(&key["kimono"], &format!("\"{}, member 2\"", key["kimono"]));
+    class.graded_with(&exam, &[("manual-points", &one)], &[]);
+    let manual = |name: &str| cell(&class, "kimono", name, "manual");
+    assert_eq!(["Bobby Kimono", "Carla Owlet"].map(manual), ["", "1"]);
     let refused = |folder: &str| {
         let folder = class.path_beside(folder).display().to_string();
         let error = class.refused(&exam, &["--anonymous", &folder]);
@@ -198,4 +210,24 @@ fn only_attempts_that_may_count_are_in_the_copy() {
     assert_eq!(row("bob1")["status"], "several attempts");
     let why = "the same person also submitted another attempt";
     assert_contains(&row("bob1")["why"], &[why]);
+
+    // Points for a pseudonym stay with this attempt, even if another one counts later.
+    let manual = format!(
+        "student,task,delta,comment,author\n{},camera,-1,copied,Tess\n",
+        key["ann2"]
+    );
+    let own = || ["ann1", "ann2"].map(|id| cell(&class, id, "Ann Lee", "counts"));
+    class.graded_with(&exam, &[("manual-points", &manual)], &[]);
+    assert_eq!(own(), ["", "1"]);
+    let later = roster.replace("2026-11-20T10", "2026-11-22T10");
+    let later = class.write_beside("later.csv", &later);
+    let output = class.grade(&exam, &["--roster", &later]);
+    successful_stdout(&output);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_contains(&error, &["row 2: another attempt counts instead"]);
+    assert_eq!(own(), ["0", ""]);
+    fs::remove_dir_all(class.input().join("ann2")).unwrap();
+    let error = class.refused(&exam, &[]);
+    let why = "the submission with this pseudonym is not in the input";
+    assert_contains(&error, &[why]);
 }

@@ -114,6 +114,7 @@ fn class_with(text: &str) -> GradedClass {
             comment: text.to_owned(),
             author: text.to_owned(),
             date: text.to_owned(),
+            pseudonym: String::new(),
         };
         let result = EntryResult { id, info, outcome };
         ClassRow::new(result, &Policy::default(), vec![vec![manual]], &[])
@@ -153,7 +154,7 @@ fn preview_with(text: &str) -> String {
 /// Returns everything that a teacher reads: the name and the text of each output.
 fn outputs(text: &str) -> Vec<(&'static str, String)> {
     let class = class_with(text);
-    let summary = ClassSummary::new(&class, &BTreeSet::new());
+    let summary = ClassSummary::new(&class, &Policy::default(), &BTreeSet::new());
     let changes = vec![ScoreChange {
         id: text.to_owned(),
         was: 1,

@@ -2,7 +2,7 @@
 
 use grader::handed_out::RAYS;
 
-use crate::harness::{TestClass, assert_contains, source, unzip, zip};
+use crate::harness::{TestClass, assert_contains, files_below, source, unzip, zip};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 
@@ -54,6 +54,48 @@ fn canvas_gets_each_page_under_the_name_of_an_attachment() {
     // The name in the gradebook is also in the table and on the class's page.
     assert_contains(&class.read("grades.csv"), &["doejane_7001,Jane Doe,"]);
     assert_contains(&class.read("class.html"), &["Jane Doe"]);
+}
+
+/// Canvas shows the same page to Ann and Bob, so it can't contain Bob's points.
+#[test]
+fn members_of_a_canvas_group_with_different_points_get_pages_of_their_own() {
+    let class = TestClass::named("submissions")
+        .with("owls_7001_9001_hw.zip", solution())
+        .with("foxcid_7003_9002_hw.zip", solution());
+    let gradebook = "Student,ID,SIS Login ID,Section,Path (7)\n\"Lee, Ann\",7001,ann,A,\n\
+                     \"Kim, Bob\",7002,bob,A,\n\"Fox, Cid\",7003,cid,A,\n";
+    let roster = "name,username,group\nAnn Lee,ann,Owls\nBob Kim,bob,Owls\nCid Fox,cid,\n";
+    let manual = "student,task,delta,comment,author\nbob,camera,-1,late,Tess\n";
+    let lists = [
+        ("canvas", gradebook),
+        ("roster", roster),
+        ("manual-points", manual),
+    ];
+    let (files, text) = hand_back(&class, &lists);
+    assert_eq!(
+        names(&files),
+        ["foxcid_7003_9002_hw.zip", "owls_7001_9001_hw.zip"]
+    );
+    let warning =
+        "left out: Ann Lee + Bob Kim: the platform gives all members of a group the same page";
+    assert_contains(&text, &[warning]);
+    let pages = || {
+        let files = files_below(&class.out().join("hand-back")).into_iter();
+        let page = |path: std::path::PathBuf| {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let name = path.file_name().unwrap().display().to_string();
+            (name, text.contains("by Tess: late"))
+        };
+        files.map(page).collect::<Vec<_>>()
+    };
+    let own = [
+        ("Ann_Lee_feedback.html", false),
+        ("Bob_Kim_feedback.html", true),
+    ];
+    assert_eq!(pages(), own.map(|(name, has)| (name.to_owned(), has)));
+    let exam = class.small_exam(&ITEMS);
+    class.graded(&exam, &["--drop-list", "manual-points"]);
+    assert_eq!(pages(), []);
 }
 
 /// Moodle splits the name at its first four underscores. The second part is the participant's

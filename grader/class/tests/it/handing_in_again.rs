@@ -5,7 +5,9 @@ use std::fs;
 
 use grader::handed_out::RAYS;
 
-use crate::harness::{TestClass, all_files, assert_contains, cell, files_below, source, zip};
+use crate::harness::{
+    TestClass, all_files, assert_contains, cell, files_below, source, workspace, zip,
+};
 
 const ITEMS: [&str; 1] = ["camera.offset"];
 const ROSTER: &str = "name,username,email,datetime\n\
@@ -105,7 +107,9 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
     assert_contains(&refused, &[expected]);
     let empty = class.path_beside("empty");
     fs::create_dir(&empty).unwrap();
-    class.graded(&exam, &["--corrected", empty.to_str().unwrap()]);
+    let printed = class.graded(&exam, &["--corrected", empty.to_str().unwrap()]);
+    let why = "previously graded 2, the corrected files are no longer used";
+    assert_contains(&printed, &[why]);
     assert_eq!(
         of("bob", "Bob Kim", columns),
         ["nothing to grade", "2026-11-20 12:00:00 +0000", "bob.zip"]
@@ -182,4 +186,58 @@ fn the_dry_run_shows_corrected_files_and_those_of_nobody() {
         &(all_files("bob") + "\n      bob.zip (corrected: bob.zip)"),
     ];
     assert_contains(&preview, &expected);
+}
+
+/// By default, `cargo handin` packs a different assignment.
+#[test]
+fn the_message_names_the_assignment_and_its_archive() {
+    let class = TestClass::named("class").with("bob.zip", "PK\x03\x04 and no more");
+    let exam = workspace().join("grader/exams/light.json");
+    class.graded(exam.to_str().unwrap(), &[]);
+    let [text] = texts(&class).try_into().unwrap();
+    let expected = [
+        "\n    cargo handin --assignment light\n",
+        "creates the archive handin-light.zip from your material.rs, ",
+        "send us handin-light.zip in reply",
+    ];
+    assert_contains(&text, &expected);
+}
+
+/// Ann's corrected files earn less than her other attempt, which therefore counts.
+#[test]
+fn the_same_name_stands_for_the_same_attempt_in_every_run() {
+    let class = TestClass::named("class")
+        .with_offset_mistake("ann")
+        .with_reference("u1");
+    let exam = class.small_exam(&["camera.offset", "sphere.radius"]);
+    let roster = "name,sid,username\nAnn Lee,u1,ann\n";
+    let policy = "[attempts]\ncounts = 'best'\n";
+    class.graded_with(&exam, &[("roster", roster), ("policy", policy)], &[]);
+    for file in ["camera.rs", "sphere.rs"] {
+        let text = source(&format!("grader/starter/{file}"));
+        correct(&class, &format!("Ann Lee/{file}"), text);
+    }
+    let folder = class.path_beside("corrected").display().to_string();
+    for _ in 0..3 {
+        class.graded(&exam, &["--corrected", &folder]);
+        let points = ["ann", "u1"].map(|id| cell(&class, id, "Ann Lee", "points"));
+        assert_eq!(points, ["1", "0"]);
+    }
+}
+
+#[test]
+fn a_corrected_hand_in_may_have_the_name_of_the_archive_that_it_replaces() {
+    let class = TestClass::named("submissions")
+        .with("leeann_7001_9001_notes.txt", "text")
+        .with("leeann_7001_9002_hw.zip", "PK\x03\x04 and no more")
+        .with("kimbob_7002_9003_hw.zip", solution());
+    let folder = class.path_beside("corrected").display().to_string();
+    for path in ["leeann_7001_9002_hw.zip", "leeann_7001_9002_hw/hw.zip"] {
+        correct(&class, path, solution());
+        let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
+        let name = path.trim_end_matches("/hw.zip");
+        let expected = format!("(corrected: {name})");
+        assert_contains(&preview, &[all_files("leeann"), expected]);
+        fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+    }
 }

@@ -146,6 +146,7 @@ fn namesakes_are_told_apart_or_belong_to_nobody() {
     let expected = [
         "Ann Lee: several people on the lists are named Ann Lee",
         "so that it contains one of a1@x.edu, a2@x.edu",
+        "without a submission:\n      Ann Lee (a2@x.edu)\n",
     ];
     assert_contains(&preview, &expected);
     assert_eq!(preview.matches("several people").count(), 1);
@@ -157,6 +158,12 @@ fn namesakes_are_told_apart_or_belong_to_nobody() {
         "person unclear"
     );
     assert_eq!(cell(&class, "Ann_Lee", "Ann Lee", "counts"), "");
+    assert_contains(&class.read("class.html"), &[">Ann Lee (a2@x.edu)<"]);
+    let canvas = "Student,ID,SIS Login ID,Section,Path (7)\n\"Lee, Ann\",7001,,A,\n\
+                  \"Lee, Ann\",7002,,A,\n";
+    let text = class.graded_with(&exam, &[("canvas", canvas)], &[]);
+    let expected = "! Ann Lee (a1@x.edu) could be any of Lee, Ann (7001); Lee, Ann (7002): ";
+    assert_contains(&text, &[expected]);
 
     let class = TestClass::named("submissions")
         .with(
@@ -173,6 +180,22 @@ fn namesakes_are_told_apart_or_belong_to_nobody() {
     let text = class.graded_with(&exam, &[("canvas", canvas)], &[]);
     assert_contains(&text, &["Lee, Ann (7001)  – → 2", "Lee, Ann (7002)  – → 0"]);
     assert_eq!(cell(&class, "leeann_7001", "Ann Lee", "username"), "a1");
+}
+
+/// Canvas's list shares only a name with the roster.
+#[test]
+fn a_person_known_by_different_identifiers_is_not_missing() {
+    let class = TestClass::named("class").with_minimal_submission("bob@x.edu");
+    let canvas = "Student,ID,SIS Login ID,Section,Path (7)\n\"Kim, Bob\",7001,bk,A,\n\
+                  \"Ray, Eve\",7002,er,A,\n";
+    let lists = [
+        ("roster", "name,email\nBob Kim,bob@x.edu\n"),
+        ("canvas", canvas),
+    ];
+    let lists = class.lists(&lists);
+    let lists: Vec<&str> = lists.iter().map(String::as_str).collect();
+    let preview = class.preview_of(&class.input(), &lists);
+    assert_contains(&preview, &["without a submission:\n      Eve Ray\n\n"]);
 }
 
 /// The roster names the tutors, and the list next to the clones gives the submission times.

@@ -158,7 +158,8 @@ fn sakai(folder: &str) -> TestClass {
         .with_minimal_submission(&attachments(group))
         .with(
             &path(&format!("{group}/members.txt")),
-            "Roe, Jane(jane); Doe,(doe)",
+            // Sakai writes letters outside ASCII as entities.
+            "Roe Garc&#237;a, Jos&#233;(jose); Li &#55360;&#56512;,(li2); Doe & Co,(doe)",
         )
         .with_minimal_submission(&attachments(hidden))
 }
@@ -181,7 +182,7 @@ fn reads_sakai_folders_with_times_and_groups() {
         &[
             "5 submissions in a Sakai download",
             &all_files("明 李"),
-            &all_files("Jane Roe + Doe"),
+            &all_files("José Roe García + Li \u{200c0} + Doe & Co"),
         ],
     );
 }
@@ -314,6 +315,13 @@ fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
     let preview = |paths: &[&str]| {
         let class = TestClass::named("cg26").with("README.md", "text");
         let class = paths.iter().copied().fold(class, with_clone);
+        // The layout isn't guessed.
+        let error = class.refused_preview(&[]);
+        assert_contains(&error, &["--layout folders if"]);
+        assert_eq!(
+            error.contains("--layout gitlab or"),
+            !paths[0].contains('/')
+        );
         class.preview_of(&class.input(), &["--layout", "gitlab"])
     };
     let flat = preview(&["cg26-ann", "cg26-bob"]);
@@ -392,7 +400,7 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
         .with_minimal_submission("tue/zoe");
     let error = class.refused_preview(&[]);
     let error = error.replace(class.path_beside("").to_str().unwrap(), "FOLDER/");
-    assert_snapshot!(error, @"error: FOLDER/class cannot be read as a class: the folder mon contains several submissions (ann, bob): if they are from different students, pass this folder, or move them out of it; if they are attempts by one student, keep only the one that should be graded; if each contains part of one submission, combine them in one folder. Alternatively, pass --layout tutorials if each folder contains several students' folders, or --layout folders if each folder is one submission");
+    assert_snapshot!(error, @"error: FOLDER/class cannot be read as a class: the folder mon contains several submissions (ann, bob): if they are from different students, pass this folder, or move them out of it; if they are attempts by one student, keep only the one that should be graded; if each contains part of one submission, combine them in one folder. Alternatively, pass --layout tutorials if each folder contains several students' folders, --layout teams if the folders are from Microsoft Teams, or --layout folders if each folder is one submission");
     let preview = class.preview_of(&class.input(), &["--layout", "tutorials"]);
     assert_contains(
         &preview,

@@ -64,6 +64,52 @@ fn final_grades_follow_the_policy_and_each_change_is_listed_with_its_cause() {
     insta::assert_snapshot!(texts.join("\n"));
 }
 
+/// Hank lost points for `camera.offset` and the sphere. Staff give him points for the camera, which
+/// must not make up for the sphere. The root causes and failure rates only cover what counts.
+#[test]
+fn what_does_not_count_has_no_effect_on_points_by_hand_or_root_causes() {
+    let class = TestClass::named("class")
+        .with_offset_mistake("hank")
+        .with_replaced("hank/sphere.rs", "self.radius * self.radius", "self.radius");
+    let exam = class.small_exam(&ITEMS);
+    let manual = "student,task,delta,comment,author\nhank,camera,2,nearly,Tess\n";
+    class.graded_with(&exam, &[("manual-points", manual)], &[]);
+    let lines = [
+        "void_points = \"shrink\"",
+        "void = [\"camera.offset\"]",
+        "void = [\"camera.offset\"]\nvoid_points = \"give\"",
+        "void = [\"camera.offset\"]\ntasks = { camera = 20, sphere = 10 }",
+        "tasks = { sphere = 0 }",
+    ]
+    .map(|points| {
+        let policy = class.write_beside("policy.toml", &format!("[points]\n{points}\n"));
+        class.graded(&exam, &["--policy", &policy]);
+        let counts = ["counts", "counts_max"].map(|column| cell(&class, "hank", "hank", column));
+        let summary: Value = serde_json::from_str(&class.read("class.json")).unwrap();
+        let causes = summary["causes"].as_array().unwrap().iter();
+        let causes: Vec<String> = causes.map(|cause| cause["items"].to_string()).collect();
+        let failed = summary["failed"].as_array().unwrap().iter();
+        let failed = failed.map(|rate| format!("{} {}", rate["id"], rate["counts"]["all"]));
+        let failed: Vec<String> = failed.collect();
+        let (counts, causes) = (counts.join(" of "), causes.join(" "));
+        let (points, failed) = (points.replace('\n', "; "), failed.join(", "));
+        let text = format!("points: {points}\n  {counts}, causes {causes}, failed {failed}");
+        text.replace('"', "")
+    });
+    insta::assert_snapshot!(lines.join("\n"), @r"
+    points: void_points = shrink
+      3 of 4, causes [camera.offset] [sphere.radius], failed camera 1, camera.offset 1, camera.unit_length 0, sphere 1, sphere.radius 1
+    points: void = [camera.offset]
+      1 of 2, causes [sphere.radius], failed camera 0, camera.unit_length 0, sphere 1, sphere.radius 1
+    points: void = [camera.offset]; void_points = give
+      3 of 4, causes [sphere.radius], failed camera 0, camera.unit_length 0, sphere 1, sphere.radius 1
+    points: void = [camera.offset]; tasks = { camera = 20, sphere = 10 }
+      20 of 30, causes [sphere.radius], failed camera 0, camera.unit_length 0, sphere 1, sphere.radius 1
+    points: tasks = { sphere = 0 }
+      3 of 3, causes [camera.offset], failed camera 1, camera.offset 1, camera.unit_length 0
+    ");
+}
+
 #[test]
 fn an_item_or_task_that_the_exam_does_not_have_is_an_error() {
     let (class, exam) = graded();

@@ -44,6 +44,19 @@ pub fn with_name(page: &str, from: &str, to: &str) -> String {
     })
 }
 
+/// Returns a page without the notes on files, which contain the names of folders and other files.
+pub fn without_file_notes(page: &str) -> String {
+    let notes = page.split_once("<h2 id=\"files\">").and_then(|(_, rest)| {
+        let (section, _) = rest.split_once("</section>")?;
+        section
+            .find("<ul class=\"notes\">")
+            .map(|start| &section[start..])
+    });
+    notes.map_or(page.to_owned(), |notes| {
+        page.replacen(notes, "<p>Notes on other files are hidden.</p>", 1)
+    })
+}
+
 /// Inserts the sentences into the finished page at this path, if the page exists.
 pub fn write_counted(path: &Path, texts: &[String]) -> Result<(), PathError> {
     let Some(page) = files::read_if_exists(path)? else {

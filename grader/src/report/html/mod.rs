@@ -23,7 +23,7 @@ use crate::workspace::book::Book;
 use elements::plain_text;
 use judging::exam::Exam;
 
-pub use counted::{with_counted, with_name, write_counted};
+pub use counted::{with_counted, with_name, without_file_notes, write_counted};
 pub use elements::prose;
 
 const STYLE: &str = include_str!("page.css");

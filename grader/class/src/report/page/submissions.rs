@@ -17,7 +17,7 @@ pub(super) fn submissions(class: &GradedClass) -> Markup {
         tbody {
             @for row in &class.rows { (submission_row(row, tasks.len())) }
             @for person in &class.missing { tr {
-                th scope="row" { (sanitized(person.display_name())) }
+                th scope="row" { (sanitized(&class.distinct_name(person))) }
                 td .number { "–" }
                 td .number { "–" }
                 @for _ in tasks { td {} }

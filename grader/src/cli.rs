@@ -77,13 +77,12 @@ pub struct Arguments {
     /// in student/src/); default: student
     pub submission: Option<PathBuf>,
 
-    /// Grade only one task, such as sphere, or all tasks in a file, such as bvh; no score is
-    /// written
+    /// Grade only one task (e.g. sphere) or all tasks in a file (e.g. bvh); no score is written
     #[arg(long, value_name = "TASK")]
     pub task: Option<String>,
 
     /// Rerun one question, such as sphere.from_inside#7, and show the full answer; without a
-    /// number, rerun the first of the item's questions that was answered wrongly
+    /// number, rerun the item's first wrongly answered question
     #[arg(long, value_name = "ITEM[#N]", conflicts_with_all = ["task", "require", "out"])]
     pub replay: Option<QuestionRef>,
 
@@ -92,7 +91,7 @@ pub struct Arguments {
     #[arg(long, value_name = "TASK")]
     pub reset: Option<String>,
 
-    /// Show only the next thing to do, and where, instead of the whole report
+    /// Show only what to do next and where, instead of the whole report
     #[arg(long, conflicts_with_all = ["replay", "watch", "format"])]
     pub next: bool,
 
@@ -120,7 +119,8 @@ pub struct Arguments {
     #[arg(long)]
     pub doctor: bool,
 
-    /// The assignment; default: the exam file's assignment, or every assignment that was started
+    /// The assignment; default: the exam file's assignment, or every assignment that has been
+    /// started
     #[arg(long, value_name = "ID", value_parser = HandedOut::find, help_heading = STAFF_OPTIONS)]
     pub assignment: Option<&'static HandedOut>,
 
@@ -338,8 +338,8 @@ fn format_help() -> String {
     // The list comes last, so that when it grows, the text before it doesn't have to be rewrapped.
     format!(
         "Also write the report in these formats, which only show what the policy lets students see. Append \
-         =PATH to choose the file; by default, it is written where the platform expects it, or else to the \
-         --out folder.\n\
+         =PATH to choose the file; by default, it is written where the platform expects it or, failing \
+         that, to the --out folder.\n\
          Formats: {known}"
     )
 }

@@ -73,7 +73,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let is_missing = missing.any(|file| needed.contains(file));
     let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
         let question = &reference.item;
-        text += &format!("{question} can only be run once this file compiles\n");
+        text += &format!("{question} cannot be run until this file compiles\n");
         return Ok(paths.in_text(&text).into_owned());
     };
     let launcher = build.launcher(program);
@@ -110,7 +110,7 @@ fn find_element(item: &Item, number: usize) -> Result<(usize, usize), Error> {
     item.element(number).ok_or_else(|| {
         Error::User(format!(
             "{} has no question {number}: its questions are numbered from 1 to {count}; without a \
-             number, the first question that was answered wrongly is run",
+             number, the first wrongly answered question is run",
             item.id,
             count = item.count(),
         ))

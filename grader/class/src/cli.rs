@@ -79,14 +79,14 @@ pub struct ClassArguments {
     pub shard: Option<Shard>,
 
     /// Folder of corrected submissions: a subfolder or archive for each, named after the submission
-    /// or one of its students. Their files replace the original ones, but the original submission
-    /// time still applies. Pass this option on every run
+    /// or one of its students. The corrected files replace the original ones, but the original
+    /// submission time still applies. Pass this option on every run
     #[arg(long, value_name = "FOLDER", conflicts_with = "replay")]
     pub corrected: Option<PathBuf>,
 
-    /// Rerun one question of a graded submission, such as `ann sphere.from_inside#7`, and show the
-    /// full answer; ID is the submission's folder, or anything that identifies one of its students.
-    /// If there are several attempts, the one that counts is used
+    /// Rerun one question of a graded submission (for example, `ann sphere.from_inside#7`) and show
+    /// the full answer; ID is the submission's folder, or anything that identifies one of its
+    /// students. If there are several attempts, the one that counts is used
     #[arg(long, value_names = ["ID", "ITEM[#N]"], num_args = 2, requires = "out")]
     #[arg(conflicts_with_all = ["input", "dry_run", "estimate", "regrade", "shard", "similarity_input"])]
     pub replay: Option<Vec<String>>,
@@ -150,8 +150,8 @@ pub struct Lists {
     #[arg(skip)]
     pub downloaded: Option<PathBuf>,
 
-    /// Roster, with columns such as name, email, sid, username; optional columns are group (one
-    /// submission counts for the whole group) and datetime (the submission time)
+    /// Roster with at least one of the columns name, email, sid and username; optional columns:
+    /// group (one submission counts for the whole group) and datetime (the submission time)
     #[arg(long, value_name = "CSV")]
     pub roster: Option<PathBuf>,
 
@@ -174,8 +174,8 @@ pub struct Lists {
     #[arg(long, value_name = "FOLDER")]
     pub anonymous: Option<PathBuf>,
 
-    /// Show similar submissions side by side, given the folder of an earlier --similarity-input and
-    /// a checker's results (Dolos's pairs.csv, or JPlag's results.csv or archive). Pass this option
+    /// Show similar submissions side by side, given an earlier --similarity-input folder and a
+    /// checker's results (Dolos's pairs.csv, or JPlag's results.csv or archive). Pass this option
     /// on every run
     #[arg(long, value_names = ["FOLDER", "RESULTS"], num_args = 2)]
     pub similar: Vec<PathBuf>,

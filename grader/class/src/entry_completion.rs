@@ -139,8 +139,8 @@ fn misleading_number(rows: &[Member], info: &EntryInfo) -> Option<String> {
         let mut others = rows.iter().filter(|row| !row.person.number.is_empty());
         let other = others.find(is_of_other)?;
         Some(format!(
-            "{}: the number {} was ignored because a list assigns it to {}: if this is a team, \
-             list its members in the roster's `group` column; otherwise, correct the name",
+            "{}: the number {} was ignored because a list assigns it to {}: if a team handed \
+             this in, list its members in the roster's `group` column; otherwise, correct the name",
             info.from,
             person.number,
             other.person.display_name()

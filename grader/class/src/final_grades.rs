@@ -235,7 +235,7 @@ impl FinalGrade {
         let mut why = Vec::new();
         let is_same = was.submission == self.submission;
         if !is_same && self.counts.is_some() {
-            why.push(format!("it counts instead of {}", was.submission));
+            why.push(format!("this attempt counts instead of {}", was.submission));
         } else if !is_same {
             why.push(format!("this attempt replaces {}", was.submission));
         }

@@ -51,7 +51,7 @@ pub fn write_messages(
                 EntryOutcome::Graded(_) => {
                     let files = joined(result.missing_files(), ", ");
                     let why =
-                        format!("these files are missing, so their tasks have 0 points: {files}");
+                        format!("these files are missing, so their tasks earn 0 points: {files}");
                     Some(why).filter(|_| !files.is_empty())
                 }
                 EntryOutcome::Fault(_) => None,
@@ -94,7 +94,8 @@ pub fn render(person: &Person, reasons: &[String], handed_out: &HandedOut) -> St
          \n\
          It creates the archive handin.zip from your {}.\n\
          It also checks the archive the way the grader will and lists each file. If one is\n\
-         missing, put it next to the others, with exactly the name listed, and run it again.\n\
+         missing, put it next to the others, with exactly the name listed, and run the\n\
+         command again.\n\
          \n\
          Then send us handin.zip in reply to this message. Your original submission time still\n\
          counts, so please hand in the same code as before, without changes.\n",

@@ -108,7 +108,7 @@ fn check_plausible(
     if info.late && without_extension.is_some_and(|seconds| seconds <= 0) {
         Err(UnclearTime::new(format!(
             "a list gives the submission time as {text:?}, which is on time, but the platform \
-             marks the submission as late: enter the time of the last attempt in the list, or \
+             marks the submission as late: in the list, enter the time of the last attempt or \
              leave the time empty"
         )))
     } else if info.marks_late && !info.late && time.duration_since(due).as_secs() > grace {

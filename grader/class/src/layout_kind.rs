@@ -42,8 +42,8 @@ pub struct LayoutChoice {
     #[arg(long, value_name = "PLATFORM")]
     pub layout: Option<Layout>,
 
-    /// Title of the assignment, if the input contains several, e.g. from Microsoft Teams; default:
-    /// the last run's title
+    /// Title of the assignment to grade, if the input contains several (e.g. from Microsoft Teams);
+    /// default: the last run's title
     #[arg(long, value_name = "TITLE")]
     pub title: Option<String>,
 }

@@ -23,7 +23,7 @@ pub enum ListKind {
     Moodle,
     /// The grades from Gradescope.
     Gradescope,
-    /// The list of people included in the platform's download along with the submissions.
+    /// The list of people that comes with the submissions in the platform's download.
     Downloaded,
 }
 

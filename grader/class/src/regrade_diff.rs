@@ -154,7 +154,7 @@ fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
     let why = match (was, now) {
         // The new message alone doesn't say why the points were lost before.
         (Some(was), Some(now)) if now.points > was.points => {
-            format!("{}; it was {}", explain(now), explain(was))
+            format!("{}; previously {}", explain(now), explain(was))
         }
         (_, Some(now)) => explain(now),
         (_, None) => "no longer in the exam".to_owned(),
@@ -214,7 +214,7 @@ mod tests {
             ("c", Some(1), None),
         ];
         assert_eq!(changes, wanted);
-        assert_eq!(change.items[1].why, "pass; it was wrong");
+        assert_eq!(change.items[1].why, "pass; previously wrong");
     }
 
     #[test]
@@ -235,7 +235,7 @@ mod tests {
         );
         assert_eq!(
             why(&wrong, &partial),
-            "partial: 1 of 4 answers is wrong; it was wrong: 3 of 4 answers are wrong"
+            "partial: 1 of 4 answers is wrong; previously wrong: 3 of 4 answers are wrong"
         );
         assert_eq!(why(&partial, &wrong), "wrong: 3 of 4 answers are wrong");
         let other = score(&[("b", 1, "partial")]);

@@ -146,7 +146,7 @@ fn read_results(folder: &Path, results: &Path) -> Result<Vec<SimilarPair>, Error
         let [Some(left), Some(right)] = files else {
             return Err(error(&format!(
                 "{one:?} or {other:?} is not a task file in {}: pass the folder that was compared, \
-                 and put the results of each task into a folder named after it, such as sphere",
+                 and put each task's results into a folder with the task's name, such as sphere",
                 folder.display()
             )));
         };

@@ -133,7 +133,8 @@ fn select<'a>(
             None
         } else if bytes == MAX_FILE_BYTES && member.size > MAX_FILE_BYTES {
             Some(format!(
-                "it is {size} MiB, but the limit is {most} MiB: ask for only the task files"
+                "it is {size} MiB, but the limit is {most} MiB: ask the student for \
+                 the task files only"
             ))
         } else if total > max_total {
             Some(format!(

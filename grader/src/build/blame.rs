@@ -168,9 +168,9 @@ fn how_to_restore(file: &TaskFile, changed: Option<ChangedDeclaration>) -> Strin
             file.name
         ),
         None => format!(
-            "\n\n{RESTORE_LABEL}what you have changed or removed in {}, such as a field, a method \
-             or a `derive`: other files rely on it. If you have defined a type that the given code \
-             already provides, such as `Ray`, use the given one instead.",
+            "\n\n{RESTORE_LABEL}anything you have changed or removed in {} that other files rely \
+             on, such as a field, a method or a `derive`. If you have defined a type that the \
+             given code already provides (`Ray`, for example), use the given one instead.",
             file.name
         ),
     }

@@ -35,8 +35,8 @@ pub(super) fn check_run(rustc: &Rustc, folder: &Path) -> io::Result<()> {
         return Ok(());
     }
     Err(io::Error::other(
-        "the system killed the program (signal 9) even though it used little memory, and it also killed a \
-         small test program: give this machine more memory, or grade fewer submissions at a time",
+        "the system killed the program (signal 9), which used little memory, and also a small test \
+         program: give this machine more memory, or grade fewer submissions at a time",
     ))
 }
 

@@ -51,8 +51,8 @@ fn classroom50_problems(path: &Path, handed_out: &HandedOut) -> Vec<String> {
         match fs::metadata(path.join(name)) {
             Ok(metadata) => size += metadata.len(),
             Err(_) => problems.push(format!(
-                "{name} is missing: `cargo author package classroom50` creates both files that this \
-                 folder needs"
+                "{name} is missing: `cargo author package classroom50` creates the two files that \
+                 this folder needs"
             )),
         }
     }

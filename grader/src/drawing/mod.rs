@@ -12,6 +12,7 @@ mod camera;
 mod canvas;
 mod hit_comparison;
 mod ink;
+mod light;
 mod numbers;
 mod plane;
 mod shapes;
@@ -84,6 +85,9 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
             }
             Geometry::BuiltTree { .. } => Some(along_ray::draw(&comparison)),
         };
+    }
+    if let Question::Light(table) = asked {
+        return light::draw(table, question, element, answer);
     }
     if let (Question::BBoxHit(table), Key::Table { rows, .. }) = (asked, key)
         && let ExpectedRows::Spans(spans) = rows

@@ -1,6 +1,7 @@
-//! Formatting of numbers in drawings.
+//! Formatting of numbers and of differences between directions.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use judging::describe;
 
 /// Formats a number with at most four significant digits, for use where six don't fit.
 pub(super) fn short(value: f64) -> String {
@@ -28,6 +29,25 @@ pub(super) fn short(value: f64) -> String {
 pub(super) fn point(value: DVec3) -> String {
     let [x, y, z] = value.to_array().map(short);
     format!("({x}, {y}, {z})")
+}
+
+/// Returns a sentence that says what is wrong with a direction. `name` is what the direction is
+/// called, and `wanted` has length one.
+pub(super) fn direction_difference(name: &str, wanted: Vec3, got: Vec3) -> String {
+    let (wanted, direction) = (wanted.as_dvec3(), got.as_dvec3());
+    let length = direction.length();
+    if !(length.is_finite() && length > 0.0) {
+        return format!("Your {name} {} is not a direction.", describe::point(got));
+    }
+    let degrees = direction.angle_between(wanted).to_degrees();
+    match degrees {
+        _ if degrees > 179.5 => format!("Your {name} points in the opposite direction."),
+        _ if degrees > 0.05 => format!("Your {name} is off by {}°.", short(degrees)),
+        _ => format!(
+            "Your {name} has length {}; it must be 1.",
+            describe::number(length as f32)
+        ),
+    }
 }
 
 #[cfg(test)]

@@ -41,7 +41,7 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
             ),
             (
                 changed,
-                "were changed, which may cause items of any task to fail",
+                "were changed, which may cause items in any task to fail",
             ),
         ] {
             if !methods.is_empty() {

@@ -55,7 +55,8 @@ pub fn options_of_each(
     if let (Some((option, _)), [_, _, ..]) = (single, assignments) {
         let ids: Vec<&str> = assignments.iter().map(|it| it.assignment.id).collect();
         return Err(Error::User(format!(
-            "{option} is for one assignment, but several have been started: add --assignment {}",
+            "{option} works with only one assignment, but several have been started: add \
+             --assignment {}",
             ids.join(" or --assignment ")
         )));
     }

@@ -120,7 +120,9 @@ impl FinalPoints {
         let days = |days: u32| counted(days as usize, "day");
         let late = match days(self.late_days) {
             days if self.is_assumed => {
-                format!("handed in late (how late is unknown, so it counts as {days})")
+                format!(
+                    "handed in late (counted as {days}, because the submission time is unknown)"
+                )
             }
             days => format!("handed in {days} late"),
         };

@@ -123,7 +123,7 @@ where
                 TaskEvent::Failed(error) => return Err(error.into()),
             }
         }
-        Err(io::Error::other("a thread that runs a task has panicked").into())
+        Err(io::Error::other("a thread running a task panicked").into())
     }
 
     /// Adds hints, which depend on the answers to the whole task.

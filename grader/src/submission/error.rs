@@ -133,7 +133,7 @@ impl TaskFileError {
             TaskFileError::NotRegular => format!("{name} is not a regular file"),
             TaskFileError::TooLong => format!("{name} is longer than 1 MiB"),
             TaskFileError::NotText(line) => format!(
-                "{name} is not UTF-8 text: line {line} has an invalid byte. Save it as UTF-8"
+                "{name} is not UTF-8 text: line {line} has an invalid byte. Save the file as UTF-8"
             ),
             TaskFileError::Unreadable(why) => format!("cannot read {name}: {why}"),
         }

@@ -176,8 +176,9 @@ fn a_file_may_be_as_long_as_the_limit() {
 fn the_line_of_a_byte_that_is_not_text_is_named() {
     for (bytes, line) in [(&b"ab\xffc\n"[..], 1), (b"a\nb\n\xff\n", 3)] {
         let error = decode(bytes.to_vec()).unwrap_err();
-        let expected =
-            format!("bvh.rs is not UTF-8 text: line {line} has an invalid byte. Save it as UTF-8");
+        let expected = format!(
+            "bvh.rs is not UTF-8 text: line {line} has an invalid byte. Save the file as UTF-8"
+        );
         assert_eq!(error.message("bvh.rs"), expected);
     }
 }

@@ -5,31 +5,53 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-use grader::handed_out::RAYS;
+use grader::handed_out::{HandedOut, LIGHT, RAYS};
 
 /// Unfolds everything on a page. Initially, only the first failed item of each task is unfolded.
 pub const OPEN_ALL: &str =
     "for (const details of document.querySelectorAll('details')) details.open = true; 0";
 
 /// The page of a submission where everything is correct.
-pub static PERFECT: LazyLock<PathBuf> = LazyLock::new(|| page("perfect", |_| {}));
+pub static PERFECT: LazyLock<PathBuf> = LazyLock::new(|| page("perfect", &RAYS, |_| {}));
 
 /// The page of a submission where nothing has been written yet.
 pub static STARTER: LazyLock<PathBuf> = LazyLock::new(|| {
-    page("starter", |source| {
-        copy(&workspace().join("grader/starter"), source);
+    page("starter", &RAYS, |source| {
+        copy(&RAYS, RAYS.starter, source);
     })
 });
 
 /// The largest page: every quantity in every picture is wrong and differs from pixel to pixel.
-pub static NOISY: LazyLock<PathBuf> = LazyLock::new(|| page("noisy", add_noise));
+pub static NOISY: LazyLock<PathBuf> = LazyLock::new(|| page("noisy", &RAYS, add_noise));
 
 /// The page of a submission that fails in many ways and tries to take over the page.
-pub static HOSTILE: LazyLock<PathBuf> = LazyLock::new(|| page("broken", add_hostile_text));
+pub static HOSTILE: LazyLock<PathBuf> = LazyLock::new(|| page("broken", &RAYS, add_hostile_text));
 
-/// Returns all four pages.
-pub fn all() -> [&'static Path; 4] {
-    [&PERFECT, &STARTER, &NOISY, &HOSTILE].map(|page| page.as_path())
+/// The page of a submission to part two with a drawing of each kind.
+pub static LIT: LazyLock<PathBuf> = LazyLock::new(|| page("lit", &LIGHT, add_light_mistakes));
+
+/// Returns all five pages.
+pub fn all() -> [&'static Path; 5] {
+    [&PERFECT, &STARTER, &NOISY, &HOSTILE, &LIT].map(|page| page.as_path())
+}
+
+fn add_light_mistakes(source: &Path) {
+    let swapped = "sample_cosine_hemisphere(Vec2::new(random.y, random.x))";
+    for (file, from, to) in [
+        ("material.rs", "sample_cosine_hemisphere(random)", swapped),
+        ("material.rs", "incoming.z * FRAC_1_PI", "FRAC_1_PI"),
+        (
+            "material.rs",
+            "-out.x, -out.y, out.z",
+            "-out.x, out.y, out.z",
+        ),
+        ("lights.rs", "target < power", "target > power"),
+        ("lights.rs", "share * light.pdf", "light.pdf"),
+        ("environment.rs", "(luminance(*pixel) * sine)", "(sine)"),
+        ("environment.rs", "1.0 - 2.0 * random.x", "random.x"),
+    ] {
+        replace(source, file, from, to);
+    }
 }
 
 fn add_noise(source: &Path) {
@@ -71,17 +93,18 @@ fn add_hostile_text(source: &Path) {
 
 /// Grades a copy of the reference after `prepare` has changed it. Returns the path of the page. The
 /// page stays in the target folder until the next run.
-fn page(name: &str, prepare: impl FnOnce(&Path)) -> PathBuf {
+fn page(name: &str, handed_out: &HandedOut, prepare: impl FnOnce(&Path)) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("pages")
         .join(name);
     let source = folder.join("alice");
     fs::create_dir_all(&source).unwrap();
-    copy(&workspace().join("reference/src"), &source);
+    copy(handed_out, handed_out.reference, &source);
     prepare(&source);
     let output = Command::new(env!("CARGO_BIN_EXE_grader"))
         .current_dir(workspace())
         .arg(&source)
+        .args(["--assignment", handed_out.assignment.id])
         .arg("--out")
         .arg(&folder)
         .output()
@@ -95,8 +118,11 @@ fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-fn copy(from: &Path, to: &Path) {
-    for file in RAYS.file_names().filter(|file| from.join(file).is_file()) {
+/// Copies an assignment's files from a folder in the workspace.
+fn copy(handed_out: &HandedOut, from: &str, to: &Path) {
+    let from = workspace().join(from);
+    let names = handed_out.file_names();
+    for file in names.filter(|file| from.join(file).is_file()) {
         fs::copy(from.join(file), to.join(file)).unwrap();
     }
 }

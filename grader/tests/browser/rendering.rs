@@ -35,7 +35,7 @@ fn no_page_logs_errors_sends_requests_or_runs_injected_scripts(chromium: &Chromi
         assert_eq!(tab.requests(), [""; 0]);
         let title = tab.eval("document.title");
         let title = title.as_str().unwrap();
-        let parts = ["Path tracing: rays and a BVH: ", " of 100 points, alice"];
+        let parts = ["Path tracing: ", " of 100 points, alice"];
         assert!(
             title.starts_with(parts[0]) && title.ends_with(parts[1]),
             "{title}"

@@ -101,8 +101,8 @@ fn options_for_one_assignment_need_to_know_which() {
     for option in [&["--require", "50"][..], &["--format", "json"], &out] {
         let output = grade(&folder, option);
         let why = format!(
-            "{} is for one assignment, but several have been started: add --assignment rays or \
-             --assignment light",
+            "{} works with only one assignment, but several have been started: add --assignment \
+             rays or --assignment light",
             option[0]
         );
         assert_fails(&output, 2, &why);

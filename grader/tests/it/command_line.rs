@@ -187,7 +187,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             "sphere.near_side",
             &[
                 "protocols",
-                "sphere.near_side can only be run once this file compiles\n",
+                "sphere.near_side cannot be run until this file compiles\n",
             ],
         ),
         // An error in a different task's file doesn't matter.

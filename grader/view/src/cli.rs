@@ -25,8 +25,8 @@ pub struct Arguments {
     #[arg(default_value = "cornell-box", conflicts_with = "item")]
     pub scene: String,
 
-    /// Show a question from the practice exam, such as traverse.prunes#3, or the first question of
-    /// an item
+    /// Show a question from the practice exam, such as traverse.prunes#3; without a number, show
+    /// the item's first question
     #[arg(long, value_name = "ITEM#N")]
     pub item: Option<QuestionRef>,
 
@@ -50,7 +50,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = value_parser!(u32).range(..=10_000))]
     pub bounces: u32,
 
-    /// Seed of all random numbers
+    /// Seed for all random numbers
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
 
@@ -78,7 +78,7 @@ pub struct Arguments {
     #[arg(long)]
     pub reference_light: bool,
 
-    /// Show a submission, which is a folder or an archive (course staff)
+    /// Show this submission, a folder or an archive (course staff)
     #[arg(long, value_name = "PATH")]
     pub submission: Option<PathBuf>,
 

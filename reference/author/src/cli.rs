@@ -59,8 +59,8 @@ pub enum Command {
     Bundle(BundleArgs),
     /// Write the autograder package that instructors upload to a platform
     Package(PackageArgs),
-    /// List the items that each known mistake fails with every seed, and write the table of the
-    /// items that it fails in the practice exam
+    /// List the items that each known mistake fails with every seed, and write the table of those
+    /// it fails in the practice exam
     Mistakes(MistakesArgs),
     /// Write the table that shows which items test each sentence of the contract
     Coverage(CheckArgs),
@@ -73,8 +73,7 @@ pub enum Command {
         /// Grade only a fixed sample of the mutants
         #[arg(long)]
         fast: bool,
-        /// Grade only the mutants of one task, such as sphere, or of all tasks in a file, such as
-        /// bvh
+        /// Grade only the mutants of one task (e.g. sphere) or of all tasks in a file (e.g. bvh)
         #[arg(long, value_name = "TASK", conflicts_with = "record")]
         task: Option<String>,
         /// Whether to record the result.
@@ -144,13 +143,14 @@ pub struct PackageArgs {
 pub struct MistakesArgs {
     /// The number of seeds to grade the mistakes with, counting from 0; the default is 20, or 1
     /// with `--check`. The 50 least clearly caught mistakes are graded with ten times as many
+    /// seeds
     #[arg(long, value_name = "N")]
     pub seeds: Option<u64>,
     /// Write only the table, which takes a minute; leave the lists unchanged
     #[arg(long, conflicts_with_all = ["seeds", "check"])]
     pub table: bool,
-    /// Grade only the mistakes in one task, such as sphere, or in all tasks in a file, such as bvh,
-    /// and write only their lists
+    /// Grade only the mistakes in one task (e.g. sphere) or in all tasks in a file (e.g. bvh), and
+    /// write only their lists
     #[arg(long, value_name = "TASK", conflicts_with_all = ["seeds", "table", "check", "record"])]
     pub task: Option<String>,
     /// Whether to write the lists and the table, or to check them.

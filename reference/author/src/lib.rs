@@ -14,12 +14,12 @@
 //! | the command line | [`cli`] |
 //! | packages for platforms; the proof that the exam is right, and what it covers | [`package`], [`proof`], [`coverage`] |
 //! | whole exams; the students' bundle | [`exams`], [`bundle`] |
-//! | additions to an exam | [`hints`], [`drawing_data`] |
+//! | additions to an exam; part two's files | [`hints`], [`drawing_data`], [`light`] |
 //! | solutions, and how they are built and run | [`solutions`] |
 //! | assignments as data | [`authoring`] |
 //! | an exam's items | [`items`] |
 //! | what the contract allows | [`domains`] |
-//! | trees with decoys; other generated files | [`tree`], [`starter`], [`light`] |
+//! | trees with decoys; other generated files | [`tree`], [`starter`] |
 //! | correct answers, random numbers, files | [`oracle`], [`seed`], [`generated_file`], [`long_runs`] |
 
 pub mod authoring;

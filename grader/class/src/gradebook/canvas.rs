@@ -12,7 +12,7 @@ use crate::names::{given_name_first, is_number, joined};
 use crate::roster::POINTS_POSSIBLE;
 use crate::table::{Table, missing_column};
 
-const REMEDY: &str = "export the gradebook from Canvas (Grades, Export), and pass that file";
+const REMEDY: &str = "export the gradebook from Canvas (Grades, Export) and pass that file";
 /// The title of the last of the columns that identify people.
 const SECTION: &str = "Section";
 /// Canvas silently ignores any column whose title contains one of these texts.

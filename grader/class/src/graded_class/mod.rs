@@ -260,9 +260,9 @@ impl PersonGrade {
     /// staff's comments. No explanation is needed if the score is used unchanged.
     pub fn explanation(&self) -> Vec<String> {
         let counts = match (&self.problem, &self.counted) {
-            (Some(problem @ GradeProblem::OtherAttempt(_)), _) => {
-                Some(format!("No points count towards the grade: {problem}."))
-            }
+            (Some(problem @ GradeProblem::OtherAttempt(_)), _) => Some(format!(
+                "None of the points count towards the grade: {problem}."
+            )),
             // The other problems are for staff, and may name other people.
             (Some(_), _) => Some(
                 "None of the points count yet: the staff still have to decide on them.".to_owned(),

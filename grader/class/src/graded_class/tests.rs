@@ -170,8 +170,8 @@ fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff(
     late.info.late = true;
     let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()], &[]);
     let texts = [
-        "80 of 100 points count towards the grade: 80 of 100 points earned, handed in late (how \
-         late is unknown, so it counts as 1 day), which costs nothing.",
+        "80 of 100 points count towards the grade: 80 of 100 points earned, handed in late \
+         (counted as 1 day, because the submission time is unknown), which costs nothing.",
     ];
     assert_eq!(late.counted_texts(), texts);
     assert_eq!(late.notes(), texts);
@@ -223,7 +223,7 @@ fn a_problem_is_explained_instead_of_points() {
     let texts = problems().map(|problem| with_problem(problem).explanation().join("\n"));
     insta::assert_snapshot!(texts.join("\n"), @"
     None of the points count yet: the staff still have to decide on them.
-    No points count towards the grade: submission b from the same person counts instead.
+    None of the points count towards the grade: submission b from the same person counts instead.
     None of the points count yet: the staff still have to decide on them.
     ");
     assert_eq!(PersonGrade::default().explanation(), Vec::<String>::new());

@@ -128,9 +128,9 @@ impl Reader<'_> {
                 let names = sanitize_line(&joined(names, ", "), MAX_CHARS);
                 let group = sanitize_line(&group.name, MAX_CHARS);
                 return Err(Error::user(format!(
-                    "the folder {group} contains folders with several projects ({names}), each of \
-                     which would be graded as one submission: pass the path of the folder {group} \
-                     (if it is in an archive, unpack the archive first)"
+                    "the folder {group} contains folders with several projects ({names}), and each \
+                     of these folders would be graded as one submission: pass the path of the \
+                     folder {group} (if it is in an archive, unpack the archive first)"
                 )));
             }
         }
@@ -204,8 +204,8 @@ impl Reader<'_> {
         let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
         if !odd.is_empty() && is_majority(&prefix, &all) {
             names.notes.push(format!(
-                "most folder names begin with {prefix}, unlike {odd}: if this is from another \
-                 assignment or from staff, move it elsewhere"
+                "most folder names begin with {prefix}, unlike {odd}: if any of these are from \
+                 another assignment or from staff, move them elsewhere"
             ));
         }
         for SubmissionNode { parts, .. } in &mut names.found {
@@ -282,8 +282,9 @@ fn unlisted_prefix<'a>(names: &[&'a str], separator: char) -> Result<&'a str, Er
     let odd = sanitize_line(&joined(odd, ", "), MAX_CHARS);
     Err(Error::user(format!(
         "most folder names begin with {longer}, unlike {odd}, so it is unclear where the students' \
-         names begin: if this is from another assignment or from staff, move it elsewhere; \
-         otherwise, pass a list with the students' accounts or names, for example with --roster"
+         names begin: if any of these are from another assignment or from staff, move them \
+         elsewhere; otherwise, pass a list with the students' accounts or names, for example with \
+         --roster"
     )))
 }
 

@@ -45,8 +45,8 @@ pub fn merge_shards(
     if !missing.is_empty() {
         let missing = joined(missing.iter().map(Shard::to_string), ", ");
         return Err(Error::user(format!(
-            "results are missing for {missing}: pass the output folders of all parts, or the \
-             merged grades would be incomplete"
+            "results are missing for {missing}, so the merged grades would be incomplete: pass the \
+             output folders of all parts"
         )));
     }
     let out = Store::new(&arguments.out);
@@ -132,7 +132,7 @@ fn check_out(arguments: &MergeArguments) -> Result<(), Error> {
     let holds_out = |shard: &&PathBuf| contains(shard, &arguments.out);
     match arguments.shards.iter().find(holds_out) {
         Some(shard) => Err(Error::user(format!(
-            "{} is part of the results of shard {}: choose a different folder for --out",
+            "{} is inside the shard's folder {}: choose a different folder for --out",
             arguments.out.display(),
             shard.display()
         ))),

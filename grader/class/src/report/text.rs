@@ -165,7 +165,7 @@ pub fn render_changes(changes: &Changes) -> String {
     let mut text: String = changes.regrade.iter().map(render_regrade).collect();
     let resubmitted = with_changed_points(&changes.resubmitted);
     if !resubmitted.is_empty() {
-        let rest = " (replaced.json has the earlier score)";
+        let rest = " (see replaced.json for the earlier score)";
         text += &section("changed submissions", rest, change_lines(&resubmitted, ""));
     }
     let grades = changes.grades.iter().filter(|grades| !grades.is_empty());
@@ -187,7 +187,7 @@ fn render_regrade(regrade: &RegradeChanges) -> String {
     let title = format!("regraded: {} changed", count_or_no(changes.len(), "score"));
     let count = regrade.scores.len() - changes.len();
     let same = format!(
-        "{count} more with the same total, but different points for some items, in drift.json"
+        "{count} more in drift.json, with the same total but different points for some items"
     );
     let same = (count > 0).then_some(same);
     let lines = change_lines(&changes, ", in drift.json").chain(same);

@@ -125,7 +125,7 @@ fn a_missing_file_costs_its_tasks_points_and_can_be_handed_in_later() {
     let [text] = texts(&class).try_into().unwrap();
     let expected = [
         "To: fay",
-        "- fay: these files are missing, so their tasks have 0 points: camera.rs\n",
+        "- fay: these files are missing, so their tasks earn 0 points: camera.rs\n",
     ];
     assert_contains(&text, &expected);
     let page = class.read("students/fay/feedback.html");

@@ -46,8 +46,8 @@ fn the_policy_says_which_of_several_attempts_counts() {
     assert_eq!(ann("ann", "status"), "another attempt counts");
     let row = "\"Lee, Ann\",7001,u1,ann,A,100";
     assert_contains(&class.read("canvas.csv"), &[row]);
-    let text =
-        "No points count towards the grade: submission u1 from the same person counts instead.";
+    let text = "None of the points count towards the grade: submission u1 from the same person \
+                counts instead.";
     assert_contains(&class.read("students/ann/feedback.html"), &[text]);
 
     // Without times, the latest attempt is unknown.

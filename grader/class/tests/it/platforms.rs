@@ -85,7 +85,8 @@ fn the_policy_chooses_among_attempts_by_their_times() {
     let best = ("policy", &*policy.replace("latest", "best"));
     let printed = class.graded_with(&exam, &[best], &[]);
     let [one, other] = ["19", "21"].map(|day| format!("john_doe_2026-11-{day}-10-00-00"));
-    let change = format!("\n  {one} (John Doe): 0 → 2: it counts instead of {other}, graded");
+    let change =
+        format!("\n  {one} (John Doe): 0 → 2: this attempt counts instead of {other}, graded");
     assert_contains(
         &printed,
         &["1 final grade changed (changed: the policy)", &change],
@@ -364,7 +365,7 @@ fn the_folder_above_a_gitlab_group_is_refused_with_the_one_to_pass() {
     let chosen = ["--layout", "gitlab"];
     let class = group(&["mon/pt-ann", "mon/pt-bob", "tue/pt-eve"]);
     let error = class.refused_preview(&chosen);
-    assert_snapshot!(error, @"error: the folder cg26 contains folders with several projects (mon, tue), each of which would be graded as one submission: pass the path of the folder cg26 (if it is in an archive, unpack the archive first)");
+    assert_snapshot!(error, @"error: the folder cg26 contains folders with several projects (mon, tue), and each of these folders would be graded as one submission: pass the path of the folder cg26 (if it is in an archive, unpack the archive first)");
     let preview = class.preview_of(&class.input().join("cg26"), &chosen);
     assert_contains(&preview, &["3 submissions", "  ann: all", "  eve: all"]);
     assert_contains(&class.refused_preview(&[]), &["pass this folder"]);

@@ -115,7 +115,7 @@ fn a_changed_submission_keeps_its_old_score_and_removed_students_are_named() {
     let text = class.graded(&exam, &[]);
     let expected = [
         "  bob: 0 → 3\n",
-        "      camera.offset 0 → 2: pass; it was",
+        "      camera.offset 0 → 2: pass; previously",
         "  carl: 3 → no score\n",
         "  dora: 3 points\n",
     ];

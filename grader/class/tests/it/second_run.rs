@@ -214,17 +214,17 @@ fn a_grade_is_listed_if_an_earlier_or_later_attempt_has_none() {
     insta::assert_snapshot!(all.join("\n"), @r"
     latest
     3 final grades changed
-    ann_2026-11-20-10-00-00 (ann): 3 → 2: it counts instead of ann_2026-11-18-10-00-00, graded 3 → 2
-    bob_2026-11-20-10-00-00 (bob): no points (nothing to grade) → 3: it counts instead of bob_2026-11-19-10-00-00
-    eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: it counts instead of eva_2026-11-18-10-00-00
+    ann_2026-11-20-10-00-00 (ann): 3 → 2: this attempt counts instead of ann_2026-11-18-10-00-00, graded 3 → 2
+    bob_2026-11-20-10-00-00 (bob): no points (nothing to grade) → 3: this attempt counts instead of bob_2026-11-19-10-00-00
+    eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: this attempt counts instead of eva_2026-11-18-10-00-00
     1 final grade changed
     ann_2026-11-21-10-00-00 (ann): 2 → no points (nothing to grade): this attempt replaces ann_2026-11-20-10-00-00
     1 final grade changed
-    ann_2026-11-20-10-00-00 (ann): no points (nothing to grade) → 2: it counts instead of ann_2026-11-21-10-00-00
+    ann_2026-11-20-10-00-00 (ann): no points (nothing to grade) → 2: this attempt counts instead of ann_2026-11-21-10-00-00
     best
     2 final grades changed
-    bob_2026-11-20-10-00-00 (bob): 2 → 3: it counts instead of bob_2026-11-18-10-00-00, graded 2 → 3
-    eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: it counts instead of eva_2026-11-18-10-00-00
+    bob_2026-11-20-10-00-00 (bob): 2 → 3: this attempt counts instead of bob_2026-11-18-10-00-00, graded 2 → 3
+    eva_2026-11-20-10-00-00 (eva): no points (nothing to grade) → 3: this attempt counts instead of eva_2026-11-18-10-00-00
     ");
 }
 

@@ -43,7 +43,8 @@ fn a_late_flag_without_a_time_is_said_to_count_as_one_day() {
     let policy = ("policy", "[late]\npercent_per_day = 10\n");
     let printed = class.graded_with(&exam, &[policy], &["--hand-back"]);
     assert_contains(&printed, &["1 counted as on time or 1 day late because"]);
-    let sentence = "handed in late (how late is unknown, so it counts as 1 day), so 10% of";
+    let sentence =
+        "handed in late (counted as 1 day, because the submission time is unknown), so 10% of";
     for page in ["class.html", "students/doejane_7001/feedback.html"] {
         assert_contains(&class.read(page), &[sentence]);
     }

@@ -30,6 +30,7 @@ pub use credit::Credit;
 pub use deviation::{Deviation, Measurement};
 pub use element_error::element_error;
 pub use mismatch::{Aspect, Mismatch};
+pub use spread::cell_counts;
 pub use threshold::Threshold;
 
 /// The result for one question.

@@ -34,15 +34,13 @@ impl Spread<'_> {
 
     /// Returns χ² of the numbers of directions in the cells. Infinite if there are no directions.
     fn chi_squared(&self) -> f64 {
-        let mut cells = [0.0; CELLS[0] * CELLS[1]];
-        for outcome in self.answer {
-            if let Some(LocalDirection { direction }) = outcome.value() {
-                cells[cell(*direction)] += 1.0;
-            }
-        }
-        let expected = self.answer.len() as f64 / cells.len() as f64;
-        let terms = cells.map(|count: f64| (count - expected).powi(2) / expected);
-        let sum: f64 = terms.iter().sum();
+        let counts = cell_counts(self.answer);
+        let counts = counts.as_flattened();
+        let expected = self.answer.len() as f64 / counts.len() as f64;
+        let terms = counts
+            .iter()
+            .map(|count| (f64::from(*count) - expected).powi(2) / expected);
+        let sum: f64 = terms.sum();
         if sum.is_nan() { f64::INFINITY } else { sum }
     }
 
@@ -95,15 +93,28 @@ impl Comparison for Spread<'_> {
     }
 }
 
-/// Returns the index of the cell that contains a direction.
-fn cell(direction: Vec3) -> usize {
+/// Returns the number of directions in each cell of the sphere. The outer index is the band, from
+/// y = -1 to y = 1, and the inner one the sector, counted from +x toward +z.
+pub fn cell_counts(answer: &[ElementOutcome<LocalDirection>]) -> [[u32; CELLS[1]]; CELLS[0]] {
+    let mut counts = [[0; CELLS[1]]; CELLS[0]];
+    for outcome in answer {
+        if let Some(LocalDirection { direction }) = outcome.value() {
+            let [band, sector] = cell(*direction);
+            counts[band][sector] += 1;
+        }
+    }
+    counts
+}
+
+/// Returns the band and the sector of the cell that contains a direction.
+fn cell(direction: Vec3) -> [usize; 2] {
     let [bands, sectors] = CELLS;
     let direction = direction.as_dvec3();
     // Casts saturate, so a direction on the last border, or without a length, is in some cell too.
     let band = ((direction.y + 1.0) / 2.0 * bands as f64) as usize;
     let turn = direction.z.atan2(direction.x).rem_euclid(TAU) / TAU;
     let sector = (turn * sectors as f64) as usize;
-    band.min(bands - 1) * sectors + sector.min(sectors - 1)
+    [band.min(bands - 1), sector.min(sectors - 1)]
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ fn draw_legend(sheet: &mut Sheet, criteria: &TreeCriteria, flaw: &Flaw, symbol: 
         interior,
         "a split node; a stronger colour means a larger box",
     );
-    sheet.add_legend(leaf, "a leaf (half height); numbers count primitives");
+    sheet.add_legend(leaf, "a leaf (half height); numbers are primitive counts");
     if flaw.node.is_some() {
         sheet.add_legend(symbol, flaw.label());
     }

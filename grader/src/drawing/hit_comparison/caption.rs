@@ -1,11 +1,10 @@
 //! Captions that say what is wrong with a hit.
 
-use glam::Vec3;
 use judging::describe;
 use protocol::Trace;
 
 use super::{Focus, HitAnswer, HitComparison};
-use crate::drawing::numbers::short;
+use crate::drawing::numbers::{direction_difference, short};
 
 impl HitComparison {
     /// Returns a sentence that says what is wrong with the submitted hit.
@@ -57,7 +56,7 @@ impl HitComparison {
                 describe::point(got.position),
                 describe::point(wanted.position)
             ),
-            Focus::Normal => normal_difference(wanted.normal, got.normal),
+            Focus::Normal => direction_difference("normal", wanted.normal, got.normal),
             Focus::Uv => format!(
                 "Your uv is {}; the correct uv is {}.",
                 describe::uv(got.uv),
@@ -73,23 +72,5 @@ impl HitComparison {
                 got.shape, wanted.shape
             ),
         }
-    }
-}
-
-fn normal_difference(wanted: Vec3, normal: Vec3) -> String {
-    let (wanted, got) = (wanted.as_dvec3(), normal.as_dvec3());
-    let length = got.length();
-    if !(length.is_finite() && length > 0.0) {
-        let normal = describe::point(normal);
-        return format!("Your normal {normal} has no direction.");
-    }
-    let degrees = got.angle_between(wanted).to_degrees();
-    match degrees {
-        _ if degrees > 179.5 => "Your normal points in the opposite direction.".to_owned(),
-        _ if degrees > 0.05 => format!("Your normal is off by {}°.", short(degrees)),
-        _ => format!(
-            "Your normal has length {}; it must be 1.",
-            describe::number(length as f32)
-        ),
     }
 }

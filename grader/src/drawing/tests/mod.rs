@@ -8,11 +8,15 @@ use std::sync::LazyLock;
 use glam::{Vec2, Vec3};
 use judging::exam::ExamQuestion;
 use proptest::prelude::*;
-use protocol::{Answer, ElementOutcome, Interval, Panic, Question, Ray, Trace, Tree, TreeNode};
+use protocol::light::LightQuestion;
+use protocol::{
+    Answer, Color, Density, ElementOutcome, Fraction, Interval, LocalDirection, Panic, Question,
+    Ray, Scattered, Trace, Tree, TreeNode,
+};
 use roxmltree::Document;
 
 use super::{Drawing, draw};
-use crate::handed_out::RAYS;
+use crate::handed_out::{HandedOut, LIGHT, RAYS};
 use crate::inputs::exam_source::ExamSource;
 
 /// An answer that doesn't fit any question that has a drawing.
@@ -21,17 +25,21 @@ const NO_PICTURE: Answer = Answer::Picture(ElementOutcome::Skipped);
 /// A size that no drawing reaches.
 const MAX_BYTES: usize = 130_000;
 
-/// The first question of each item in the practice exam.
+/// The first question of each item in both practice exams.
 static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
-    let exam = ExamSource::Practice
-        .load(&RAYS)
-        .expect("the practice exam is embedded")
-        .exam;
-    let items = exam.items.into_iter();
-    items
-        .filter_map(|item| item.questions.into_iter().next())
+    [&RAYS, &LIGHT]
+        .into_iter()
+        .flat_map(first_questions)
         .collect()
 });
+
+fn first_questions(handed_out: &HandedOut) -> impl Iterator<Item = ExamQuestion> + use<> {
+    let exam = ExamSource::Practice.load(handed_out);
+    let items = exam.expect("the practice exam is embedded").exam.items;
+    items
+        .into_iter()
+        .filter_map(|item| item.questions.into_iter().next())
+}
 
 /// Generates numbers that a submission's answer may contain, including extreme values.
 fn number() -> impl Strategy<Value = f32> {
@@ -83,6 +91,15 @@ fn trace() -> impl Strategy<Value = Trace> {
     })
 }
 
+fn scattered() -> impl Strategy<Value = Scattered> {
+    let fields = (point(), point(), prop::option::of(number()));
+    fields.prop_map(|(direction, attenuation, pdf)| Scattered {
+        direction,
+        attenuation,
+        pdf,
+    })
+}
+
 fn tree() -> impl Strategy<Value = Tree> {
     let node = (point(), point(), [0..9u32, 0..9u32, 0..9u32, 0..9u32]);
     let node = node.prop_map(|(min, max, [start, size, l, r])| TreeNode {
@@ -110,19 +127,64 @@ fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
         outcome(prop::option::of(trace())),
         outcome(prop::option::of(interval())),
         outcome(tree()),
+        outcome(scattered()),
     );
     (0..QUESTIONS.len(), any::<prop::sample::Index>(), answers).prop_map(
-        |(index, element, (ray, hit, span, tree))| {
+        |(index, element, (ray, hit, span, tree, scattered))| {
             let count = QUESTIONS[index].question.count();
-            let answer = match QUESTIONS[index].key.answer() {
-                Some(Answer::Rays(_)) => Answer::Rays(vec![ray; count]),
-                Some(Answer::Hits(_)) => Answer::Hits(vec![hit; count]),
-                Some(Answer::Spans(_)) => Answer::Spans(vec![span; count]),
-                Some(Answer::Picture(_)) => NO_PICTURE,
-                Some(Answer::Tree(_)) | None => Answer::Tree(tree),
-                // Nothing else is drawn.
-                Some(_) => Answer::Directions(Vec::new()),
-            };
+            let answer =
+                match QUESTIONS[index].key.answer() {
+                    Some(Answer::Rays(_)) => Answer::Rays(vec![ray; count]),
+                    Some(Answer::Hits(_)) => Answer::Hits(vec![hit; count]),
+                    Some(Answer::Spans(_)) => Answer::Spans(vec![span; count]),
+                    Some(Answer::Picture(_)) => NO_PICTURE,
+                    Some(Answer::Directions(_)) => {
+                        Answer::Directions(vec![
+                            scattered.map(|one| LocalDirection {
+                                direction: one.direction
+                            });
+                            count
+                        ])
+                    }
+                    Some(Answer::OptionalDirections(_)) => Answer::OptionalDirections(vec![
+                    scattered.map(|one| {
+                        one.pdf.map(|_| LocalDirection { direction: one.direction })
+                    });
+                    count
+                ]),
+                    Some(Answer::Scattered(_)) => Answer::Scattered(vec![scattered; count]),
+                    Some(Answer::Colors(_)) => Answer::Colors(vec![
+                        scattered.map(|one| Color {
+                            value: one.attenuation
+                        });
+                        count
+                    ]),
+                    Some(Answer::Densities(_)) => {
+                        Answer::Densities(vec![
+                            scattered.map(|one| Density {
+                                pdf: one.attenuation.x
+                            });
+                            count
+                        ])
+                    }
+                    Some(Answer::Fractions(_)) => {
+                        Answer::Fractions(vec![
+                            scattered.map(|one| Fraction {
+                                fraction: one.attenuation.x
+                            });
+                            count
+                        ])
+                    }
+                    None if matches!(QUESTIONS[index].question, Question::Light(_)) => {
+                        Answer::Directions(vec![
+                            scattered.map(|one| LocalDirection {
+                                direction: one.direction
+                            });
+                            count
+                        ])
+                    }
+                    Some(Answer::Tree(_)) | None => Answer::Tree(tree),
+                };
             (index, element.index(count.max(1)), answer)
         },
     )
@@ -175,10 +237,17 @@ fn draws_the_expected_result_without_an_answer() {
     for question in QUESTIONS.iter() {
         let drawing = draw(question, 0, None);
         drawing.iter().for_each(assert_well_formed);
-        let is_expected = matches!(
-            question.question,
-            Question::SampleRay(_) | Question::Hit(_) | Question::BBoxHit(_)
-        );
+        let is_expected = match &question.question {
+            Question::SampleRay(_) | Question::Hit(_) | Question::BBoxHit(_) => true,
+            // Whole scenes aren't drawn, and how directions are spread is up to the submission.
+            Question::Light(table) => !matches!(
+                table,
+                LightQuestion::Direct(_)
+                    | LightQuestion::Radiance(_)
+                    | LightQuestion::UniformSphere(_)
+            ),
+            Question::Build { .. } | Question::Radiance { .. } => false,
+        };
         assert_eq!(drawing.is_some(), is_expected, "{:?}", question.key);
     }
 }

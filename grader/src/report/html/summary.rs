@@ -31,7 +31,7 @@ pub(super) fn header(score: &Score) -> Markup {
                 p .unfinished {
                     strong { "Not finished." }
                     " This page was written while grading was still running. If grading has \
-                     stopped since, the items marked “" (Verdict::Pending.label()) "” were never \
+                     since stopped, the items marked “" (Verdict::Pending.label()) "” were never \
                      graded."
                 }
             }

@@ -34,8 +34,8 @@ pub(super) fn restrict(request: &LaunchRequest, program: &Program) -> io::Result
     // With namespaces, other files are already out of reach, so Landlock isn't essential.
     if status.ruleset == RulesetStatus::NotEnforced && request.level < Isolation::Full {
         return Err(io::Error::other(
-            "cannot use Landlock: the kernel does not support it (Linux 5.13 or newer, with `landlock` in \
-             /sys/kernel/security/lsm), or a container's rules forbid it",
+            "cannot use Landlock: the kernel does not support it (this requires Linux 5.13 or \
+             newer, with `landlock` in /sys/kernel/security/lsm), or a container's rules forbid it",
         ));
     }
     Ok(())

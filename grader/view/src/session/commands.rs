@@ -77,7 +77,9 @@ impl Session {
             Command::Film([width, height]) => {
                 let side = 1..=MAX_SIDE;
                 if !side.contains(width) || !side.contains(height) {
-                    return Err(format!("each side must have 1 to {MAX_SIDE} pixels"));
+                    return Err(format!(
+                        "the width and height must be from 1 to {MAX_SIDE} pixels"
+                    ));
                 }
                 self.shown.film = UVec2::new(*width, *height);
                 self.restart(now);

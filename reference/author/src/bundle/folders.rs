@@ -77,7 +77,7 @@ pub(crate) fn copy_tree(source: &Path, path: &str, bundle: &mut Bundle) -> Resul
 
 fn not_plain(path: &Path) -> String {
     format!(
-        "{} must be a regular file or a folder, with a UTF-8 name, or students can't unpack it: \
+        "{} must be a regular file or folder with a UTF-8 name, or students can't unpack it: \
          remove it",
         path.display()
     )

@@ -103,8 +103,8 @@ impl Coverage {
         for (text, asked) in tested.iter().chain(&untested) {
             if sentences.iter().filter(|it| is_meant(text, it)).count() != 1 {
                 let problem = format!(
-                    "{}: {asked} must refer to exactly one sentence, not to {text:?}: quote it \
-                     up to its full stop, or only its beginning, followed by an ellipsis (…)",
+                    "{}: {asked}: {text:?} must match exactly one sentence: quote it up to its \
+                     full stop, or only its beginning, followed by an ellipsis (…)",
                     task.id
                 );
                 self.problems.push(problem);
@@ -262,8 +262,8 @@ mod tests {
         let sentences = ["A flat box can be hit.", "Use `times`."].map(str::to_owned);
         coverage.add_task(task, &sentences, &authored);
         let expected = [
-            "bbox: `flat` must refer to exactly one sentence, not to \"Another sentence.\": quote it \
-             up to its full stop, or only its beginning, followed by an ellipsis (…)",
+            "bbox: `flat`: \"Another sentence.\" must match exactly one sentence: quote it up to \
+             its full stop, or only its beginning, followed by an ellipsis (…)",
             "bbox: \"A flat box can be hit.\" needs either items or a reason",
             "bbox: \"Use `times`.\" needs either items or a reason",
         ];

@@ -172,7 +172,7 @@ mod tests {
             "a.md:3: `cargo grade --task spheres`: error: invalid value 'spheres' for '--task <TASK>'",
             "a.md:4: cargo has no command gradee",
             "a.md:5: no command has the flag --views",
-            "a.md:6: no file with examples is named tree.rs",
+            "a.md:6: there is no file with examples called tree.rs",
             "a.md:7: unknown command make",
             "a.md:8: `cargo handin --zip`: error: unexpected argument '--zip' found",
             "a.md:9: `cargo class a --shard 9/8`: error: invalid value '9/8'",

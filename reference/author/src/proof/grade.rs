@@ -76,7 +76,7 @@ impl<'a> GradedSolution<'a> {
             if !expected.tasks.iter().any(|task| is_of(item, task)) {
                 let item = &item.id;
                 problems.push(format!(
-                    "{id} costs points in {item}, an item of another task"
+                    "{id} costs points in {item}, which belongs to another task"
                 ));
             }
         }

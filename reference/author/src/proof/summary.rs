@@ -82,7 +82,8 @@ impl ProofSummary {
             let passed = result.passed.iter();
             passed.map(|(id, items)| {
                 format!(
-                    "note: with seed {}, {id} passes {}, which it fails with every seed in {}",
+                    "note: with seed {}, {id} passes {}, which it fails with every seed \
+                     according to {}",
                     result.seed,
                     items.join(", "),
                     failed_items::FILE
@@ -123,8 +124,8 @@ mod tests {
         assert_eq!(
             summary.notes(),
             [
-                "note: with seed 5000, bbox.a passes bbox.flat, which it fails with every seed in \
-                 mistakes/fails.toml"
+                "note: with seed 5000, bbox.a passes bbox.flat, which it fails with every seed \
+                 according to mistakes/fails.toml"
             ]
         );
     }

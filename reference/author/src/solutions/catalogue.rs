@@ -96,7 +96,7 @@ pub fn mistakes(root: &Path, handed_out: &HandedOut) -> Result<Vec<Mistake>> {
             let known = all.iter().any(|other| other.id == mistake.id);
             if known || !mistake.id.starts_with(&format!("{task}.")) {
                 bail!(
-                    "mistakes/{task}: the id `{}` must be unique and begin with the id of its task \
+                    "mistakes/{task}: the id `{}` must be unique and begin with its task's id \
                      and a dot, such as `camera.`",
                     mistake.id
                 );
@@ -224,7 +224,7 @@ impl Solutions {
         let task = Task::in_id(id).filter(|_| !is_known(id) && are_known);
         task.ok_or_else(|| {
             anyhow!(
-                "{id} in mistakes/{folder}: its id must begin with the name of a task and a dot, \
+                "{id} in mistakes/{folder}: its id must begin with a task's name and a dot, \
                  and must not be the id of a known mistake; `true_hints` must name known mistakes"
             )
         })
@@ -280,8 +280,8 @@ impl Mistake {
             title: known.title.clone(),
             sources: sources.map_err(|(file, count)| {
                 anyhow!(
-                    "{id} no longer applies: its `was` must occur once in {file} with its given \
-                        code, but occurs {count} times; update `was` in mistakes/independent"
+                    "{id} no longer applies: its `was` must occur once in the variant's {file}, \
+                        but occurs {count} times; update `was` in mistakes/independent"
                 )
             })?,
             expected,

@@ -132,8 +132,8 @@ fn reports_an_independent_mistake_that_does_not_apply() {
     let message = |mistake: Mistake| mistake.in_variant(&SOLUTIONS).unwrap_err().to_string();
     let in_sphere = message(mistake("sphere.far_first", "sphere.full_quadratic"));
     let expected = "sphere.far_first in sphere.full_quadratic no longer applies: its `was` must \
-                    occur once in sphere.rs with its given code, but occurs 4 times; update `was` \
-                    in mistakes/independent";
+                    occur once in the variant's sphere.rs, but occurs 4 times; update `was` in \
+                    mistakes/independent";
     assert_eq!(in_sphere, expected);
 
     let names = [

@@ -70,7 +70,7 @@ fn is_one_short_read_only_job_of_pinned_actions_that_shows_the_points_of_every_p
     let last = job.steps.last().and_then(|step| step.run.as_deref());
     assert_eq!(
         last,
-        Some("cargo grade --assignment ASSIGNMENT_ID --out score --format github")
+        Some("cargo grade --assignment rays --out score --format github")
     );
     let mut runs = job.steps.iter().filter_map(|step| step.run.as_deref());
     assert!(!runs.any(|run| run.contains("--require")));

@@ -87,7 +87,9 @@ fn a_wrong_quantity_is_shown_with_its_own_numbers() {
             FailureKind::Wrong {
                 what, got, wanted, ..
             } => [what, got, wanted],
-            FailureKind::Panicked(_) | FailureKind::Protocol(_) => panic!("there is an answer"),
+            FailureKind::Uneven { .. } | FailureKind::Panicked(_) | FailureKind::Protocol(_) => {
+                panic!("there is an answer")
+            }
         }
     };
     let (normal, uv) = (Vec3::X, Vec2::new(0.25, 0.75));

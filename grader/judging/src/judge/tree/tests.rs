@@ -86,7 +86,7 @@ fn defect_of(tree: Tree) -> (String, String) {
     match judgement.failure.map(|failure| failure.kind) {
         None => ("right".to_owned(), String::new()),
         Some(FailureKind::Wrong { what, got, .. }) => (what, got),
-        Some(FailureKind::Panicked(_) | FailureKind::Protocol(_)) => {
+        Some(FailureKind::Uneven { .. } | FailureKind::Panicked(_) | FailureKind::Protocol(_)) => {
             unreachable!("the answer is a tree")
         }
     }

@@ -1,5 +1,6 @@
 //! A snapshot test of the captions for common mistakes.
 
+mod light;
 mod rays;
 mod trees;
 
@@ -24,6 +25,9 @@ fn captions_name_the_mistake() {
         ("camera rays", rays::camera_rays()),
         ("built trees", trees::built_trees()),
         ("traversals", trees::traversals()),
+        ("directions at a surface", light::directions()),
+        ("densities and attenuations", light::values()),
+        ("directions on the sphere", light::spheres()),
     ];
     let sections = all.map(|(title, captions)| format!("{title}:\n{captions}"));
     insta::assert_snapshot!(sections.join("\n\n"));

@@ -119,6 +119,7 @@ fn has_a_channel(fault: &Fault, failure: &FailureKind) {
             got: _,
             wanted: _,
         }
+        | FailureKind::Uneven { got: _, wanted: _ }
         | FailureKind::Panicked(Panic {
             message: _,
             location: _,

@@ -83,8 +83,8 @@ fn time_problem(name: &str, job: &JobResult, limit: Duration) -> Option<String> 
     );
     (time > limit / 2).then(|| {
         format!(
-            "{name} took {time:.0?} on half a core, which is more than half of the platform's \
-             limit of {limit:.0?}"
+            "{name} took {time:.0?} on half a core, more than half the platform's limit of \
+             {limit:.0?}"
         )
     })
 }

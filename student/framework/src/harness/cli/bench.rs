@@ -80,7 +80,7 @@ impl Measurement {
         let speed = self.speed();
         let mut text = format!(
             "{speed:.2} Mrays/s: {:.2} Mrays in {:.0} ms, the fastest of {RUNS} runs\n\
-             {:.0}% of the time is spent in Bvh::hit and what it calls",
+             {:.0}% of the time is spent in Bvh::hit and the functions it calls",
             self.rays as f64 * 1e-6,
             self.time.as_secs_f64() * 1e3,
             100.0 * self.share_in_hit,
@@ -122,7 +122,7 @@ mod tests {
             measurement.compare(&file).expect("the file can be written")
         };
         let first = "2.00 Mrays/s: 0.50 Mrays in 250 ms, the fastest of 7 runs\n\
-                     75% of the time is spent in Bvh::hit and what it calls";
+                     75% of the time is spent in Bvh::hit and the functions it calls";
         assert_eq!(lines(250), first);
         let second = lines(125);
         let ends = "\nlast time: 2.00 Mrays/s; this run is 2.00 × as fast";

@@ -191,8 +191,8 @@ fn refuse_other_shapes(scene: &Scene) -> Result<(), RenderError> {
             Shape::Triangle { .. } | Shape::FlatTriangle { .. } => "a triangle or another polygon",
         };
         RenderError::Other(format!(
-            "--rectangles draws only scenes of rectangles, such as lamp, but this one contains {kind}: \
-             leave the option out, or choose another scene"
+            "--rectangles can only draw scenes made of rectangles, such as lamp, but this one \
+             contains {kind}: leave out the option or choose another scene"
         ))
     };
     other.map_or(Ok(()), |index| Err(message(index)))

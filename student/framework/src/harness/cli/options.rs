@@ -40,7 +40,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(..=10_000))]
     pub(super) bounces: u32,
 
-    /// Seed of all random numbers
+    /// Seed for all random numbers
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(super) seed: u64,
 
@@ -84,7 +84,9 @@ fn size(text: &str) -> Result<UVec2, String> {
     if sides.iter().all(|side| (1..=MAX_FILM_SIDE).contains(side)) {
         Ok(size)
     } else {
-        Err(format!("each side must be from 1 to {MAX_FILM_SIDE}"))
+        Err(format!(
+            "the width and height must be from 1 to {MAX_FILM_SIDE}"
+        ))
     }
 }
 

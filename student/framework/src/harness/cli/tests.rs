@@ -133,7 +133,7 @@ fn reports_bad_input_before_rendering() {
     let error = |out, more| render(&CORRECT, out, more).expect_err("the input is invalid");
     assert!(error("a.jpg", "").ends_with("use a file name that ends in .png or .exr"));
     assert!(error("none/a.png", "").ends_with("none: it does not exist"));
-    assert!(error("a.png", "--size 0x4").contains("each side must be from 1 to 16384"));
+    assert!(error("a.png", "--size 0x4").contains("the width and height must be from 1 to 16384"));
     assert!(error("a.png", "--view heat").contains("possible values: shaded, clay"));
     assert!(error("a.png", "--pixel 12,0").contains("outside the film, which has 12 x 8"));
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
+use grader::handed_out::ASSIGNMENTS;
 use grader::sandbox::Isolation;
 
 use crate::canary::Canaries;
@@ -96,9 +97,11 @@ fn assert_listed(entries: &[Entry], list: &Path) {
 
 /// Runs all entries at one level. Returns whether the grader withstood all of them.
 fn run_at_level(entries: &[Entry], level: Isolation) -> bool {
-    let reference = Entry::reference();
-    // The first run compiles the dependencies that all later runs share.
-    run::grade(&reference, &Canaries::plant(), level);
+    // The first runs compile the dependencies and the references' parts that all later runs share.
+    for handed_out in ASSIGNMENTS {
+        run::grade(&Entry::reference(handed_out), &Canaries::plant(), level);
+    }
+    let reference = Entry::reference(ASSIGNMENTS[0]);
     let first = match grade_and_check(&reference, None, level) {
         Ok(run) => run,
         Err(violations) => {

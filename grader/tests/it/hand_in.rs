@@ -71,7 +71,7 @@ fn without_a_line_of_ones_own_the_exit_code_is_1() {
     let submission = Submission::starter("carol");
     let (code, text) = hand_in_beside(&submission);
     assert_eq!(code, Some(1), "{text}");
-    assert!(text.contains("bvh.rs        unmodified"), "{text}");
+    assert!(text.contains("bvh.rs          unmodified"), "{text}");
     assert!(text.contains("You haven't written anything yet"), "{text}");
     assert!(submission.path().with_extension("zip").is_file());
 }

@@ -87,9 +87,9 @@ pub(crate) fn of<'a>(value: &'a Value<'_>) -> Box<dyn FieldType + 'a> {
         Value::Index(index) => Box::new(index::Index(*index)),
         Value::Shapes(list) => Box::new(shapes::Shapes(list)),
         Value::Color(color) => Box::new(color::Color(*color)),
-        Value::Density(density) => Box::new(Portion::density(Some(*density))),
-        Value::OptionalDensity(density) => Box::new(Portion::density(*density)),
-        Value::Fraction(fraction) => Box::new(Portion::fraction(*fraction)),
+        Value::Density(_) | Value::OptionalDensity(_) | Value::Fraction(_) => {
+            Box::new(Portion(value))
+        }
         Value::Count(_)
         | Value::Angle(_)
         | Value::Ratio(_)

@@ -1,5 +1,7 @@
 //! Probability densities and fractions of the light, compared relative to the expected value.
 
+use std::mem::discriminant;
+
 use protocol::Value;
 
 use super::{FieldType, Tolerance, in_units_of, number};
@@ -13,46 +15,33 @@ pub(crate) const TOLERANCE: f64 = 1e-3;
 const SMALLEST_FRACTION: f64 = 0.01;
 
 /// A probability density or a fraction of the light.
-pub(super) struct Portion {
-    /// The number, or `None` if a sample has no density.
-    number: Option<f32>,
-    /// The smallest number that the tolerance is relative to.
-    smallest: f64,
-}
+pub(super) struct Portion<'a>(pub(super) &'a Value<'a>);
 
-impl Portion {
-    /// Creates a density.
-    pub(super) fn density(number: Option<f32>) -> Self {
-        Portion {
-            number,
-            smallest: 0.0,
-        }
-    }
-
-    /// Creates a fraction of the light.
-    pub(super) fn fraction(number: f32) -> Self {
-        Portion {
-            number: Some(number),
-            smallest: SMALLEST_FRACTION,
+impl Portion<'_> {
+    /// Returns the smallest number that the tolerance is relative to.
+    fn smallest(&self) -> f64 {
+        if matches!(self.0, Value::Fraction(_)) {
+            SMALLEST_FRACTION
+        } else {
+            0.0
         }
     }
 }
 
-/// Returns the number in an expected value: `None` for a sample without a density, and NaN if the
-/// value is of another type.
-fn number_in(wanted: &Value) -> Option<f32> {
-    if let Value::OptionalDensity(number) = *wanted {
-        number
-    } else if let Value::Density(number) | Value::Fraction(number) = *wanted {
+/// Returns the number in a value, or `None` for a sample without a density.
+fn number_in(value: &Value) -> Option<f32> {
+    if let Value::Density(number) | Value::Fraction(number) = *value {
         Some(number)
+    } else if let Value::OptionalDensity(number) = *value {
+        number
     } else {
-        Some(f32::NAN)
+        None
     }
 }
 
-impl FieldType for Portion {
+impl FieldType for Portion<'_> {
     fn text(&self) -> String {
-        self.number.map_or("None".to_owned(), number)
+        number_in(self.0).map_or("None".to_owned(), number)
     }
 
     fn tolerance(&self) -> Option<Tolerance> {
@@ -60,23 +49,26 @@ impl FieldType for Portion {
     }
 
     fn error(&self, wanted: &Value, _: f32) -> f64 {
-        match (self.number, number_in(wanted)) {
+        if discriminant(self.0) != discriminant(wanted) {
+            return f64::INFINITY;
+        }
+        match (number_in(self.0), number_in(wanted)) {
             (None, None) => 0.0,
-            (Some(got), Some(wanted)) => relative_error(got, wanted, self.smallest),
+            (Some(got), Some(wanted)) => relative_error(got, wanted, self.smallest()),
             (Some(_), None) | (None, Some(_)) => f64::INFINITY,
         }
     }
 
     fn side(&self, wanted: &Value) -> Option<Side> {
-        Side::of(self.number?, number_in(wanted)?)
+        Side::of(number_in(self.0)?, number_in(wanted)?)
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {
-        match self.number {
+        match (number_in(self.0), self.smallest()) {
             // This distinguishes `None` from every density.
-            None => vec![-1.0],
-            Some(number) if self.smallest == 0.0 => in_tolerances(&[number]),
-            Some(number) => vec![number / (TOLERANCE * self.smallest) as f32],
+            (None, _) => vec![-1.0],
+            (Some(number), 0.0) => in_tolerances(&[number]),
+            (Some(number), smallest) => vec![number / (TOLERANCE * smallest) as f32],
         }
     }
 }
@@ -106,7 +98,10 @@ mod tests {
 
     #[test]
     fn densities_are_compared_relative_to_the_expected_one() {
-        let error = |got, wanted| Portion::density(got).error(&Value::OptionalDensity(wanted), 1.0);
+        let error = |got, wanted| {
+            let got = Value::OptionalDensity(got);
+            Portion(&got).error(&Value::OptionalDensity(wanted), 1.0)
+        };
         assert!(error(Some(1000.9), Some(1000.0)) <= 1.0);
         assert!(error(Some(1001.1), Some(1000.0)) > 1.0);
         assert!(error(Some(1.1e-6), Some(1e-6)) > 1.0);
@@ -124,7 +119,8 @@ mod tests {
 
     #[test]
     fn tiny_fractions_are_equal_to_zero() {
-        let error = |got, wanted| Portion::fraction(got).error(&Value::Fraction(wanted), 1.0);
+        let error =
+            |got, wanted| Portion(&Value::Fraction(got)).error(&Value::Fraction(wanted), 1.0);
         assert!(error(5e-6, 0.0) <= 1.0);
         assert!(error(5e-5, 0.0) > 1.0);
         assert!(error(0.5004, 0.5) <= 1.0);

@@ -62,7 +62,9 @@ impl<'a> RowComparison<'a> {
             FailureKind::Wrong {
                 what, got, wanted, ..
             } => Some(Difference { what, got, wanted }),
-            FailureKind::Panicked(_) | FailureKind::Protocol(_) => None,
+            FailureKind::Uneven { .. } | FailureKind::Panicked(_) | FailureKind::Protocol(_) => {
+                None
+            }
         });
         Some(RowComparison {
             input,

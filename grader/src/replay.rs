@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 
+use judging::assignment::{Task, TaskInfo};
 use judging::describe;
 use judging::exam::{Exam, ExamQuestion, Item, question_subset};
 use judging::judge::{element_error, judge};
@@ -32,19 +33,44 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
         .map(|number| find_element(item, number))
         .transpose()?;
     let prepared = PreparedSubmission::new(options)?;
+    let tasks = tasks_asked(&exam, item, options.handed_out);
+    let unwritten = tasks.iter().filter_map(|info| {
+        let methods = prepared.submission.task_methods(info);
+        let method = methods.filter(|method| !method.is_changed)?;
+        Some((
+            info,
+            format!("{} ({}:{})", method.names, info.file, method.line),
+        ))
+    });
+    let unwritten: Vec<_> = unwritten.collect();
+    let own = unwritten.iter().find(|(info, _)| info.task() == item.task);
+    if let Some((_, method)) = own {
+        // Any answers come from the code that was handed out.
+        return Ok(format!(
+            "{} can only be run once {method} is written: the method is unchanged from the version \
+             that was handed out\n",
+            reference.item
+        ));
+    }
     let builder = Builder::prepare(&prepared.workspace)?;
     let builder = with_requested_level(builder, options.isolation)?;
     let build = builder.build(&prepared.submission)?;
 
     let mut text = String::new();
+    for (_, method) in &unwritten {
+        text += &format!(
+            "note: {} also calls {method}, which is not written yet\n\n",
+            item.id
+        );
+    }
     for (file, why) in &build.not_compiled {
         text += &format!("{}\n\n", file_message(file, why));
     }
     let paths = prepared.source_paths();
-    let needed = files_asked(&exam, item, options.handed_out);
+    let needed: Vec<&str> = tasks.iter().map(|info| info.file).collect();
     let mut missing = build.not_compiled.keys();
     // If a file doesn't compile, the program contains the starter's file instead.
-    let is_missing = missing.any(|file| needed.contains(*file));
+    let is_missing = missing.any(|file| needed.contains(file));
     let Some(program) = build.probe.as_ref().filter(|_| !is_missing) else {
         let question = &reference.item;
         text += &format!("{question} cannot be run until this file compiles\n");
@@ -67,17 +93,16 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     Ok(paths.in_text(&text).into_owned())
 }
 
-/// Returns the names of the files whose code answers an item: the file of the item's own task and
-/// the files of the tasks that the item depends on.
-fn files_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> BTreeSet<&'static str> {
+/// Returns the tasks whose code answers an item: the item's own task and the tasks of the items that
+/// the item depends on.
+fn tasks_asked(exam: &Exam, item: &Item, handed_out: &HandedOut) -> Vec<&'static TaskInfo> {
     let needed = item
         .needs
         .iter()
         .filter_map(|id| exam.items.iter().find(|other| other.id == *id));
-    let tasks = needed.map(|other| other.task).chain([item.task]);
-    tasks
-        .map(|task| handed_out.assignment.info(task).file)
-        .collect()
+    let tasks: BTreeSet<Task> = needed.map(|other| other.task).chain([item.task]).collect();
+    let tasks = tasks.into_iter();
+    tasks.map(|task| handed_out.assignment.info(task)).collect()
 }
 
 /// Returns the indices of the question and the element that this number refers to.

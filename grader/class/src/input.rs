@@ -164,7 +164,7 @@ pub fn collect_submission(
 /// Returns the error's message without the path, which may be different in the next run.
 fn error_message(error: &SubmissionError, input: &Path) -> String {
     match error {
-        SubmissionError::NotFound(_) | SubmissionError::NotFileOrFolder(_) => {
+        SubmissionError::NotFound { .. } | SubmissionError::NotFileOrFolder(_) => {
             "it no longer exists".to_owned()
         }
         SubmissionError::NoTaskFiles { found, advice, .. } => {

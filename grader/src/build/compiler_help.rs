@@ -12,14 +12,24 @@ const VECTORS: &str = "cpp.md#vectors";
 const OPTION: &str = "cpp.md#a-value-that-may-be-missing";
 const ORDER: &str = "cpp.md#floats-have-no-total-order";
 const MOVES: &str = "cpp.md#slices-and-partitions";
+const LOOPS: &str = "cpp.md#loops";
 const CRATES: &str = "cpp.md#crates";
 const BORROWS: &str = "cpp.md#recursion-that-fills-a-vector";
 
 /// Triples of an error code, words in the compiler's text, and the section that explains errors
 /// that match both. For syntax errors, the code is empty. The first match is used.
-const SECTIONS: [(&str, &str, &str); 51] = [
+const SECTIONS: [(&str, &str, &str); 77] = [
     ("", "expected `;`", BLOCKS),
     ("", "expected one of `.`, `;`", BLOCKS),
+    ("", "expected one of `!`", BLOCKS),
+    ("", "expected one of `:`, `;`", BLOCKS),
+    ("", "invalid variable declaration", BLOCKS),
+    ("", "ternary operator", BLOCKS),
+    ("", "expected one of `)`, `,`, `@`", LOOPS),
+    ("", "expected pattern, found `let`", LOOPS),
+    ("", "increment operator", LOOPS),
+    ("", "decrement operator", LOOPS),
+    ("", "invalid suffix `f`", NUMBERS),
     ("E0308", "found `()`", BLOCKS),
     ("E0308", "`Option<", OPTION),
     ("E0308", "`()`", BLOCKS),
@@ -55,6 +65,23 @@ const SECTIONS: [(&str, &str, &str); 51] = [
     ("E0004", "`None`", OPTION),
     ("E0425", "function `max`", ORDER),
     ("E0425", "function `min`", ORDER),
+    ("E0425", "function `float`", NUMBERS),
+    ("E0425", "function `int`", NUMBERS),
+    ("E0425", "function `fmax`", ORDER),
+    ("E0425", "function `fmin`", ORDER),
+    ("E0425", "function `cross`", VECTORS),
+    ("E0425", "function `dot`", VECTORS),
+    ("E0425", "function `norm`", VECTORS),
+    ("E0425", "function `unit`", VECTORS),
+    ("E0425", "function `normalize`", VECTORS),
+    ("E0425", "function `length`", VECTORS),
+    ("E0425", "function `hmin`", VECTORS),
+    ("E0425", "function `hmax`", VECTORS),
+    ("E0425", "function `sqrt`", VECTORS),
+    ("E0425", "function `abs`", VECTORS),
+    ("E0425", "function `fabs`", VECTORS),
+    ("E0425", "function `pow`", VECTORS),
+    ("E0425", "function `tan`", VECTORS),
     ("E0412", "cannot find type", CRATES),
     ("E0425", "cannot find type", CRATES),
     ("E0425", "`vec2`", CRATES),
@@ -99,6 +126,33 @@ mod tests {
                 None,
                 "error: expected `;`, found keyword `let`",
                 Some(BLOCKS),
+            ),
+            (
+                None,
+                "error: expected one of `!`, `.`, `::`, `;`, `?`, `{`, `}`, or an operator, found \
+                 `det`",
+                Some(BLOCKS),
+            ),
+            (None, "error: Rust has no ternary operator", Some(BLOCKS)),
+            (
+                None,
+                "error: Rust has no postfix increment operator",
+                Some(LOOPS),
+            ),
+            (
+                None,
+                "error: expected one of `)`, `,`, `@`, `if`, or `|`, found `i`",
+                Some(LOOPS),
+            ),
+            (
+                Some("E0425"),
+                "cannot find function `cross` in this scope",
+                Some(VECTORS),
+            ),
+            (
+                Some("E0425"),
+                "cannot find function `sqrt` in this scope",
+                Some(VECTORS),
             ),
             (
                 None,

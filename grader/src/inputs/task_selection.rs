@@ -78,11 +78,22 @@ impl TaskOrFile {
         handed_out: &'static HandedOut,
     ) -> Result<Vec<Self>, String> {
         let given = || handed_out.given.iter().chain([&handed_out.main]);
+        let unknown = |name: &str| {
+            let files = || handed_out.file_names().chain(given().map(|file| file.name));
+            let stems = files().map(|file| file.trim_end_matches(".rs"));
+            let tasks = handed_out.assignment.tasks.iter().map(|task| task.id);
+            format!(
+                "unknown task or file{}; the tasks are {}; the files are {}",
+                suggestion(name, tasks.chain(stems)),
+                handed_out.assignment.id_list(),
+                files().collect::<Vec<_>>().join(", ")
+            )
+        };
         let named = |name: &str| {
             let is = |known: &str| known.eq_ignore_ascii_case(name);
             match given().find(|file| is(file.name) || is(file.name.trim_end_matches(".rs"))) {
                 Some(file) => Ok(TaskOrFile::File(file.name)),
-                None => Self::parse(name, handed_out.assignment),
+                None => Self::parse(name, handed_out.assignment).map_err(|_| unknown(name)),
             }
         };
         text.split(',').map(str::trim).map(named).collect()
@@ -98,13 +109,29 @@ impl TaskOrFile {
         if let Some(task) = tasks().find(|task| is(task.file) || is(stem(task))) {
             return Ok(TaskOrFile::File(task.file));
         }
-        let names = tasks().flat_map(|task| [task.id, stem(task)]);
         Err(format!(
             "unknown task{}; the tasks are {}",
-            suggestion(name, names),
+            suggestion(name, names(assignment)),
             assignment.id_list()
         ))
     }
+}
+
+/// Returns a question to append to a message about a submission that doesn't exist if the name
+/// looks like a task's or an item's, such as ` (did you mean sphere?)`, or nothing.
+pub fn suggestion_for_submission(name: &str, assignment: &Assignment) -> String {
+    match Task::in_id(name) {
+        Some(task) if assignment.find(task.id()).is_some() && name.contains('.') => {
+            format!(" (did you mean --replay {name}?)")
+        }
+        _ => suggestion(name, names(assignment)),
+    }
+}
+
+/// Returns the names of the tasks and of their files, without `.rs`.
+fn names(assignment: &Assignment) -> impl Iterator<Item = &'static str> {
+    let tasks = assignment.tasks.iter();
+    tasks.flat_map(|task| [task.id, stem(task)])
 }
 
 /// Returns the name of a task's file without `.rs`.

@@ -1,7 +1,7 @@
 //! Determines which failing items of a task are most informative, and which of them share a hint,
 //! so that a report shows the hint only once.
 
-use crate::score::{ItemScore, TaskScore, VerdictKind};
+use crate::score::{ItemScore, Score, TaskScore, VerdictKind};
 
 /// Returns the failing items of a task, the most informative first: items whose mistake is
 /// recognised, items whose failure shows what to look for, items with a wrong answer, and items
@@ -26,6 +26,43 @@ pub(super) fn most_informative_first(task: &TaskScore) -> Vec<&ItemScore> {
         | VerdictKind::Pending => 4,
     });
     failing
+}
+
+/// Returns the item to fix first and its task: the most informative failing item of the first
+/// selected task with such an item. If the task's file doesn't compile and contains several tasks'
+/// methods, the task is the last one whose method starts above the compiler's first error.
+pub(super) fn first_to_fix(
+    score: &Score,
+    is_selected: impl Fn(&TaskScore) -> bool,
+) -> Option<(&TaskScore, &ItemScore)> {
+    let selected = || score.tasks.iter().filter(|task| is_selected(task));
+    let with_item = |task| Some((task, *most_informative_first(task).first()?));
+    let first = selected().find_map(with_item)?;
+    if first.1.verdict.kind() != VerdictKind::NotCompiled {
+        return Some(first);
+    }
+    let (file, _) = file_and_line(first.0);
+    let mut reports = score.build.not_compiled.iter();
+    let report = reports.find(|report| report.file == file);
+    let error = report.and_then(|report| report.line);
+    let is_above = |task: &&TaskScore| {
+        let (of_task, method) = file_and_line(task);
+        of_task == file
+            && method
+                .zip(error)
+                .is_some_and(|(method, error)| method <= error)
+    };
+    let above = selected().filter(is_above);
+    let nearest = above.max_by_key(|task| file_and_line(task).1);
+    Some(nearest.and_then(with_item).unwrap_or(first))
+}
+
+/// Returns a task's file and, if it is known, the line of its method.
+fn file_and_line(task: &TaskScore) -> (&str, Option<u32>) {
+    match task.method.split_once(':') {
+        Some((file, line)) => (file, line.parse().ok()),
+        None => (&task.method, None),
+    }
 }
 
 /// Returns at most this many of a task's failing items, the most informative first. Every item

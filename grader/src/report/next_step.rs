@@ -8,7 +8,7 @@ use crate::build::RESTORE_LABEL;
 use crate::build::compiler_help::SECTION_LABEL;
 use crate::inputs::task_selection::TaskSelection;
 use crate::machine::printing::wrap;
-use crate::report::failing_items::most_informative_first;
+use crate::report::failing_items::first_to_fix;
 use crate::report::text::{HintDetail, MAX_WARNINGS, joined_hints};
 use crate::sandbox::Isolation;
 use crate::score::{Score, TaskScore, Verdict, VerdictKind};
@@ -50,11 +50,7 @@ pub fn first_step(
     assignment: &Assignment,
     hints: HintDetail,
 ) -> String {
-    let mut selected = score
-        .tasks
-        .iter()
-        .filter(|task| selection.includes(task.id));
-    let first = selected.find_map(|task| Some((task, *most_informative_first(task).first()?)));
+    let first = first_to_fix(score, |task| selection.includes(task.id));
     let Some((task, item)) = first else {
         return labelled(notes(score)) + &row(&after_all_points(assignment));
     };

@@ -98,7 +98,10 @@ impl<'a> TaskSessions<'a> {
             && line.points == 0
             && line.at.as_ref().is_none_or(|at| at.file != file)
         {
-            return Ok((unwritten_score(item, file, method.line), answers));
+            return Ok((
+                unwritten_score(item, file, method.line, handed_out),
+                answers,
+            ));
         }
         let Some(by) = blocking.map(|blocking| blocking.id) else {
             return Ok((line, answers));

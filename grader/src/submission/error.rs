@@ -34,8 +34,16 @@ pub enum TaskFileError {
 #[derive(Debug, thiserror::Error)]
 pub enum SubmissionError {
     /// The path doesn't exist.
-    #[error("{0} does not exist: pass the folder that contains the task files, such as `student`")]
-    NotFound(PathBuf),
+    #[error(
+        "{} does not exist{suggestion}: pass the folder that contains the task files, such as `student`",
+        path.display()
+    )]
+    NotFound {
+        /// The path.
+        path: PathBuf,
+        /// The suggestion if the path could be a misspelt task. Empty otherwise.
+        suggestion: String,
+    },
     /// The path is a device, a pipe or a socket.
     #[error("{0} is neither a folder nor a file: pass the folder that contains the task files")]
     NotFileOrFolder(PathBuf),
@@ -210,7 +218,13 @@ mod tests {
                 false,
             ),
             (archive(ArchiveError::Empty), false),
-            (SubmissionError::NotFound("ann".into()), false),
+            (
+                SubmissionError::NotFound {
+                    path: "ann".into(),
+                    suggestion: String::new(),
+                },
+                false,
+            ),
             (SubmissionError::TooMany("ann".into(), Limit::Files), false),
         ] {
             assert_eq!(error.is_machine_fault(), is_fault, "{error}");

@@ -19,6 +19,7 @@ use judging::assignment::TaskInfo;
 use judging::sanitize::sanitize_line;
 
 use crate::handed_out::{HandedOut, TaskFile, TaskMethods, is_unwritten};
+use crate::inputs::task_selection::suggestion_for_submission;
 use crate::machine::files;
 
 use choice::{Candidate, Lookalike};
@@ -69,7 +70,15 @@ impl Submission {
         }
         Err(match path.symlink_metadata() {
             Ok(_) => SubmissionError::NotFileOrFolder(path.to_owned()),
-            Err(_) => SubmissionError::NotFound(path.to_owned()),
+            Err(_) => {
+                let name = path.to_str().filter(|_| path.components().count() == 1);
+                let suggestion =
+                    name.map(|name| suggestion_for_submission(name, handed_out.assignment));
+                SubmissionError::NotFound {
+                    path: path.to_owned(),
+                    suggestion: suggestion.unwrap_or_default(),
+                }
+            }
         })
     }
 

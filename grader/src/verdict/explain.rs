@@ -1,14 +1,15 @@
 //! Explains a task's wrong answers with known mistakes or with clues for the whole task. The
 //! functions here are pure.
 
-use judging::assignment::TaskInfo;
+use judging::assignment::{TaskClues, TaskInfo};
 use judging::exam::{Exam, Item};
 use judging::recognise::Observations;
 use judging::section::Section;
+use judging::symptom::Symptom;
 
 use crate::handed_out::HandedOut;
 use crate::score::{ItemScore, Verdict, VerdictKind};
-use crate::verdict::{add_clue, add_hints};
+use crate::verdict::{add_hints, chapter};
 
 /// Adds the hints for the mistakes that explain a task's answers, which come from the submission's
 /// own program or from the program with substituted parts. If no mistake explains the answers, adds
@@ -20,6 +21,7 @@ pub fn explain_items(
     substituted: Option<&Observations>,
     handed_out: &HandedOut,
 ) {
+    let mut first_missed = None;
     for line in lines.iter_mut().filter(|line| can_have_hint(&line.verdict)) {
         let observations = match substituted {
             Some(substituted) if line.carried_forward => substituted,
@@ -30,7 +32,7 @@ pub fn explain_items(
             let info = handed_out.assignment.info(item.task);
             let of_task = exam.items.iter().filter(|other| other.task == item.task);
             if is_whole_task(of_task.clone(), info) && observations.misses_everything(of_task) {
-                add_clue(line, info.clues.if_nothing_is_hit);
+                add_clue_on_misses(line, &info.clues, &mut first_missed);
             }
         }
     }
@@ -40,6 +42,28 @@ pub fn explain_items(
             add_symptom_clue(item, &mut rest[0], earlier, handed_out);
         }
     }
+}
+
+/// Adds the clue for code whose rays never hit anything, unless a hint or another clue is more
+/// helpful. Only the first item gets the clue, and the others name that item.
+fn add_clue_on_misses(line: &mut ItemScore, clues: &TaskClues, first: &mut Option<String>) {
+    let Some(clue) = clues.if_nothing_is_hit.filter(|_| line.has_no_clue()) else {
+        return;
+    };
+    match first {
+        Some(first) => line.symptom_clue = Some(fix_first(first)),
+        None => {
+            line.clue = Some(clue.to_owned());
+            *first = Some(line.id.clone());
+        }
+    }
+    let of_miss = clues.of_symptom(&Symptom::MISS);
+    line.clue_section = of_miss.map(|clue| Section::new(clue.section));
+}
+
+/// Returns the advice for an item that fails in the same way as an earlier item.
+fn fix_first(earlier: &str) -> String {
+    format!("{earlier} fails in the same way: fix that first.")
 }
 
 /// Adds the clue for the quantity that is wrong in an item, unless the item is explained already or
@@ -54,9 +78,11 @@ fn add_symptom_clue(
     let Some(symptom) = &line.symptom else {
         // If a task fails from its first item on, its failures say nothing about the idea behind
         // this item.
-        let is_unexplained = line.verdict.kind() == VerdictKind::NoAnswer && line.hints.is_empty();
+        let is_unexplained = line.verdict.kind() == VerdictKind::NoAnswer
+            && line.hints.is_empty()
+            && line.clue_section.is_none();
         if is_unexplained && earlier.iter().all(|other| other.verdict != Verdict::Pass) {
-            line.clue_section = item.section.as_ref().map(Section::whole_chapter);
+            line.clue_section = chapter(item, handed_out);
         }
         return;
     };
@@ -72,10 +98,7 @@ fn add_symptom_clue(
     let of_symptom = of_symptom.filter(|_| !item.has_look_for(symptom));
     let first = earlier.iter().find(is_alike).filter(|_| line.has_no_clue());
     line.symptom_clue = match first {
-        Some(first) => Some(format!(
-            "{} fails in the same way: fix that first.",
-            first.id
-        )),
+        Some(first) => Some(fix_first(&first.id)),
         None => of_symptom.map(|clue| clue.clue.to_owned()),
     };
     line.clue_section = match first {
@@ -105,7 +128,6 @@ mod tests {
     use judging::exam::Key;
     use judging::observe::observe;
     use judging::signatures::{KnownMistake, MistakeAnswers};
-    use judging::symptom::Symptom;
     use protocol::{Answer, ElementOutcome, Interval};
 
     use super::*;
@@ -196,6 +218,23 @@ mod tests {
         some.items.pop();
         assert_eq!(clue_in(&wrong, &some, &miss), None);
 
+        // The section fits the clue, and later items name the first one instead of repeating it.
+        let mut lines = ["bbox.flat", "bbox.behind"].map(|id| ItemScore {
+            id: id.to_owned(),
+            ..wrong.clone()
+        });
+        let mut first = None;
+        for line in &mut lines {
+            add_clue_on_misses(line, &bbox.clues, &mut first);
+        }
+        let section = bbox.clues.of_symptom(&Symptom::MISS).unwrap().section;
+        for line in &lines {
+            assert_eq!(line.where_to_read(), Some(&Section::new(section)));
+        }
+        let second = lines[1].where_to_look().map(String::as_str);
+        let expected = "bbox.flat fails in the same way: fix that first.";
+        assert_eq!((&lines[0].clue, second), (&clue, Some(expected)));
+
         let timed_out = ItemScore {
             verdict: Verdict::TimedOut,
             ..wrong.clone()
@@ -212,7 +251,7 @@ mod tests {
             nudge: String::new(),
             hint: String::new(),
         }];
-        add_clue(&mut hinted, clue.as_deref());
+        add_clue_on_misses(&mut hinted, &bbox.clues, &mut None);
         assert_eq!(hinted.clue, None);
     }
 

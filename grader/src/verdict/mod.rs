@@ -4,7 +4,7 @@ pub mod clue;
 pub(crate) mod explain;
 pub mod item_outcome;
 
-use judging::assignment::Task;
+use judging::assignment::{Task, TaskInfo};
 use judging::describe;
 use judging::exam::{Exam, Item};
 use judging::exam_file::ExamName;
@@ -44,14 +44,13 @@ pub fn pending_score(
 ) -> Score {
     let task_score = |task: Task| {
         let of_task = || exam.items.iter().filter(|item| item.task == task);
-        let mut sections = of_task().filter_map(|item| item.section.as_ref());
         let items: Vec<_> = of_task()
             .map(|item| item_score(item, &ItemOutcome::Pending, handed_out))
             .collect();
         TaskScore {
             id: task,
             title: handed_out.assignment.info(task).title.to_owned(),
-            chapter: sections.next().map(Section::whole_chapter),
+            chapter: of_task().find_map(|item| chapter(item, handed_out)),
             points: 0,
             max_points: items.iter().map(|item| item.max_points).sum(),
             items,
@@ -96,8 +95,13 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
         ItemOutcome::Fault { fault, culprit } => {
             score.verdict = verdict_of(fault);
             score.message = fault.to_string();
-            score.clue = Some(clue::of_fault(fault, handed_out.assignment.info(item.task)));
+            let info = handed_out.assignment.info(item.task);
+            score.clue = Some(clue::of_fault(fault, info));
             score.section = item.section.clone();
+            if matches!(fault, Fault::Crashed(Crash::StackOverflow)) {
+                let section = info.clues.section_if_stack_overflows.map(Section::new);
+                score.clue_section = section.filter(|_| !explains_crashes(item, info));
+            }
             score.evidence = culprit.map(|culprit| {
                 evidence(item, culprit, ["no answer", "an answer"].map(str::to_owned))
             });
@@ -120,12 +124,27 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
                 let clues = &handed_out.assignment.info(item.task).clues;
                 score.clue_section = match clues.section_on_kept_state {
                     Some(section) => Some(Section::new(section)),
-                    None => item.section.as_ref().map(Section::whole_chapter),
+                    None => chapter(item, handed_out),
                 };
             }
         }
     }
     score
+}
+
+/// Returns the chapter about the item's task, if the item refers to the handout. The section that
+/// the item itself refers to may be in another chapter.
+pub(crate) fn chapter(item: &Item, handed_out: &HandedOut) -> Option<Section> {
+    item.section.as_ref()?;
+    Some(Section::new(handed_out.assignment.info(item.task).chapter))
+}
+
+/// Returns whether the item's section explains a panic or a stack overflow, and not only wrong
+/// answers.
+fn explains_crashes(item: &Item, info: &TaskInfo) -> bool {
+    let sections = info.clues.sections_on_crashes.iter();
+    let mut sections = sections.map(|section| Section::new(*section));
+    sections.any(|section| item.section.as_ref() == Some(&section))
 }
 
 fn not_run_message(why: &NotRunReason) -> String {
@@ -242,7 +261,7 @@ fn score_answers(
             score.message = format!("{location} still contains `{stub}`");
             score.at = CodeLocation::from_panic(&panic.location, handed_out);
             score.look = None;
-            score.section = item.section.as_ref().map(Section::whole_chapter);
+            score.section = chapter(item, handed_out);
             return;
         }
         FailureKind::Panicked(panic) => {
@@ -260,9 +279,11 @@ fn score_answers(
             score.at = CodeLocation::from_panic(&panic.location, handed_out);
             let unknown = score.at.is_some().then_some(clue::UNKNOWN_PANIC);
             score.clue = clue::of_panic(message).or(unknown).map(str::to_owned);
-            if score.clue.is_some() {
+            if score.clue.is_some()
+                && !explains_crashes(item, handed_out.assignment.info(item.task))
+            {
                 // The item's advice is about wrong answers.
-                score.section = item.section.as_ref().map(Section::whole_chapter);
+                score.section = chapter(item, handed_out);
             }
             let panicked = partial(Verdict::Panicked);
             (panicked, "a panic".to_owned(), "an answer".to_owned())
@@ -346,7 +367,7 @@ fn wrong_answers(
 /// Returns the score of an item whose task's method is still the one that was handed out. `method`
 /// is the line of the method in the file. Whatever the item's answers are, the method isn't written
 /// yet.
-pub fn unwritten_score(item: &Item, file: &str, method: u32) -> ItemScore {
+pub fn unwritten_score(item: &Item, file: &str, method: u32, handed_out: &HandedOut) -> ItemScore {
     ItemScore {
         verdict: Verdict::Unimplemented,
         message: format!(
@@ -356,7 +377,7 @@ pub fn unwritten_score(item: &Item, file: &str, method: u32) -> ItemScore {
             file: file.to_owned(),
             line: method,
         }),
-        section: item.section.as_ref().map(Section::whole_chapter),
+        section: chapter(item, handed_out),
         ..ItemScore::pending(&item.id, &item.title, item.points)
     }
 }
@@ -400,13 +421,6 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
     }
     let ids: Vec<&str> = mistakes.iter().map(|mistake| mistake.id.as_str()).collect();
     line.staff = Some(format!("answers like those of {}", ids.join(" or ")));
-}
-
-/// Adds a clue to an item with wrong answers, unless a hint or another clue is more helpful.
-pub fn add_clue(line: &mut ItemScore, clue: Option<&str>) {
-    if line.has_no_clue() {
-        line.clue = clue.map(str::to_owned);
-    }
 }
 
 /// Returns the score of an item that was graded with substituted parts. This is the score that

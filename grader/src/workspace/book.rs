@@ -52,8 +52,14 @@ impl Book {
             let length = mention_length(mention, chapters.len());
             let (mention, after) = mention.split_at(length);
             match self.url(&mentioned_section(&mention[chapters.len()..])) {
+                // The indentation of a second line isn't part of the link.
                 Some(url) => {
-                    linked.push_str(&format!("\x1b]8;;{url}\x1b\\{mention}\x1b]8;;\x1b\\"));
+                    let lines = mention.split('\n').map(|line| {
+                        let words = line.trim_start();
+                        let indentation = " ".repeat(line.len() - words.len());
+                        format!("{indentation}\x1b]8;;{url}\x1b\\{words}\x1b]8;;\x1b\\")
+                    });
+                    linked.push_str(&lines.collect::<Vec<_>>().join("\n"));
                 }
                 None => linked.push_str(mention),
             }
@@ -64,26 +70,30 @@ impl Book {
 }
 
 /// Returns the length of the mention at the start of `text`. A mention of a section is a path,
-/// optionally followed by a heading in quotation marks on the same line.
+/// optionally followed by a heading in quotation marks. There may be a line break before the
+/// heading or in it.
 fn mention_length(text: &str, path_start: usize) -> usize {
     let is_end = |c: char| !(c.is_ascii_alphanumeric() || "_-./".contains(c));
     let name = &text[path_start..];
     let name = &name[..name.find(is_end).unwrap_or(name.len())];
     let path_end = path_start + name.trim_end_matches('.').len();
-    let heading = text[path_end..].strip_prefix(", \"").and_then(|heading| {
-        let end = heading.find(['"', '\n'])?;
-        heading[end..].starts_with('"').then_some(end)
+    let after = &text[path_end..];
+    let heading = after.strip_prefix(',').and_then(|heading| {
+        let heading = heading.trim_start().strip_prefix('"')?;
+        let end = after.len() - heading.len() + heading.find('"')? + 1;
+        (after[..end].matches('\n').count() <= 1).then_some(end)
     });
-    heading.map_or(path_end, |heading| path_end + ", \"\"".len() + heading)
+    path_end + heading.unwrap_or(0)
 }
 
 /// Returns the section that a mention refers to, without the folder. This is the inverse of
 /// [`Section::location`].
 fn mentioned_section(mention: &str) -> Section {
-    match mention.split_once(", \"") {
+    match mention.split_once(',') {
         Some((chapter, heading)) => {
-            let heading = heading.trim_end_matches('"').to_lowercase();
-            Section::new(format!("{chapter}#{}", heading.replace(' ', "-")))
+            let heading = heading.trim().trim_matches('"').to_lowercase();
+            let words: Vec<&str> = heading.split_whitespace().collect();
+            Section::new(format!("{chapter}#{}", words.join("-")))
         }
         None => Section::new(mention),
     }
@@ -161,6 +171,17 @@ mod tests {
             link(&url, whole),
         );
         assert_eq!(book.with_links(&text), expected);
+        let wrapped =
+            format!("read  {whole}, \"Zero and\n        minus zero\"\n{whole},\n  \"Zero\"");
+        let anchor = format!("{url}#zero-and-minus-zero");
+        let expected_wrapped = format!(
+            "read  {}\n        {}\n{}\n  {}",
+            link(&anchor, &format!("{whole}, \"Zero and")),
+            link(&anchor, "minus zero\""),
+            link(&format!("{url}#zero"), &format!("{whole},")),
+            link(&format!("{url}#zero"), "\"Zero\""),
+        );
+        assert_eq!(book.with_links(&wrapped), expected_wrapped);
         let in_a_folder = "handout/src/light/glass.md";
         let glass = url.replace("boxes.html", "light/glass.html");
         assert_eq!(book.with_links(in_a_folder), link(&glass, in_a_folder));

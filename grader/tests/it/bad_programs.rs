@@ -49,6 +49,31 @@ fn the_next_step_shows_notes_and_does_not_blame_the_given_code() {
     assert_snapshot!(graded.report());
 }
 
+#[test]
+fn a_compiler_error_leads_to_the_task_whose_method_contains_it() {
+    for (from, to, task) in [
+        (
+            "root.bbox.hit(ray, ray.range)?;",
+            "root.bbox.hit(ray)?;",
+            "traverse",
+        ),
+        (
+            "max_leaf_size: max_leaf_size.max(1),",
+            "max_leaf_size: -1,",
+            "build",
+        ),
+    ] {
+        let submission = Submission::reference("error").with_replaced("bvh.rs", from, to);
+        let step = submission.grade_with(&["--next"]).report();
+        assert!(step.contains(&format!("\n  what    {task}.")), "{step}");
+        assert!(step.contains(&format!(" --task {task}")), "{step}");
+        let page = submission.grade().page();
+        let (_, next) = page.split_once("What to do next").unwrap();
+        let link = next.split_once("href=\"#").unwrap().1;
+        assert!(link.starts_with(&format!("{task}.")), "{link:.80}");
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn allocating_without_bound_is_stopped() {

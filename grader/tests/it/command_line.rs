@@ -5,7 +5,7 @@ use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
 use crate::cases::PANICKING;
-use crate::harness::{FULL_POINTS, Submission, assert_fails, grader};
+use crate::harness::{FULL_POINTS, Submission, assert_fails, grader, workspace};
 
 fn assert_wrong_use(arguments: &[&str], why: &str) {
     let output = grader().args(arguments).output().unwrap();
@@ -58,7 +58,19 @@ fn a_path_without_a_submission_is_a_usage_error() {
             empty.path().to_str().unwrap(),
             "contains none of camera.rs, triangle.rs",
         ),
-        ("nowhere", "nowhere does not exist"),
+        ("nowhere", "nowhere does not exist: pass the folder"),
+        (
+            "triangel",
+            "triangel does not exist (did you mean triangle?)",
+        ),
+        (
+            "traversal",
+            "traversal does not exist (did you mean traverse?)",
+        ),
+        (
+            "sphere.near_side",
+            "sphere.near_side does not exist (did you mean --replay sphere.near_side?)",
+        ),
         ("Cargo.toml", "is neither a folder nor a .zip"),
     ] {
         assert_wrong_use(&[path], why);
@@ -155,7 +167,7 @@ fn replay_says_what_is_wrong_with_an_answer() {
             "build.cost_town",
             &[
                 "\nverdict  wrong: SAH cost: ",
-                " times the cost with the best split at every node; wanted: at most ",
+                " times the cost with the best split at every node (the root splits ",
                 "\n  39: ",
                 " more nodes\n",
             ],
@@ -221,6 +233,28 @@ fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     let lost = format!("verdict  correct, but the item got no answers because of {culprit}: ");
     assert!(text.contains(&lost), "{text}");
     assert!(!text.contains("keeps something"), "{text}");
+}
+
+/// The answers would come from the code that was handed out.
+#[test]
+fn replay_says_that_a_method_is_not_written_yet() {
+    let starter =
+        |file: &str| std::fs::read(workspace().join("grader/starter").join(file)).unwrap();
+    let submission = Submission::reference("stubs").with("bvh.rs", starter("bvh.rs"));
+    for (item, method) in [
+        ("build.partition", "Bvh::build (bvh.rs:"),
+        ("traverse.closest_hit", "Bvh::hit (bvh.rs:"),
+    ] {
+        let text = replay(&submission, item);
+        let expected = format!("{item} can only be run once {method}");
+        assert!(text.starts_with(&expected), "{text}");
+        assert!(!text.contains("verdict"), "{text}");
+    }
+    let submission = Submission::reference("stub").with("bbox.rs", starter("bbox.rs"));
+    let text = replay(&submission, "traverse.closest_hit");
+    let note = "note: traverse.closest_hit also calls BBox::hit (bbox.rs:";
+    assert!(text.starts_with(note), "{text}");
+    assert!(text.contains("\nverdict  wrong"), "{text}");
 }
 
 fn replay(submission: &Submission, question: &str) -> String {

@@ -142,6 +142,10 @@ fn archives_unknown_tasks_and_folders_without_tasks_are_refused() {
         "if this is an archive, unpack it first",
     );
     assert_refused(&reset(&submission, &["sphre"]), "did you mean sphere?");
+    let unknown = reset(&submission, &["wrld"]);
+    for text in ["did you mean world?", "bvh.rs, world.rs"] {
+        assert_refused(&unknown, text);
+    }
     let empty = tempfile::tempdir().unwrap();
     assert_refused(
         &reset_at(empty.path(), &["bvh"]),

@@ -77,6 +77,11 @@ pub struct TaskClues {
     pub if_nothing_is_hit: Option<&'static str>,
     /// The clue for code that overflows the stack. `None` if nothing is known about the recursion.
     pub if_stack_overflows: Option<&'static str>,
+    /// The section of the handout about recursion that doesn't end. `None` if the chapter doesn't
+    /// discuss it.
+    pub section_if_stack_overflows: Option<&'static str>,
+    /// The sections that also explain a panic or a stack overflow in the items that refer to them.
+    pub sections_on_crashes: &'static [&'static str],
     /// The section of the handout about code that keeps state from one call to the next. `None` if
     /// the chapter doesn't discuss it.
     pub section_on_kept_state: Option<&'static str>,
@@ -103,6 +108,8 @@ impl TaskClues {
     pub const NONE: TaskClues = TaskClues {
         if_nothing_is_hit: None,
         if_stack_overflows: None,
+        section_if_stack_overflows: None,
+        sections_on_crashes: &[],
         section_on_kept_state: None,
         by_symptom: &[],
     };

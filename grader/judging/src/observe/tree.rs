@@ -36,9 +36,9 @@ pub(super) fn defect(shapes: &[Shape], tree: &Tree, defect: &TreeDefect) -> (Str
         TreeDefect::NotSplit { .. } => "leaf holds of primitives",
         TreeDefect::LeafTooLarge { .. } => "leaf holds primitives",
         TreeDefect::NeedlessSplit { .. } => "node was split over primitives",
-        TreeDefect::Cost(_) => "times that of the best split at every node",
+        TreeDefect::Cost { .. } => "times that of the best split at every node",
     };
-    let amount = if let TreeDefect::Cost(ratio) = defect {
+    let amount = if let TreeDefect::Cost { ratio, .. } = defect {
         // Rounded to two decimals, as in the report.
         ((100.0 * ratio).round() / 100.0) as f32
     } else {

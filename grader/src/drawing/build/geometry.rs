@@ -38,7 +38,7 @@ pub(super) fn draw(
             draw_boxes(sheet, criteria.shapes, &primitives_below(nodes, node), node);
         }
         (Some(TreeDefect::Partition { .. }), _) => draw_partition(sheet, criteria, flaw),
-        (Some(TreeDefect::Cost(_)) | None, _) if criteria.sweep_cost.is_some() => {
+        (Some(TreeDefect::Cost { .. }) | None, _) if criteria.sweep_cost.is_some() => {
             let plane = sweep.and_then(|sweep| sweep.plane);
             let is_small = criteria.shapes.len() <= MAX_ROW_PRIMITIVES;
             if let Some(plane) = plane.filter(|_| is_small) {

@@ -7,7 +7,7 @@ use super::counted;
 use super::elements::{command, plain_text, prose};
 use super::pictures;
 use crate::inputs::exam_source::PRACTICE_ID;
-use crate::report::failing_items::most_informative_first;
+use crate::report::failing_items::first_to_fix;
 use crate::sandbox::Isolation;
 use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
@@ -82,16 +82,15 @@ fn bar(task: &TaskScore) -> Markup {
 
 /// Renders the next step, which is to fix the first failing item in lecture order.
 pub(super) fn next_step(page: &Page) -> Markup {
-    let first_of = |task| most_informative_first(task).first().copied();
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
-            @match page.score.tasks.iter().find_map(first_of) {
+            @match first_to_fix(page.score, |_| true) {
                 None => {
                     (all_passed(page.score))
                     (pictures::beside_the_references(page.exam, page.answers))
                 }
-                Some(item) => (first_failure(item, page.rerun)),
+                Some((_, item)) => (first_failure(item, page.rerun)),
             }
         }
     }

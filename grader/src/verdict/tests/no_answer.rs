@@ -84,3 +84,57 @@ fn a_file_that_is_not_compiled_says_why_in_its_items_and_in_full() {
     let lines = reasons().map(|why| file_line(&why));
     assert_eq!(lines, [None, None, Some(7), None]);
 }
+
+#[test]
+fn a_crash_leads_to_a_section_about_crashes_or_else_to_the_tasks_chapter() {
+    let read = |id: &str, section: &str, outcome: &ItemOutcome| {
+        let mut item = item(id, vec![boxes(2)]);
+        item.section = Some(Section::new(section));
+        let line = item_score(&item, outcome, &RAYS);
+        line.where_to_read().map(Section::to_string)
+    };
+    let panics = ItemOutcome::answered(vec![panicked(
+        Credit::NONE,
+        "index out of bounds",
+        "bvh.rs:9:9",
+    )]);
+    let overflows = ItemOutcome::Fault {
+        fault: Fault::Crashed(Crash::StackOverflow),
+        culprit: None,
+    };
+    let picture = "grading.md#reading-a-wrong-picture";
+    let coincident = "building.md#when-all-centres-coincide";
+    for (id, section, outcome, expected) in [
+        (
+            "traverse.deep",
+            "traversal.md#deep-trees",
+            &panics,
+            "traversal.md#deep-trees",
+        ),
+        (
+            "traverse.ranges",
+            "traversal.md#the-algorithm",
+            &panics,
+            "traversal.md",
+        ),
+        ("traverse.picture", picture, &panics, "traversal.md"),
+        ("build.coincident", coincident, &panics, coincident),
+        ("build.coincident", coincident, &overflows, coincident),
+        (
+            "build.contains",
+            "building.md#start-each-box-empty",
+            &overflows,
+            "building.md#a-side-without-primitives",
+        ),
+    ] {
+        assert_eq!(
+            read(id, section, outcome).as_deref(),
+            Some(expected),
+            "{id}"
+        );
+    }
+    let mut unwritten = item("traverse.picture", vec![boxes(2)]);
+    unwritten.section = Some(Section::new(picture));
+    let line = unwritten_score(&unwritten, "bvh.rs", 9, &RAYS);
+    assert_eq!(line.section, Some(Section::new("traversal.md")));
+}

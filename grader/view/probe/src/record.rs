@@ -7,6 +7,7 @@
 
 use std::cell::{Cell, RefCell};
 
+use framework::render::path_log;
 use framework::submission::{Aggregate, Hierarchy};
 use glam::Vec3;
 use protocol::{Interval, Ray, Trace, TreeNode};
@@ -111,7 +112,7 @@ impl Aggregate for RecordingTree {
             let Some(List { rays, max_rays, .. }) = list else {
                 return true;
             };
-            rays.push(RecordedRay::new(*ray));
+            rays.push(RecordedRay::new(*ray, path_log::line_count()));
             rays.len() <= *max_rays as usize
         });
         if !is_traced {

@@ -174,17 +174,24 @@ impl Session {
             0 => String::new(),
             count => format!(", so each ray tests all {count} primitives"),
         };
-        let not_written = |task: &TaskInfo| format!("{}: not written yet{effect}.", task.title);
+        let not_written =
+            |task: &TaskInfo, effect: &str| format!("{}: not written yet{effect}.", task.title);
         let is_from_starter = |task: &&TaskInfo| self.is_from_starter(task);
+        let traverse = traverse.filter(is_from_starter);
         let unwritten = build.filter(|task| size.nodes == 0 && is_from_starter(task));
         if let Some(build) = unwritten {
-            add(not_written(build), self.line_of(Some(build)));
+            // Unlike the starter's `Bvh::hit`, a correct traversal finds nothing without a tree.
+            let effect = match traverse {
+                Some(_) => &effect,
+                None => ", so `Bvh::hit` has no tree to traverse",
+            };
+            add(not_written(build, effect), self.line_of(Some(build)));
         } else if size.nodes == 0 && size.primitives > 0 {
             let text = format!("{}: the tree has no nodes.", title_of_build(build));
             add(text, self.line_of(build));
         }
-        if let Some(traverse) = traverse.filter(is_from_starter) {
-            add(not_written(traverse), self.line_of(Some(traverse)));
+        if let Some(traverse) = traverse {
+            add(not_written(traverse, &effect), self.line_of(Some(traverse)));
         }
         if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
             let text = "Nothing can be drawn yet: write the `hit` method for triangles or spheres \

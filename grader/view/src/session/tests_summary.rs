@@ -59,13 +59,12 @@ impl Session {
     }
 
     /// Keeps the averages for the drawn picture, so that they can be compared with the averages for
-    /// the next version of the code. An incomplete picture is ignored, since its averages can't be
-    /// compared with others.
+    /// the next version of the code. Nothing is kept of an incomplete picture, since its averages
+    /// can't be compared with others.
     pub(super) fn keep_averages(&mut self) {
-        if self.tests.tiles.is_complete() {
-            let rays: Vec<MarkedTests> = self.tests.values().flatten().collect();
-            self.averages_before = TestAverages::of(&rays);
-        }
+        let is_complete = self.tests.tiles.is_complete();
+        let rays = is_complete.then(|| self.tests.values().flatten().collect::<Vec<_>>());
+        self.averages_before = rays.and_then(|rays| TestAverages::of(&rays));
     }
 
     fn judging_problem(&self, rays: &[MarkedTests]) -> Option<&'static str> {

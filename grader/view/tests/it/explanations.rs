@@ -66,6 +66,28 @@ fn every_ray_of_a_path_is_listed() {
     assert_eq!(no_path["steps"].as_array().unwrap().len(), 0);
 }
 
+/// A ray to the sky has no end, just like a ray after a bounce.
+#[test]
+fn a_ray_that_collects_light_from_the_sky_is_a_shadow_ray() {
+    let viewer = Viewer::start(
+        &Submission::reference(),
+        "open-sky --size 32x24 --samples 1",
+    );
+    let explanation = viewer.explain([16, 3], Some(0));
+    let rays = explanation["rays"].as_array().unwrap().iter();
+    let of_kind = |kind: &str| {
+        let rays = rays.clone().filter(|ray| ray["kind"] == kind);
+        rays.map(|ray| ray["is_shadow_ray"] == true)
+            .collect::<Vec<_>>()
+    };
+    let to_sky = of_kind("shadow ray to the sky");
+    assert!(
+        !to_sky.is_empty() && to_sky.iter().all(|is| *is),
+        "{explanation}"
+    );
+    assert_eq!(of_kind("ray after bounce 1"), [false], "{explanation}");
+}
+
 /// Returns the rules that a submission's traversal breaks in a sample of a scene's pixels.
 fn broken_rules(submission: &Submission) -> Vec<String> {
     let arguments = "gyroid --size 24x24 --samples 1";

@@ -84,6 +84,23 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
     assert_eq!(ray["boxes"], 0);
 }
 
+#[test]
+fn a_traversal_without_a_tree_does_not_test_all_primitives() {
+    let submission = Submission::reference();
+    submission.write("bvh.rs", &Submission::starter().read("bvh.rs"));
+    submission.replace_traversal(
+        "    pub fn hit(&self, ray: &Ray) -> Option<Trace> {
+        self.nodes.get(self.root)?.bbox.hit(ray, ray.range)?;
+        None
+    }
+",
+    );
+    let viewer = Viewer::start(&submission, "spheres --size 16x12 --samples 1");
+    let notes = notes(&viewer.wait_for_picture());
+    let note = "Task 3: building a BVH: not written yet, so `Bvh::hit` has no tree to traverse.";
+    assert!(notes.starts_with(note), "{notes}");
+}
+
 /// A viewer that explains a pixel after its camera has been moved.
 struct Explored {
     viewer: Viewer,

@@ -87,6 +87,16 @@ fn a_save_that_visits_the_farther_child_first_changes_the_sums_and_the_picture()
         );
         assert_eq!(tab.errors(), [""; 0]);
     }
+    // Saves made while another view is shown: the last version's tests are not known.
+    viewer.command(&json!({ "view": "shaded" }));
+    for save in 1..=2 {
+        let text = submission.read("bvh.rs");
+        submission.write("bvh.rs", &format!("{text}// save {save}\n"));
+        viewer.wait_for(|state| state["is_picture_complete"] == false);
+        viewer.wait_for_picture();
+    }
+    let state = wait_for_mistakes(&viewer);
+    assert_eq!(state["tests"]["before"], Value::Null);
     // A different camera produces different rays.
     viewer.command(&json!({ "side": "top" }));
     let state = wait_for_mistakes(&viewer);

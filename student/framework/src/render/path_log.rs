@@ -23,6 +23,11 @@ pub fn log(line: impl FnOnce() -> String) {
     });
 }
 
+/// Returns the number of lines so far. It is 0 if no path is followed.
+pub fn line_count() -> usize {
+    LINES.with_borrow(|lines| lines.as_ref().map_or(0, Vec::len))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -33,12 +38,13 @@ mod tests {
         let (value, lines) = follow(|| {
             log(|| "a hit".to_owned());
             log(|| "a miss".to_owned());
+            assert_eq!(line_count(), 2);
             7
         });
         assert_eq!(
             (value, lines),
             (7, ["a hit", "a miss"].map(str::to_owned).to_vec())
         );
-        assert_eq!(follow(|| ()).1, [""; 0]);
+        assert_eq!((follow(|| ()).1, line_count()), (Vec::new(), 0));
     }
 }

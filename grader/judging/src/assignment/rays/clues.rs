@@ -166,7 +166,8 @@ pub(super) const SPHERE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("normal"), Symptom::reversed("normal")],
-            clue: "The normal points from the centre to the hit, even if the ray comes from inside.",
+            clue: "The normal points from the centre to the hit and has length one, even if the ray comes \
+                from inside.",
             section: "sphere.md#the-normal-points-away-from-the-centre",
         },
         SymptomClue {
@@ -230,6 +231,8 @@ pub(super) const BUILD: TaskClues = TaskClues {
          rule to count the two sides as to move the primitives? `--replay` shows the smallest set \
          of primitives that still overflows the stack.",
     ),
+    section_if_stack_overflows: Some("building.md#a-side-without-primitives"),
+    sections_on_crashes: &["building.md#when-all-centres-coincide"],
     by_symptom: &[
         SymptomClue {
             symptoms: &[Symptom::of("nodes")],
@@ -313,6 +316,10 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
          all primitives in the leaves? If it finds a hit, is that hit compared the right way \
          round, kept, and returned?",
     ),
+    sections_on_crashes: &[
+        "traversal.md#an-empty-tree-has-no-nodes",
+        "traversal.md#deep-trees",
+    ],
     section_on_kept_state: Some("traversal.md#keep-nothing-between-two-rays"),
     by_symptom: &[
         SymptomClue {

@@ -88,8 +88,13 @@ pub enum TreeDefect {
         /// The maximum number of primitives in a leaf.
         most: usize,
     },
-    /// The tree's cost is too high. The value is a multiple of the exact sweep's cost.
-    Cost(f64),
+    /// The tree's cost is too high.
+    Cost {
+        /// The cost as a multiple of the exact sweep's cost.
+        ratio: f64,
+        /// The numbers of primitives below the root's children, unless the root is a leaf.
+        root_split: Option<[usize; 2]>,
+    },
 }
 
 /// A node and the tightest box around its primitives.
@@ -126,7 +131,7 @@ impl TreeDefect {
             | TreeDefect::UnknownNode { .. }
             | TreeDefect::TooManyListed { .. }
             | TreeDefect::Partition { .. }
-            | TreeDefect::Cost(_) => None,
+            | TreeDefect::Cost { .. } => None,
         }
     }
 
@@ -142,7 +147,7 @@ impl TreeDefect {
             TreeDefect::BoxTooLarge(_) => "box too large",
             TreeDefect::NotSplit { .. } | TreeDefect::NeedlessSplit { .. } => "splits",
             TreeDefect::LeafTooLarge { .. } => "leaf size",
-            TreeDefect::Cost(_) => "SAH cost",
+            TreeDefect::Cost { .. } => "SAH cost",
         }
     }
 
@@ -160,7 +165,7 @@ impl TreeDefect {
             | TreeDefect::BoxTooSmall(_)
             | TreeDefect::BoxTooLarge(_)
             | TreeDefect::LeafTooLarge { .. }
-            | TreeDefect::Cost(_) => None,
+            | TreeDefect::Cost { .. } => None,
         }
     }
 
@@ -201,8 +206,12 @@ impl TreeDefect {
             TreeDefect::NeedlessSplit { node, count, .. } => {
                 format!("node {node} with {count} primitives was split")
             }
-            TreeDefect::Cost(ratio) => {
-                format!("{ratio:.2} times the cost with the best split at every node")
+            TreeDefect::Cost { ratio, root_split } => {
+                let root = root_split.map_or(String::new(), |[l, r]| {
+                    let all = l + r;
+                    format!(" (the root splits {all} primitives into {l} and {r})")
+                });
+                format!("{ratio:.2} times the cost with the best split at every node{root}")
             }
         }
     }
@@ -232,7 +241,7 @@ impl TreeDefect {
             TreeDefect::NeedlessSplit { most, .. } => {
                 format!("a leaf if there are at most {most} primitives")
             }
-            TreeDefect::Cost(_) => format!(
+            TreeDefect::Cost { .. } => format!(
                 "at most {FULL_MARKS_RATIO:.2} times ({HALF_MARKS_RATIO:.2} for half the points)"
             ),
         }

@@ -84,7 +84,8 @@ impl Comparison for TreeAnswer<'_> {
         match self.criteria.defect(tree) {
             None => Judgement::RIGHT,
             Some(defect) => Judgement {
-                credit: if matches!(defect, TreeDefect::Cost(ratio) if ratio <= HALF_MARKS_RATIO) {
+                credit: if matches!(defect, TreeDefect::Cost { ratio, .. } if ratio <= HALF_MARKS_RATIO)
+                {
                     Credit::HALF
                 } else {
                     Credit::NONE
@@ -148,7 +149,10 @@ impl TreeCriteria<'_> {
                     Ok(cost) => cost / sweep,
                     Err(defect) => return Some(defect),
                 };
-                (!cost_deviation(ratio).is_right()).then_some(TreeDefect::Cost(ratio))
+                (!cost_deviation(ratio).is_right()).then(|| TreeDefect::Cost {
+                    ratio,
+                    root_split: root_split(&nodes),
+                })
             })
     }
 
@@ -276,6 +280,15 @@ pub fn leaves_of_primitives<'a>(
         leaves[primitive] += 1;
     }
     leaves
+}
+
+/// Returns the numbers of primitives below the root's two children, unless the root is a leaf.
+fn root_split(nodes: &[ReachedNode]) -> Option<[usize; 2]> {
+    let root = nodes
+        .first()
+        .filter(|root| root.leaf_primitives.is_none())?;
+    let count = |child| Some(nodes.iter().find(|node| node.index == child)?.count);
+    Some([count(root.node.l)?, count(root.node.r)?])
 }
 
 /// Returns the SAH cost of a tree: Σ S/S_root over interior nodes + Σ n · S/S_root over leaves

@@ -222,6 +222,18 @@ fn cost_matches_a_hand_calculation() {
     assert_eq!(credit(1.11), Credit::FULL);
     assert_eq!(credit(1.13), Credit::HALF);
     assert_eq!(credit(1.26), Credit::NONE);
+
+    // The report also says which split the root has, since the cost says nothing about it.
+    let cheaper = Some(by_hand / 2.0);
+    let failure = judge(&ALL_CHECKS, cheaper, 4, 2, valid_tree()).failure;
+    let Some(FailureKind::Wrong { got, .. }) = failure.map(|failure| failure.kind) else {
+        panic!("the cost is wrong")
+    };
+    assert!(
+        got.starts_with("2.00 times")
+            && got.ends_with("(the root splits 4 primitives into 2 and 2)"),
+        "{got}"
+    );
 }
 
 #[test]

@@ -34,13 +34,16 @@ pub struct RecordedRay {
     pub tests: Vec<Test>,
     /// The counts of all tests, including those that aren't listed.
     pub counts: TestCounts,
+    /// The number of steps that the path tracer logged before it traced the ray.
+    pub steps_before: usize,
 }
 
 impl RecordedRay {
     /// Returns a ray without tests.
-    pub(crate) fn new(ray: Ray) -> Self {
+    pub(crate) fn new(ray: Ray, steps_before: usize) -> Self {
         RecordedRay {
             ray,
+            steps_before,
             hit: None,
             tests: Vec::new(),
             counts: TestCounts::default(),

@@ -52,6 +52,7 @@ fn broken(tests: &str) -> Vec<(Rule, u32)> {
         hit: None,
         tests: tests.split(' ').map(test).collect(),
         counts: TestCounts::default(),
+        steps_before: 0,
     };
     let span = |min, max| Some(Interval::new(min, max));
     let spans = [

@@ -138,7 +138,7 @@ fn title(defect: &TreeDefect) -> &'static str {
         TreeDefect::NeedlessSplit { .. } => {
             "Nodes that are split even though their primitives fit in one leaf"
         }
-        TreeDefect::Cost(_) => "Costs that are too high",
+        TreeDefect::Cost { .. } => "Costs that are too high",
         TreeDefect::NoNodes { .. }
         | TreeDefect::UnknownNode { .. }
         | TreeDefect::ReachedTwice { .. }

@@ -39,7 +39,7 @@ pub fn read(bytes: &[u8]) {
             .into(),
         missing: Vec::new(),
     };
-    let class_summary = ClassSummary::new(&class, &BTreeSet::new());
+    let class_summary = ClassSummary::new(&class, &policy, &BTreeSet::new());
     assert!(
         page::render_page(&class, &class_summary, &Changes::default(), &[]).ends_with("</html>")
     );

@@ -15,7 +15,7 @@ use std::path::Path;
 
 use grader::build::compiler_help;
 use grader::files::{self, PathError};
-use judging::assignment::Assignment;
+use judging::assignment::{Assignment, TaskClues};
 use judging::exam::Exam;
 use judging::section::{CHAPTERS, Section};
 
@@ -91,11 +91,26 @@ fn other_sections(assignment: &Assignment) -> impl Iterator<Item = (String, Sect
     let challenge = assignment.challenge.into_iter();
     let challenge = challenge.map(|section| ("the challenge".to_owned(), Section::new(section)));
     let clues = assignment.tasks.iter().flat_map(|task| {
-        let clues = task.clues.by_symptom.iter();
-        clues.map(|clue| {
+        let TaskClues {
+            section_if_stack_overflows,
+            sections_on_crashes,
+            section_on_kept_state,
+            by_symptom,
+            if_nothing_is_hit: _,
+            if_stack_overflows: _,
+        } = &task.clues;
+        let single = section_if_stack_overflows
+            .iter()
+            .chain(section_on_kept_state);
+        let of_faults = single.chain(sections_on_crashes.iter()).map(|section| {
+            let whose = format!("a clue for {} (fault)", task.id);
+            (whose, Section::new(*section))
+        });
+        let of_symptoms = by_symptom.iter().map(|clue| {
             let whose = format!("a clue for {} ({})", task.id, clue.symptoms[0].what);
             (whose, Section::new(clue.section))
-        })
+        });
+        of_faults.chain(of_symptoms)
     });
     let errors = compiler_help::sections().map(|section| ("a compiler error".to_owned(), section));
     challenge.chain(clues).chain(errors)

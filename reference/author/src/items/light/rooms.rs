@@ -89,14 +89,14 @@ pub(super) fn tilted(rng: &mut Rng, center: DVec3, size: f64, material: Material
     Quad::new(center - 0.5 * (edges[0] + edges[1]), edges, material)
 }
 
-/// Returns a room without a ceiling and a front wall, under an environment map. The front is at
-/// +z. `back` is the material of the wall opposite, and a light hangs from the missing ceiling if
-/// `has_lights` is set.
-pub(super) fn under_a_map(rng: &mut Rng, back: Material64, has_lights: bool) -> Room {
+/// Returns a room without a ceiling and without the wall at +z, under an environment map. `left` is
+/// the material of the wall at −x, whose frame isn't that of the world. If `has_lights` is set,
+/// there is also a light above the floor.
+pub(super) fn under_a_map(rng: &mut Rng, left: Material64, has_lights: bool) -> Room {
     let half = DVec3::new(2.5, 2.0, 3.0);
     let all = walls(half, || matte(rng));
-    let back = panel(DVec3::new(0.0, 0.0, -half.z), 2, 1.0, half, back);
-    let mut quads = vec![all[0], all[1], all[2], back];
+    let left = panel(DVec3::new(-half.x, 0.0, 0.0), 0, 1.0, half, left);
+    let mut quads = vec![left, all[1], all[2], all[4]];
     if has_lights {
         let radiance = color(rng) * rng.log_uniform(0.5, 20.0);
         let size = DVec3::new(0.8, 0.0, 0.8);

@@ -32,8 +32,8 @@ pub(super) const MAP: Declaration = Declaration {
             rooms(
                 rng,
                 |rng| {
-                    let back = matte(rng);
-                    under_a_map(rng, back, has_lights)
+                    let left = matte(rng);
+                    under_a_map(rng, left, has_lights)
                 },
                 |rng, room| {
                     let mut cases = LIT_AND_DARK(rng, room);

@@ -74,6 +74,8 @@ fn lists(
             let is_triangle = rng.coin();
             Light64::Flat(light(rng, is_triangle))
         }));
+        let lights = lights.into_iter().map(|light| similar(rng, light));
+        let lights: Vec<Light64> = lights.collect();
         let lights = rng.shuffled(lights);
         question(rng, &lights)
     });
@@ -85,8 +87,19 @@ fn sphere(rng: &mut Rng) -> Light64 {
     Light64::Sphere(SphericalLight64 {
         center: single(rng.point(2.0)),
         radius: f64::from(rng.log_uniform(0.1, 0.8) as f32),
-        radiance: single(color(rng) * rng.log_uniform(0.5, 50.0)),
+        radiance: color(rng),
     })
+}
+
+/// Changes the brightness of a light. In a list of such lights, no light has nearly all the power.
+fn similar(rng: &mut Rng, mut light: Light64) -> Light64 {
+    let factor = rng.uniform(1.0, 4.0) / light.power();
+    let radiance = match &mut light {
+        Light64::Flat(light) => &mut light.radiance,
+        Light64::Sphere(light) => &mut light.radiance,
+    };
+    *radiance = single(*radiance * factor);
+    light
 }
 
 fn is_sphere(light: &Light64) -> bool {

@@ -175,7 +175,7 @@ fn all_items(score: &Score) -> BTreeSet<String> {
 
 /// Returns the ids of an exam's items in grading order.
 fn ids_in_order<'a>(exam: &'a Exam, handed_out: &HandedOut) -> impl Iterator<Item = &'a str> {
-    let tasks = handed_out.assignment.tasks();
+    let tasks = exam.tasks_in_order(handed_out.assignment).into_iter();
     let of_task = move |task| exam.items.iter().filter(move |item| item.task == task);
     tasks.flat_map(of_task).map(|item| item.id.as_str())
 }

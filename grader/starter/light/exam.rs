@@ -2,12 +2,13 @@
 
 use framework::render::rectangles::RectangleScene;
 use framework::render::sampler::{RandomNumbers, Sampler};
-use framework::scene::{EnvironmentMap, Scene};
+use framework::render::sphere_light::SphereLight;
+use framework::scene::{self, EnvironmentMap, Scene};
 use framework::submission::Submission;
 use glam::{UVec2, Vec2, Vec3};
 use protocol::light::environment::MapImage;
-use protocol::light::lights::FlatLight;
-use protocol::light::transport::{DirectSample, PathStart};
+use protocol::light::lights::{FlatLight, ListedLight, SphericalLight};
+use protocol::light::transport::{self, DirectSample, PathStart};
 use protocol::light::{DirectionSampler, LightFunctions, LitRoom, MapSampler};
 
 use crate::direct::direct;
@@ -75,13 +76,16 @@ impl LightFunctions for Student {
         area_light(light).pdf(from, direction)
     }
 
-    fn lights(&self, lights: &[FlatLight]) -> Box<dyn DirectionSampler> {
-        let lights = lights.iter().map(|light| Light::Area(area_light(light)));
-        Box::new(LightList(Lights::new(lights.collect())))
+    fn lights(&self, lights: &[ListedLight]) -> Box<dyn DirectionSampler> {
+        let lights = lights.iter().map(light).collect();
+        Box::new(LightList(Lights::new(lights)))
     }
 
-    fn room(&self, scene: &str) -> Box<dyn LitRoom> {
-        let scene = Scene::from_text(scene).expect("the exam's scene is valid");
+    fn room(&self, room: &transport::Room) -> Box<dyn LitRoom> {
+        let mut scene = Scene::from_text(&room.scene).expect("the exam's scene is valid");
+        if let Some(map) = &room.map {
+            scene.environment = scene::Environment::Map(environment_map(map));
+        }
         let sources = LightSources::of(&scene);
         let hits = RectangleScene::new(scene);
         Box::new(Room { hits, sources })
@@ -92,9 +96,7 @@ impl LightFunctions for Student {
     }
 
     fn environment(&self, map: &MapImage) -> Box<dyn MapSampler> {
-        let map = EnvironmentMap::new(map.size, map.pixels.clone());
-        let map = map.expect("the exam's map is valid");
-        Box::new(Map(Environment::new(map)))
+        Box::new(Map(Environment::new(environment_map(map))))
     }
 }
 
@@ -141,7 +143,35 @@ impl LitRoom for Room {
     }
 }
 
+/// Converts an environment map.
+fn environment_map(map: &MapImage) -> EnvironmentMap {
+    let map = EnvironmentMap::new(map.size, map.pixels.clone());
+    map.expect("the exam's map is valid")
+}
+
 /// Converts a light.
+fn light(light: &ListedLight) -> Light {
+    match light {
+        ListedLight::Flat(light) => Light::Area(area_light(light)),
+        ListedLight::Sphere(light) => Light::Sphere(sphere_light(light)),
+    }
+}
+
+/// Converts a sphere.
+fn sphere_light(light: &SphericalLight) -> SphereLight {
+    let SphericalLight {
+        center,
+        radius,
+        radiance,
+    } = *light;
+    SphereLight {
+        center,
+        radius,
+        radiance,
+    }
+}
+
+/// Converts a flat light.
 fn area_light(light: &FlatLight) -> AreaLight {
     let FlatLight {
         corner,

@@ -7,7 +7,8 @@ use std::fmt::Debug;
 use glam::{UVec2, Vec2, Vec3};
 
 use crate::function::light::environment::MapImage;
-use crate::function::light::lights::FlatLight;
+use crate::function::light::lights::ListedLight;
+use crate::function::light::transport::Room;
 use crate::interval::Interval;
 use crate::shape::Shape;
 use crate::tree::TreeNode;
@@ -58,9 +59,9 @@ pub enum Value<'a> {
     /// Two random numbers in `[0, 1)`.
     RandomPair(Vec2),
     /// A list of lights.
-    Lights(Cow<'a, [FlatLight]>),
-    /// The text of a scene file.
-    Scene(Cow<'a, str>),
+    Lights(Cow<'a, [ListedLight]>),
+    /// A scene of rectangles.
+    Scene(Cow<'a, Room>),
     /// An environment map.
     Map(Cow<'a, MapImage>),
 }

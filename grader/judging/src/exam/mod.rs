@@ -50,6 +50,19 @@ impl Exam {
         }
     }
 
+    /// Returns the assignment's tasks in grading order: a task is graded after the tasks that its
+    /// items depend on, so the order is that of the tasks' first items. Tasks without items come
+    /// last.
+    pub fn tasks_in_order(&self, assignment: &Assignment) -> Vec<Task> {
+        let first_item = |task: &Task| {
+            let index = self.items.iter().position(|item| item.task == *task);
+            index.unwrap_or(self.items.len())
+        };
+        let mut tasks: Vec<Task> = assignment.tasks().collect();
+        tasks.sort_by_key(first_item);
+        tasks
+    }
+
     /// Returns an exam with the items that `wanted` selects and the items they need.
     pub fn with_needed_items(&self, wanted: impl Fn(&Item) -> bool) -> Exam {
         let dependents = self.items.iter().filter(|item| wanted(item));

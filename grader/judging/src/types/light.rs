@@ -1,14 +1,51 @@
-//! Lists of lights as text.
+//! Lists of lights and rooms as text.
 
-use protocol::light::lights::FlatLight;
+use protocol::light::environment::MapImage;
+use protocol::light::lights::{FlatLight, ListedLight, SphericalLight};
+use protocol::light::transport::Room;
 
-use super::point;
+use super::{number, point};
 
 /// Describes a single light in full. For several lights, returns only their number.
-pub(super) fn text(lights: &[FlatLight]) -> String {
-    let [light] = lights else {
-        return format!("{} lights", lights.len());
-    };
+pub(super) fn text(lights: &[ListedLight]) -> String {
+    match lights {
+        [ListedLight::Flat(light)] => flat_text(light),
+        [ListedLight::Sphere(light)] => sphere_text(light),
+        _ => many_text(lights),
+    }
+}
+
+/// Describes a map by its size.
+pub(super) fn map_text(map: &MapImage) -> String {
+    format!("a map of {}×{} pixels", map.size.x, map.size.y)
+}
+
+/// Describes a room by its environment.
+pub(super) fn room_text(room: &Room) -> String {
+    match &room.map {
+        Some(map) => format!("a room under {}", map_text(map)),
+        None => "a room".to_owned(),
+    }
+}
+
+/// Returns the number of lights, and how many of them are spheres, if any.
+fn many_text(lights: &[ListedLight]) -> String {
+    let is_sphere = |light: &&ListedLight| matches!(light, ListedLight::Sphere(_));
+    let all = lights.len();
+    match lights.iter().filter(is_sphere).count() {
+        0 => format!("{all} lights"),
+        1 => format!("{all} lights, of which 1 is a sphere"),
+        spheres => format!("{all} lights, of which {spheres} are spheres"),
+    }
+}
+
+fn sphere_text(light: &SphericalLight) -> String {
+    let [center, radiance] = [light.center, light.radiance].map(point::text);
+    let radius = number(light.radius);
+    format!("spherical light at {center} with radius {radius}, radiance {radiance}")
+}
+
+fn flat_text(light: &FlatLight) -> String {
     let FlatLight {
         corner,
         edges: [first, second],

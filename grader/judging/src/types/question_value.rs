@@ -18,8 +18,8 @@ impl FieldType for QuestionValue<'_> {
             Value::Random(random) => number(*random),
             Value::RandomPair(random) => uv(*random),
             Value::Lights(lights) => light::text(lights),
-            Value::Scene(_) => "a room".to_owned(),
-            Value::Map(map) => format!("a map of {}×{} pixels", map.size.x, map.size.y),
+            Value::Scene(room) => light::room_text(room),
+            Value::Map(map) => light::map_text(map),
             Value::Length(_)
             | Value::Point(_)
             | Value::Direction(_)

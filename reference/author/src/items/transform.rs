@@ -6,7 +6,7 @@ use std::borrow::Cow;
 
 use glam::{DVec3, Vec3};
 use judging::exam::{ExamQuestion, Key};
-use protocol::light::lights::FlatLight;
+use protocol::light::lights::{FlatLight, ListedLight, SphericalLight};
 use protocol::{Interval, Question, Ray, Shape, TreeNode, Value};
 
 use crate::oracle::bbox::Bounds;
@@ -140,7 +140,18 @@ impl Transform {
         TreeNode { min, max, ..*node }
     }
 
-    fn light(self, light: &FlatLight) -> FlatLight {
+    fn light(self, light: &ListedLight) -> ListedLight {
+        match light {
+            ListedLight::Flat(light) => ListedLight::Flat(self.flat_light(light)),
+            ListedLight::Sphere(light) => ListedLight::Sphere(SphericalLight {
+                center: self.point(light.center),
+                radius: self.length(light.radius),
+                ..*light
+            }),
+        }
+    }
+
+    fn flat_light(self, light: &FlatLight) -> FlatLight {
         let FlatLight {
             corner,
             edges: [first, second],
@@ -182,10 +193,10 @@ impl Transform {
             Value::Random(random) => Value::Random(random),
             Value::RandomPair(random) => Value::RandomPair(random),
             Value::Lights(lights) => {
-                let lights: Vec<FlatLight> = lights.iter().map(|it| self.light(it)).collect();
+                let lights: Vec<ListedLight> = lights.iter().map(|it| self.light(it)).collect();
                 Value::Lights(lights.into())
             }
-            Value::Scene(scene) => Value::Scene(scene.into_owned().into()),
+            Value::Scene(room) => Value::Scene(Cow::Owned(room.into_owned())),
             Value::Map(map) => Value::Map(Cow::Owned(map.into_owned())),
         }
     }

@@ -6,6 +6,7 @@ use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::environment::{MapImage, MapSample, RandomPair};
 
+use super::groups::MAPS;
 use super::{color, densities, directions, local, random, random_pair, single, table};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::WithMargin;
@@ -84,7 +85,7 @@ const PICK: Declaration = Declaration {
         });
         questions.into()
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(MAPS)
 };
 
 const POSITION: Declaration = Declaration {
@@ -108,7 +109,7 @@ const POSITION: Declaration = Declaration {
         });
         questions.into()
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(MAPS)
 };
 
 const SINE: Declaration = Declaration {
@@ -131,7 +132,7 @@ const SINE: Declaration = Declaration {
         });
         questions.into()
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(MAPS)
 };
 
 const LUMINANCE: Declaration = Declaration {
@@ -153,7 +154,7 @@ const LUMINANCE: Declaration = Declaration {
         questions.extend([pdfs(rng, map, |_| true)]);
         questions
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(MAPS)
 };
 
 const ENDS: Declaration = Declaration {
@@ -189,7 +190,7 @@ const ENDS: Declaration = Declaration {
         }
         questions
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(MAPS)
 };
 
 const BLACK: Declaration = Declaration {
@@ -230,7 +231,7 @@ const BLACK: Declaration = Declaration {
         questions.push(pdfs(rng, black, |_| true));
         questions
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(MAPS)
 };
 
 const PDF: Declaration = Declaration {
@@ -257,7 +258,7 @@ const PDF: Declaration = Declaration {
         });
         questions.into()
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(MAPS)
 };
 
 const SIZES: Declaration = Declaration {
@@ -280,7 +281,7 @@ const SIZES: Declaration = Declaration {
         }
         questions
     },
-    ..Declaration::ALONE
+    ..Declaration::in_group(MAPS)
 };
 
 /// Returns a question about the lengths of uniform directions at the ends of the random numbers.

@@ -12,5 +12,9 @@ pub(super) const SPECULAR: Group = Group("mirrors and glass");
 pub(super) const LIGHT_SAMPLES: Group = Group("samples of lights");
 /// The densities of those directions.
 pub(super) const LIGHT_DENSITIES: Group = Group("densities of lights");
+/// Environment maps.
+pub(super) const MAPS: Group = Group("environment maps");
 /// Direct light.
 pub(super) const DIRECT: Group = Group("direct light");
+/// Direct light from environment maps.
+pub(super) const DIRECT_MAPS: Group = Group("direct light from environment maps");

@@ -20,14 +20,15 @@ use super::AuthoredTask;
 use crate::oracle::light::Scattered64;
 use crate::seed::Rng;
 
-/// The tasks of `light`, in lecture order.
+/// The tasks of `light`, in grading order. Environment maps are last in the lecture, but questions
+/// about direct light and paths need them.
 pub static TASKS: &[&AuthoredTask] = &[
     &lambertian::TASK,
     &specular::TASK,
     &lights::TASK,
+    &environment::TASK,
     &direct::TASK,
     &path::TASK,
-    &environment::TASK,
 ];
 
 /// The smallest margin of a question.

@@ -1,12 +1,14 @@
 //! Random rooms of parallelograms, and cases in them whose answers don't depend on rounding.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3, uvec2};
 use protocol::Ray;
-use protocol::light::transport::{DirectSample, PathStart};
+use protocol::light::environment::MapImage;
+use protocol::light::transport::{self as functions, DirectSample, PathStart};
 use protocol::sampler::{RandomNumbers, Sampler};
 
 use super::{MARGIN, color, random, random_pair};
 use crate::oracle::Ray64;
+use crate::oracle::light::environment::Map64;
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
@@ -87,6 +89,24 @@ pub(super) fn tilted(rng: &mut Rng, center: DVec3, size: f64, material: Material
     Quad::new(center - 0.5 * (edges[0] + edges[1]), edges, material)
 }
 
+/// Returns a room without a ceiling and without the wall at +z, under an environment map. `left` is
+/// the material of the wall at −x, whose frame isn't that of the world. If `has_lights` is set,
+/// there is also a light above the floor.
+pub(super) fn under_a_map(rng: &mut Rng, left: Material64, has_lights: bool) -> Room {
+    let half = DVec3::new(2.5, 2.0, 3.0);
+    let all = walls(half, || matte(rng));
+    let left = panel(DVec3::new(-half.x, 0.0, 0.0), 0, 1.0, half, left);
+    let mut quads = vec![left, all[1], all[2], all[4]];
+    if has_lights {
+        let radiance = color(rng) * rng.log_uniform(0.5, 20.0);
+        let size = DVec3::new(0.8, 0.0, 0.8);
+        let light = Material64::Emitter { radiance };
+        quads.push(panel(DVec3::new(-0.5, 1.0, -0.4), 1, -1.0, size, light));
+    }
+    let map = map(rng);
+    Room::new(quads, map)
+}
+
 /// Returns the six sides of a box around a point. Their fronts face outward.
 pub(super) fn block(center: DVec3, half: DVec3, material: Material64) -> Vec<Quad> {
     let mut sides = Vec::new();
@@ -103,6 +123,32 @@ pub(super) fn block(center: DVec3, half: DVec3, material: Material64) -> Vec<Qua
 /// Returns an environment with the same random radiance from all directions.
 pub(super) fn sky(rng: &mut Rng) -> Environment64 {
     Environment64::Constant(color(rng) * 2.0)
+}
+
+/// Returns an environment map with random pixels, whose brightness is very uneven. Some are black.
+fn map(rng: &mut Rng) -> Environment64 {
+    let size = uvec2(8, 4);
+    let pixel = |_| match rng.index(5) {
+        0 => Vec3::ZERO,
+        _ => (tint(rng) * rng.log_uniform(0.02, 50.0)).as_vec3(),
+    };
+    let pixels: Vec<Vec3> = (0..size.element_product()).map(pixel).collect();
+    Environment64::Map(Map64::new(size, &pixels))
+}
+
+/// Converts a room to the one in a question.
+pub(super) fn subject(room: &Room) -> functions::Room {
+    let map = match &room.sources().environment {
+        Environment64::Constant(_) => None,
+        Environment64::Map(map) => Some(MapImage {
+            size: map.size(),
+            pixels: map.pixels().iter().map(|pixel| pixel.as_vec3()).collect(),
+        }),
+    };
+    functions::Room {
+        scene: room.text(),
+        map,
+    }
 }
 
 /// An environment without light.
@@ -149,6 +195,19 @@ pub(super) fn path_case(
     bounces: u32,
     wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
 ) -> PathCase {
+    path_case_along(rng, room, bounces, |ray, numbers, light| {
+        wanted(room.hit(ray, None).value.as_ref(), numbers, light)
+    })
+}
+
+/// Returns a case in which `wanted` is true of a random ray, of the random numbers and of the
+/// radiance along the ray.
+pub(super) fn path_case_along(
+    rng: &mut Rng,
+    room: &Room,
+    bounces: u32,
+    wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
+) -> PathCase {
     rng.retry(|rng| {
         let ray = random_ray(rng, reach(room));
         let ray64 = Ray64::from(&ray);
@@ -161,13 +220,27 @@ pub(super) fn path_case(
         let is_clear = radiance.margin.min(hit.margin) > MARGIN;
         let light = radiance.value;
         let call = PathStart { ray, seed, bounces };
-        let is_wanted = is_clear && wanted(hit.value.as_ref(), &numbers, light);
+        let is_wanted = is_clear && wanted(&ray64, &numbers, light);
         is_wanted.then_some(PathCase { call, light })
     })
 }
 
-/// Returns the surface that a path hits after it leaves a matte surface or a mirror, or `None` if
-/// it hits nothing or the surface has another material.
+/// Returns the surfaces that a path hits, as if it always survived.
+pub(super) fn surfaces(room: &Room, ray: &Ray64, numbers: &[Numbers64]) -> Vec<Surface64> {
+    let first = room.hit(ray, None).value;
+    let mut surfaces: Vec<Surface64> = first.into_iter().collect();
+    for numbers in numbers {
+        let last = surfaces.last();
+        let Some(next) = last.and_then(|last| next_surface(room, last, numbers)) else {
+            break;
+        };
+        surfaces.push(next);
+    }
+    surfaces
+}
+
+/// Returns the surface that a path hits after it leaves this one, or `None` if it hits nothing or
+/// leaves a light, which scatters nothing.
 pub(super) fn next_surface(
     room: &Room,
     surface: &Surface64,
@@ -176,7 +249,10 @@ pub(super) fn next_surface(
     let direction = match surface.material {
         Material64::Lambertian { .. } => lambertian::sample_cosine_hemisphere(numbers.scatter),
         Material64::Mirror { .. } => specular::reflect(surface.out),
-        Material64::Glass { .. } | Material64::Emitter { .. } => return None,
+        Material64::Glass { ior } => {
+            specular::glass_scatter(ior, surface.out, numbers.reflect).direction
+        }
+        Material64::Emitter { .. } => return None,
     };
     let ray = Ray64 {
         origin: surface.position,

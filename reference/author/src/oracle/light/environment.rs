@@ -41,6 +41,16 @@ impl Map64 {
         }
     }
 
+    /// Returns the width and height in pixels.
+    pub fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// Returns the radiance of each pixel, row by row from the top.
+    pub fn pixels(&self) -> &[DVec3] {
+        &self.pixels
+    }
+
     /// Returns the probability that each pixel is picked, row by row from the top.
     pub fn shares(&self) -> &[f64] {
         &self.shares

@@ -1,8 +1,9 @@
-//! Flat lights, and sampling directions toward them. Points and directions are in world space.
+//! Lists of lights, and sampling directions toward them. Points and directions are in world space.
 
 use glam::{DVec2, DVec3, dvec2};
 
 use super::flat_shape::{FlatShape, PlaneHit, determinant};
+use super::spherical_light::SphericalLight64;
 use super::{WithMargin, luminance, nearest_border};
 
 /// A flat light. It emits at its front only.
@@ -14,10 +15,19 @@ pub struct FlatLight64 {
     pub radiance: DVec3,
 }
 
+/// A light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light64 {
+    /// A flat light.
+    Flat(FlatLight64),
+    /// A sphere.
+    Sphere(SphericalLight64),
+}
+
 /// The lights of a scene that have power.
 #[derive(Clone, Debug)]
 pub struct Lights64 {
-    lights: Vec<FlatLight64>,
+    lights: Vec<Light64>,
     /// For each light, the probability that it is picked.
     shares: Vec<f64>,
 }
@@ -66,12 +76,57 @@ impl FlatLight64 {
     }
 }
 
+impl Light64 {
+    /// Returns the power up to a constant factor.
+    pub fn power(&self) -> f64 {
+        match self {
+            Light64::Flat(light) => light.power(),
+            Light64::Sphere(light) => light.power(),
+        }
+    }
+
+    /// Samples a unit direction to the light. Returns `None` if the light faces away. The margin is
+    /// how far it is from that.
+    fn sample(&self, from: DVec3, random: DVec2) -> WithMargin<Option<DVec3>> {
+        let light = match self {
+            Light64::Flat(light) => light,
+            Light64::Sphere(light) => return light.sample(from, random),
+        };
+        let direction = (light.point(random) - from).normalize();
+        let cosine = direction.dot(light.shape.normal());
+        WithMargin {
+            value: (cosine < 0.0).then_some(direction),
+            margin: cosine.abs(),
+        }
+    }
+
+    /// Returns the probability density, per solid angle, of a direction if only this light is
+    /// sampled. The margin is how far the direction is from the light's edges and its plane.
+    fn pdf(&self, from: DVec3, direction: DVec3) -> WithMargin<f64> {
+        let light = match self {
+            Light64::Flat(light) => light,
+            Light64::Sphere(light) => return light.pdf(from, direction),
+        };
+        let hit = light.shape.intersect_plane(from, direction);
+        WithMargin {
+            value: light.pdf(from, direction),
+            margin: hit.map_or(f64::INFINITY, |hit| hit.margin()),
+        }
+    }
+}
+
+impl From<FlatLight64> for Light64 {
+    fn from(light: FlatLight64) -> Self {
+        Light64::Flat(light)
+    }
+}
+
 impl Lights64 {
     /// Creates a list of lights. Lights without power are left out.
-    pub fn new(lights: impl IntoIterator<Item = FlatLight64>) -> Lights64 {
-        let has_power = |light: &FlatLight64| light.power() > 0.0;
-        let lights: Vec<FlatLight64> = lights.into_iter().filter(has_power).collect();
-        let total: f64 = lights.iter().map(FlatLight64::power).sum();
+    pub fn new(lights: impl IntoIterator<Item = impl Into<Light64>>) -> Lights64 {
+        let lights = lights.into_iter().map(Into::into);
+        let lights: Vec<Light64> = lights.filter(|light| light.power() > 0.0).collect();
+        let total: f64 = lights.iter().map(Light64::power).sum();
         let shares = lights.iter().map(|light| light.power() / total).collect();
         Lights64 { lights, shares }
     }
@@ -85,45 +140,50 @@ impl Lights64 {
     /// `random` the point on it. Returns `None` if there are no lights, or if the light that was
     /// picked faces away.
     ///
-    /// The margin is the distance of `choice` from the nearest border between two lights, or the
-    /// cosine at the light, whichever is less.
+    /// The margin is the distance of `choice` from the nearest border between two lights, or that of
+    /// the sample of the light, whichever is less.
     pub fn sample(&self, from: DVec3, choice: f64, random: DVec2) -> WithMargin<Option<DVec3>> {
-        // The starts of all shares but the first.
-        let borders = self.shares.iter().scan(0.0, |sum, share| {
-            *sum += share;
-            Some(*sum)
-        });
-        let borders: Vec<f64> = borders.take(self.lights.len().saturating_sub(1)).collect();
-        let margin = nearest_border(choice, borders.iter().copied());
-        let index = borders.iter().filter(|&&border| border <= choice).count();
-        let Some(light) = self.lights.get(index) else {
+        let margin = nearest_border(choice, self.borders());
+        let Some(light) = self.picked(choice) else {
             return WithMargin {
                 value: None,
                 margin,
             };
         };
-        let direction = (light.point(random) - from).normalize();
-        let cosine = direction.dot(light.shape.normal());
-        WithMargin {
-            value: (cosine < 0.0).then_some(direction),
-            margin: margin.min(cosine.abs()),
-        }
+        let sample = light.sample(from, random);
+        sample.and(sample.value, margin)
+    }
+
+    /// Returns the light that a random number picks.
+    pub fn picked(&self, choice: f64) -> Option<&Light64> {
+        let index = self.borders().filter(|&border| border <= choice).count();
+        self.lights.get(index)
+    }
+
+    /// Returns the starts of all shares but the first.
+    fn borders(&self) -> impl Iterator<Item = f64> {
+        let ends = self.shares.iter().scan(0.0, |sum, share| {
+            *sum += share;
+            Some(*sum)
+        });
+        ends.take(self.lights.len().saturating_sub(1))
     }
 
     /// Returns the probability density, per solid angle, with which [`Lights64::sample`] chooses a
     /// direction. The expected value over all lights: each light that is hit counts, even if
     /// another light is in front of it.
     ///
-    /// The margin is how far the direction is from the edges and the planes of the lights.
+    /// The margin is the smallest one of all lights.
     pub fn pdf(&self, from: DVec3, direction: DVec3) -> WithMargin<f64> {
+        let nowhere = WithMargin {
+            value: 0.0,
+            margin: f64::INFINITY,
+        };
         let with_shares = self.lights.iter().zip(&self.shares);
-        let value = with_shares.map(|(light, share)| share * light.pdf(from, direction));
-        let hits = self.lights.iter();
-        let hits = hits.filter_map(|light| light.shape.intersect_plane(from, direction));
-        WithMargin {
-            value: value.sum(),
-            margin: hits.map(|hit| hit.margin()).fold(f64::INFINITY, f64::min),
-        }
+        with_shares.fold(nowhere, |sum, (light, share)| {
+            let pdf = light.pdf(from, direction);
+            sum.and(sum.value + share * pdf.value, pdf.margin)
+        })
     }
 }
 
@@ -239,7 +299,7 @@ mod tests {
         let lights = Lights64::new([light(false, 1.0)]);
         let above = 9.0 * DVec3::Y;
         assert_eq!(lights.sample(above, 0.5, dvec2(0.5, 0.5)).value, None);
-        let none = Lights64::new([]);
+        let none = Lights64::new(Vec::<Light64>::new());
         assert_eq!(none.sample(above, 0.5, dvec2(0.5, 0.5)).value, None);
         assert_eq!(none.pdf(above, DVec3::NEG_Y).value, 0.0);
     }

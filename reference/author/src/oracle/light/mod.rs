@@ -18,6 +18,7 @@ pub mod lights;
 pub mod quad;
 pub mod room;
 pub mod specular;
+pub mod spherical_light;
 pub mod transport;
 
 #[cfg(test)]

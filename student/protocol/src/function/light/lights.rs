@@ -37,13 +37,35 @@ pub struct FlatLight {
     pub radiance: Vec3,
 }
 
+/// A sphere that emits light outward, as described to a submission.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SphericalLight {
+    /// The centre.
+    pub center: Vec3,
+    /// The radius.
+    pub radius: f32,
+    /// The radiance that is emitted in every direction.
+    pub radiance: Vec3,
+}
+
+/// A light in a list.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ListedLight {
+    /// A flat light.
+    Flat(FlatLight),
+    /// A sphere.
+    Sphere(SphericalLight),
+}
+
 /// The lights of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LightList {
     /// The lights, in order.
     #[serde(with = "packed")]
-    pub lights: Vec<FlatLight>,
+    pub lights: Vec<ListedLight>,
 }
 
 /// A direction from a point.
@@ -131,8 +153,11 @@ impl Function for AreaLightPdf {
         list: &'a LightList,
     ) -> impl Fn(&Toward) -> Density + 'a {
         let light = submission.light();
+        let [ListedLight::Flat(flat)] = list.lights[..] else {
+            panic!("the exam's list is a single flat light");
+        };
         move |toward| Density {
-            pdf: light.area_light_pdf(&list.lights[0], toward.from, toward.direction),
+            pdf: light.area_light_pdf(&flat, toward.from, toward.direction),
         }
     }
 }

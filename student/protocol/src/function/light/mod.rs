@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 use super::{AnyTable, Question, Table};
 use environment::{EnvironmentPdf, EnvironmentSample, MapImage, UniformSphere};
 use lambertian::{Evaluate, Pdf, Scatter};
-use lights::{AreaLightPdf, FlatLight, LightsPdf, LightsSample};
+use lights::{AreaLightPdf, FlatLight, LightsPdf, LightsSample, ListedLight};
 use specular::{Fresnel, GlassScatter, MirrorScatter, Reflect, Refract};
-use transport::{Direct, DirectSample, PathStart, Radiance};
+use transport::{Direct, DirectSample, PathStart, Radiance, Room};
 
 pub use outputs::{Color, Density, Fraction, LocalDirection, Scattered};
 
@@ -137,12 +137,12 @@ pub trait LightFunctions: Sync {
     }
 
     /// Calls `Lights::new`.
-    fn lights(&self, _lights: &[FlatLight]) -> Box<dyn DirectionSampler> {
+    fn lights(&self, _lights: &[ListedLight]) -> Box<dyn DirectionSampler> {
         unimplemented!()
     }
 
-    /// Creates a scene of rectangles from the text of a scene file.
-    fn room(&self, _scene: &str) -> Box<dyn LitRoom> {
+    /// Creates a scene of rectangles.
+    fn room(&self, _room: &Room) -> Box<dyn LitRoom> {
         unimplemented!()
     }
 

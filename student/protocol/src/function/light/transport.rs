@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 
 use glam::Vec2;
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Serialize, Serializer};
 
+use super::environment::MapImage;
 use super::{Color, LightQuestion};
 use crate::function::{Function, Input, NoView, Question, Submission, Table};
 use crate::ray::Ray;
@@ -19,11 +21,28 @@ pub struct Direct;
 pub struct Radiance;
 
 /// A scene of rectangles.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Room {
     /// The text of a scene file that needs no other file.
     pub scene: String,
+    /// The environment map that replaces the scene's environment, if there is one. The text can't
+    /// contain a map.
+    #[serde(default)]
+    pub map: Option<MapImage>,
+}
+
+/// Leaves out a map that isn't there in text formats. Binary formats need every field.
+impl Serialize for Room {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let has_map_field = !out.is_human_readable() || self.map.is_some();
+        let mut fields = out.serialize_struct("Room", 1 + usize::from(has_map_field))?;
+        fields.serialize_field("scene", &self.scene)?;
+        if has_map_field {
+            fields.serialize_field("map", &self.map)?;
+        }
+        fields.end()
+    }
 }
 
 /// A surface, given by the ray that hits it first, and random numbers for its direct light.
@@ -60,12 +79,12 @@ impl Record for Room {
     }
 
     fn value(&self, _: usize) -> Value<'_> {
-        Value::Scene(Cow::Borrowed(&self.scene))
+        Value::Scene(Cow::Borrowed(self))
     }
 
     fn set(&mut self, _: usize, value: Value<'_>) {
-        if let Value::Scene(scene) = value {
-            self.scene = scene.into_owned();
+        if let Value::Scene(room) = value {
+            *self = room.into_owned();
         }
     }
 }
@@ -121,7 +140,7 @@ impl Function for Direct {
         submission: &'a dyn Submission,
         room: &'a Room,
     ) -> impl Fn(&DirectSample) -> Color + 'a {
-        let room = submission.light().room(&room.scene);
+        let room = submission.light().room(room);
         move |sample| Color {
             value: room.direct_light(sample),
         }
@@ -149,9 +168,39 @@ impl Function for Radiance {
         submission: &'a dyn Submission,
         room: &'a Room,
     ) -> impl Fn(&PathStart) -> Color + 'a {
-        let room = submission.light().room(&room.scene);
+        let room = submission.light().room(room);
         move |start| Color {
             value: room.path_light(start),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec3, uvec2};
+
+    use super::*;
+
+    #[test]
+    fn rooms_with_and_without_a_map_round_trip() {
+        let without = Room {
+            scene: "{}".to_owned(),
+            map: None,
+        };
+        let with = Room {
+            map: Some(MapImage {
+                size: uvec2(2, 1),
+                pixels: vec![Vec3::X, Vec3::Y],
+            }),
+            ..without.clone()
+        };
+        let text = serde_json::to_string(&without).unwrap();
+        assert_eq!(text, r#"{"scene":"{}"}"#);
+        for room in [without, with] {
+            let text = serde_json::to_string(&room).unwrap();
+            assert_eq!(serde_json::from_str::<Room>(&text).unwrap(), room);
+            let bytes = postcard::to_stdvec(&room).unwrap();
+            assert_eq!(postcard::from_bytes::<Room>(&bytes).unwrap(), room);
         }
     }
 }

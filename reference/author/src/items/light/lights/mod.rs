@@ -1,10 +1,12 @@
 //! The items about sampling lights.
 
+mod spheres;
+
 use glam::{DVec2, DVec3};
 use judging::exam::ExamQuestion;
 use protocol::Table;
 use protocol::light::LightQuestion;
-use protocol::light::lights::{FlatLight, LightList, LightSample, Toward};
+use protocol::light::lights::{FlatLight, LightList, LightSample, ListedLight, Toward};
 
 use super::groups::{LIGHT_DENSITIES, LIGHT_SAMPLES};
 use super::{MARGIN, color, densities, optional_directions, random, random_pair, single, table};
@@ -19,14 +21,25 @@ const CALLS: usize = 12;
 /// The task `lights`.
 pub static TASK: AuthoredTask = AuthoredTask {
     items: &[
-        DENSITY, TRIANGLE, BEHIND, PAST, GRAZING, DIRECTION, PICK, FACES_AWAY, SHARES, OVERLAP,
+        DENSITY,
+        TRIANGLE,
+        BEHIND,
+        PAST,
+        GRAZING,
+        DIRECTION,
+        PICK,
+        FACES_AWAY,
+        spheres::SAMPLES,
+        SHARES,
+        OVERLAP,
+        spheres::DENSITIES,
     ],
     ..AuthoredTask::NEW
 };
 
 const DENSITY: Declaration = Declaration {
     id: "lights.density",
-    points: 3,
+    points: 2,
     title: "the density of directions to a light is distance² / (cos θ · area)",
     look: "Move the point twice as far away: by what factor does the density change?",
     section: "light/lights.md#the-density-of-an-area-light",
@@ -67,7 +80,7 @@ const TRIANGLE: Declaration = Declaration {
 
 const BEHIND: Declaration = Declaration {
     id: "lights.behind",
-    points: 2,
+    points: 1,
     title: "from behind, a light's density is 0",
     look: "What is the sign of your cosine if the point is behind the light?",
     section: "light/lights.md#the-back-of-a-light-is-dark",
@@ -457,13 +470,18 @@ fn sampled(lights: &[FlatLight64], calls: Vec<LightSample>) -> ExamQuestion {
 }
 
 fn subject(lights: &[FlatLight64]) -> LightList {
-    let light = |light: &FlatLight64| FlatLight {
+    let lights = lights.iter().map(|light| ListedLight::Flat(listed(light)));
+    LightList {
+        lights: lights.collect(),
+    }
+}
+
+/// Converts a light to the one in a question.
+fn listed(light: &FlatLight64) -> FlatLight {
+    FlatLight {
         corner: light.shape.corner.as_vec3(),
         edges: light.shape.edges.map(|edge| edge.as_vec3()),
         is_triangle: light.shape.is_triangle,
         radiance: light.radiance.as_vec3(),
-    };
-    LightList {
-        lights: lights.iter().map(light).collect(),
     }
 }

@@ -1,18 +1,23 @@
 //! The items about following paths.
 
+mod map;
+
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
 use protocol::Table;
 use protocol::light::LightQuestion;
-use protocol::light::transport::Room as Scene;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
-use super::rooms::{self, DARK, PathCase, block, emitter, matte, panel, path_case, sky, walls};
+use super::rooms::{
+    self, DARK, PathCase, block, emitter, matte, panel, path_case, path_case_along, sky, subject,
+    walls,
+};
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
-use crate::oracle::light::Numbers64;
+use crate::oracle::Ray64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
+use crate::oracle::light::{Numbers64, transport as oracle};
 use crate::seed::Rng;
 
 /// The number of calls in a question.
@@ -32,7 +37,17 @@ const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
 /// The task `path`.
 pub static TASK: AuthoredTask = AuthoredTask {
     items: &[
-        SEEN, ONE_BOUNCE, BOUNCES, ONCE, THROUGHPUT, MIRROR, GLASS, ROULETTE, SURVIVORS, SIZES,
+        SEEN,
+        ONE_BOUNCE,
+        BOUNCES,
+        ONCE,
+        THROUGHPUT,
+        MIRROR,
+        GLASS,
+        ROULETTE,
+        SURVIVORS,
+        SIZES,
+        map::MAP,
     ],
     ..AuthoredTask::NEW
 };
@@ -67,7 +82,7 @@ const SEEN: Declaration = Declaration {
 
 const ONE_BOUNCE: Declaration = Declaration {
     id: "path.one_bounce",
-    points: 2,
+    points: 1,
     title: "with 1 bounce, the direct light on the first surface is added",
     look: "How many times does your loop add direct light if `bounces` is 1?",
     section: "light/paths.md#the-number-of-bounces",
@@ -93,7 +108,21 @@ const BOUNCES: Declaration = Declaration {
         let questions = bounces
             .into_iter()
             .flat_map(|bounces| rooms(rng, closed, |rng, room| cases(rng, room, bounces, lit)));
-        questions.collect()
+        let mut questions: Vec<ExamQuestion> = questions.collect();
+        // In a white room, many paths are long. The last bounce still adds light.
+        let white = room_with(rng, || Material64::Lambertian {
+            albedo: DVec3::splat(0.95),
+        });
+        questions.extend([12, 25].map(|bounces| {
+            let case = |_| {
+                path_case_along(rng, &white, bounces, |ray, numbers, light| {
+                    let shorter = without_the_last(&white, ray, numbers);
+                    (light - shorter).max_element() > 0.01 * light.max_element()
+                })
+            };
+            question(&white, (0..CALLS / 2).map(case).collect())
+        }));
+        questions
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -148,7 +177,7 @@ const THROUGHPUT: Declaration = Declaration {
         "Everything after the bounce is multiplied by the attenuation.",
     ],
     questions: |rng| {
-        rooms(
+        let mut questions = rooms(
             rng,
             |rng| {
                 // Some walls are black for two of the three colours.
@@ -181,7 +210,19 @@ const THROUGHPUT: Declaration = Declaration {
                 cases.extend(self::cases(rng, room, 3, lit));
                 cases
             },
-        )
+        );
+        // In a dark room, the first light that a path finds can be very dim.
+        questions.extend([3, 4].map(|bounces| {
+            let room = dim(rng);
+            let case = |_| {
+                path_case_along(rng, &room, bounces, |ray, numbers, light| {
+                    let shorter = without_the_last(&room, ray, numbers);
+                    light != DVec3::ZERO && shorter == DVec3::ZERO
+                })
+            };
+            question(&room, (0..CALLS / 2).map(case).collect())
+        }));
+        questions
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -279,15 +320,18 @@ const GLASS: Declaration = Declaration {
                 Room::new(quads, DARK)
             },
             |rng, room| {
-                let bounces = [2, 4];
-                let cases = bounces.map(|bounces| {
-                    self::cases(rng, room, bounces, |surface, _, light| {
-                        let is_glass =
-                            |it: &Surface64| matches!(it.material, Material64::Glass { .. });
+                let mut cases = Vec::new();
+                for bounces in [2, 4] {
+                    cases.extend(self::cases(rng, room, bounces, |surface, _, light| {
                         surface.is_some_and(is_glass) && is_lit(light)
-                    })
-                });
-                cases.into_iter().flatten().collect()
+                    }));
+                    // The camera is inside the glass.
+                    cases.extend(self::cases(rng, room, bounces, |surface, _, light| {
+                        let is_inside = |it: &Surface64| is_glass(it) && it.out.z < 0.0;
+                        surface.is_some_and(is_inside) && is_lit(light)
+                    }));
+                }
+                cases
             },
         )
     },
@@ -303,7 +347,7 @@ const ROULETTE: Declaration = Declaration {
     section: "light/paths.md#roulette-begins-at-bounce-three",
     tests: &["This is Russian roulette: see PBR, section 2.2.4."],
     questions: |rng| {
-        rooms(rng, closed, |rng, room| {
+        let mut questions = rooms(rng, closed, |rng, room| {
             // At bounce 3, about half of the paths survive.
             let mut cases = cases(rng, room, 7, |_, numbers, light| {
                 is_lit(light) && numbers[3].survive > 0.4
@@ -313,7 +357,23 @@ const ROULETTE: Declaration = Declaration {
             }));
             cases.extend(self::cases(rng, room, 20, lit));
             cases
-        })
+        });
+        // Mirrors and glass play roulette, too.
+        questions.extend(rooms(rng, shiny, |rng, room| {
+            let kinds: [fn(&Surface64) -> bool; 2] = [|it| is_mirror(Some(it)), is_glass];
+            let mut cases = Vec::new();
+            for (is_kind, survives) in kinds.into_iter().flat_map(|it| [(it, true), (it, false)]) {
+                cases.extend((0..CALLS / 2).map(|_| {
+                    path_case_along(rng, room, 7, |ray, numbers, light| {
+                        let surfaces = rooms::surfaces(room, ray, &numbers[..3]);
+                        surfaces.get(3).is_some_and(is_kind)
+                            && decides(room, ray, numbers, light, survives)
+                    })
+                }));
+            }
+            cases
+        }));
+        questions
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -405,6 +465,30 @@ fn is_mirror(surface: Option<&Surface64>) -> bool {
     surface.is_some_and(|surface| matches!(surface.material, Material64::Mirror { .. }))
 }
 
+fn is_glass(surface: &Surface64) -> bool {
+    matches!(surface.material, Material64::Glass { .. })
+}
+
+/// Returns the radiance along a ray if its path is scattered at most once less.
+fn without_the_last(room: &Room, ray: &Ray64, numbers: &[Numbers64]) -> DVec3 {
+    oracle::radiance(room, ray, &numbers[..numbers.len() - 1]).value
+}
+
+/// Returns whether the result would be different if roulette at bounce 3 had the other outcome.
+/// `survives` is the outcome that the path should have.
+fn decides(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3, survives: bool) -> bool {
+    let with = |survive| {
+        let mut numbers = numbers.to_vec();
+        numbers[3].survive = survive;
+        oracle::radiance(room, ray, &numbers).value
+    };
+    // q is at least 0.05 and at most 0.95.
+    let (alive, ended) = (with(0.0), with(0.99));
+    let expected = if survives { alive } else { ended };
+    let is_visible = (alive - ended).max_element() > 0.02 * alive.max_element();
+    light == expected && is_lit(alive) && is_visible
+}
+
 /// Returns a room without a ceiling, with lights of which the back is seen, too.
 fn bright(rng: &mut Rng) -> Room {
     let mut quads: Vec<Quad> = walls(HALF, || matte(rng));
@@ -426,6 +510,41 @@ fn closed(rng: &mut Rng) -> Room {
     room_with(rng, || Material64::Lambertian {
         albedo: colors.pop().expect("there are six walls"),
     })
+}
+
+/// Returns a closed room with bright walls, of which two are mirrors, a glass block and one light.
+fn shiny(rng: &mut Rng) -> Room {
+    let mut walls = Vec::new();
+    for index in 0..6 {
+        let bright = color(rng).lerp(DVec3::ONE, 0.5);
+        walls.push(if index % 3 == 0 {
+            Material64::Mirror {
+                reflectance: bright,
+            }
+        } else {
+            Material64::Lambertian { albedo: bright }
+        });
+    }
+    let mut walls = rng.shuffled(walls);
+    let room = room_with(rng, || walls.pop().expect("there are six walls"));
+    let glass = Material64::Glass {
+        ior: rng.uniform(1.3, 1.8),
+    };
+    let mut quads = room.quads().to_vec();
+    quads.extend(block(rng.point(0.4), dvec3(1.0, 0.8, 1.2), glass));
+    Room::new(quads, DARK)
+}
+
+/// Returns a closed room with very dark walls. Its light only shines on the floor and the lowest
+/// part of the walls.
+fn dim(rng: &mut Rng) -> Room {
+    let mut quads = walls(HALF, || Material64::Lambertian {
+        albedo: 0.04 * color(rng),
+    });
+    let light = emitter(rng);
+    let half = dvec3(1.0, 0.0, 1.0);
+    quads.push(panel(dvec3(0.2, -1.2, -0.3), 1, -1.0, half, light));
+    Room::new(quads, DARK)
 }
 
 fn room_with(rng: &mut Rng, material: impl FnMut() -> Material64) -> Room {
@@ -472,9 +591,8 @@ fn rooms(
 fn question(room: &Room, cases: Vec<PathCase>) -> ExamQuestion {
     let rows = colors(cases.iter().map(|case| case.light));
     let calls = cases.iter().map(|case| case.call).collect();
-    let subject = Scene { scene: room.text() };
     table(
-        LightQuestion::Radiance(Table::of_list(subject, calls)),
+        LightQuestion::Radiance(Table::of_list(subject(room), calls)),
         &["value"],
         rows,
     )

@@ -1,21 +1,22 @@
 //! The items about direct light.
 
+mod map;
+
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
 use protocol::Table;
 use protocol::light::LightQuestion;
-use protocol::light::transport;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
 use super::rooms::{
-    DARK, DirectCase, direct_case, emitter, matte, panel, scaled, sky, tilted, walls,
+    DARK, DirectCase, direct_case, emitter, matte, panel, scaled, sky, subject, tilted, walls,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
 use crate::oracle::light::specular::reflect;
-use crate::oracle::light::{Numbers64, transport as oracle};
+use crate::oracle::light::{Numbers64, lambertian, transport as oracle};
 use crate::seed::Rng;
 
 /// The number of calls of each kind in a question.
@@ -35,6 +36,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         TURNED,
         NO_SAMPLE,
         OTHER_MATERIALS,
+        map::MAP,
     ],
     ..AuthoredTask::NEW
 };
@@ -72,7 +74,7 @@ const SMALL_LIGHT: Declaration = Declaration {
 
 const SKY: Declaration = Declaration {
     id: "direct.sky",
-    points: 2,
+    points: 1,
     title: "sampling the material finds a uniform sky",
     look: "Without lights, there is no direction toward a light. What is left of the sum?",
     section: "light/direct.md#an-even-sky-is-found-by-scattering",
@@ -102,7 +104,7 @@ const SKY: Declaration = Declaration {
 
 const BOTH: Declaration = Declaration {
     id: "direct.both",
-    points: 3,
+    points: 2,
     title: "if both directions find light, each term is divided by the sum of its densities",
     look: "For each of the two directions, work out both densities. What do you divide by?",
     section: "light/direct.md#the-balance-heuristic",
@@ -206,20 +208,39 @@ const NO_SAMPLE: Declaration = Declaration {
         rooms(
             rng,
             |rng| {
-                // The light faces away from nearly everything.
+                // One light faces away from nearly everything, and one faces the floor.
                 let mut quads = open(rng);
-                let light = emitter(rng);
-                quads.push(panel(
-                    dvec3(0.0, 1.0, 0.0),
-                    1,
-                    1.0,
-                    dvec3(0.7, 0.0, 0.7),
-                    light,
-                ));
+                let half = dvec3(0.7, 0.0, 0.7);
+                let brightness = rng.log_uniform(0.5, 50.0);
+                let mut light = || Material64::Emitter {
+                    radiance: color(rng) * brightness,
+                };
+                quads.push(panel(dvec3(0.2, -1.0, 0.3), 1, 1.0, half, light()));
+                quads.push(panel(dvec3(-0.4, 1.0, 0.0), 1, -1.0, 2.0 * half, light()));
                 let sky = sky(rng);
                 Room::new(quads, sky)
             },
-            LIT_AND_DARK,
+            |rng, room| {
+                let is_sampled = |surface: &Surface64, numbers: &Numbers64| {
+                    let sample = room.sources().sample(surface.position, numbers);
+                    sample.value.is_some()
+                };
+                let mut cases = LIT_AND_DARK(rng, room);
+                cases.extend((0..CALLS).map(|_| {
+                    direct_case(rng, room, |surface, numbers, light| {
+                        is_lit(light) && !is_sampled(surface, numbers)
+                    })
+                }));
+                // The picked light faces away, but scattering finds the other one.
+                cases.extend((0..CALLS).map(|_| {
+                    direct_case(rng, room, |surface, numbers, light| {
+                        let direction = scattered(surface, numbers);
+                        let pdf = room.sources().pdf(surface.position, direction);
+                        is_lit(light) && pdf.value > 0.0 && !is_sampled(surface, numbers)
+                    })
+                }));
+                cases
+            },
         )
     },
     needs: NEEDS,
@@ -300,6 +321,12 @@ const OTHER_MATERIALS: Declaration = Declaration {
     ..Declaration::in_group(DIRECT)
 };
 
+/// Returns the direction, in the world, that a surface samples for its direct light.
+fn scattered(surface: &Surface64, numbers: &Numbers64) -> DVec3 {
+    let direction = lambertian::sample_cosine_hemisphere(numbers.direct);
+    surface.frame.to_world(direction)
+}
+
 fn is_lit(light: DVec3) -> bool {
     light.max_element() > 1e-6
 }
@@ -331,9 +358,8 @@ fn rooms(
         let cases = rng.shuffled(cases);
         let rows = colors(cases.iter().map(|case| case.light));
         let calls = cases.iter().map(|case| case.call).collect();
-        let subject = transport::Room { scene: room.text() };
         table(
-            LightQuestion::Direct(Table::of_list(subject, calls)),
+            LightQuestion::Direct(Table::of_list(subject(&room), calls)),
             &["value"],
             rows,
         )

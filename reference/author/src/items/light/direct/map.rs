@@ -1,0 +1,75 @@
+//! The item about direct light from an environment map.
+
+use glam::DVec3;
+
+use super::super::groups::{
+    DIRECT_MAPS, LIGHT_DENSITIES, LIGHT_SAMPLES, MAPS, MATTE, MATTE_SAMPLES,
+};
+use super::super::rooms::{direct_case, matte, under_a_map};
+use super::{CALLS, LIT_AND_DARK, is_lit, rooms, scattered};
+use crate::items::Declaration;
+use crate::oracle::Ray64;
+use crate::oracle::light::room::{Room, Surface64};
+use crate::oracle::light::transport as oracle;
+
+pub(super) const MAP: Declaration = Declaration {
+    id: "direct.map",
+    points: 2,
+    title: "an environment map is found by both samples, also if there are lights",
+    look: "Which function of `World` knows the light pdf of every direction, no matter whether it \
+        leads to a light or to the environment?",
+    section: "light/direct.md#the-light-pdf-of-the-world",
+    tests: &[
+        "Each term uses both densities of its own direction, no matter which way that direction \
+         was sampled.",
+        "[`World::light_pdf`] returns the light pdf.",
+        "The radiance is the light that arrives from this direction, straight from a light or the \
+         environment.",
+    ],
+    questions: |rng| {
+        let has_lights = [true, false].into_iter();
+        let questions = has_lights.flat_map(|has_lights| {
+            rooms(
+                rng,
+                |rng| {
+                    let left = matte(rng);
+                    under_a_map(rng, left, has_lights)
+                },
+                |rng, room| {
+                    let mut cases = LIT_AND_DARK(rng, room);
+                    // The direction toward the light leads to the map.
+                    cases.extend((0..CALLS).map(|_| {
+                        direct_case(rng, room, |surface, numbers, _| {
+                            let sample = room.sources().sample(surface.position, numbers);
+                            let is_seen = |direction| shows_the_map(room, surface, direction);
+                            sample.value.is_some_and(is_seen)
+                        })
+                    }));
+                    // Scattering finds the map.
+                    cases.extend((0..CALLS).map(|_| {
+                        direct_case(rng, room, |surface, numbers, _| {
+                            shows_the_map(room, surface, scattered(surface, numbers))
+                        })
+                    }));
+                    cases
+                },
+            )
+        });
+        questions.collect()
+    },
+    needs: &[MATTE, MATTE_SAMPLES, LIGHT_SAMPLES, LIGHT_DENSITIES, MAPS],
+    ..Declaration::in_group(DIRECT_MAPS)
+};
+
+/// Returns whether the light that arrives at a surface from a direction comes from the environment.
+fn shows_the_map(room: &Room, surface: &Surface64, direction: DVec3) -> bool {
+    let ray = Ray64 {
+        origin: surface.position,
+        dir: direction,
+        min: 0.0,
+        max: f64::INFINITY,
+    };
+    let is_above = surface.frame.to_local(direction).z > 0.0;
+    let is_free = room.hit(&ray, Some(surface)).value.is_none();
+    is_above && is_free && is_lit(oracle::emitted(room, surface, direction).value)
+}

@@ -14,6 +14,11 @@ use crate::types::{FieldType, UnitLength, in_units_of, number};
 /// equal areas (Archimedes).
 const CELLS: [usize; 2] = [8, 8];
 
+/// The numbers of parts that each band and each sector is divided into, so that directions are also
+/// spread evenly within the cells. The parts are again counted in [`CELLS`]: part 0 of every band in
+/// band 0, and so on, modulo 8.
+const PARTS: [usize; 3] = [1, 8, 64];
+
 /// Directions and the maximum χ² of their numbers in the cells.
 pub(super) struct Spread<'a> {
     pub(super) max_chi_squared: f64,
@@ -32,12 +37,18 @@ impl Spread<'_> {
         })
     }
 
-    /// Returns χ² of the numbers of directions in the cells. Infinite if there are no directions.
+    /// Returns the largest χ² of the numbers of directions in the cells, for all sizes of parts.
+    /// Infinite if there are no directions.
     fn chi_squared(&self) -> f64 {
+        let all = PARTS.map(|parts| self.chi_squared_of_parts(parts));
+        all.into_iter().fold(0.0, f64::max)
+    }
+
+    fn chi_squared_of_parts(&self, parts: usize) -> f64 {
         let mut cells = [0.0; CELLS[0] * CELLS[1]];
         for outcome in self.answer {
             if let Some(LocalDirection { direction }) = outcome.value() {
-                cells[cell(*direction)] += 1.0;
+                cells[cell(*direction, parts)] += 1.0;
             }
         }
         let expected = self.answer.len() as f64 / cells.len() as f64;
@@ -95,15 +106,20 @@ impl Comparison for Spread<'_> {
     }
 }
 
-/// Returns the index of the cell that contains a direction.
-fn cell(direction: Vec3) -> usize {
-    let [bands, sectors] = CELLS;
+/// Returns the index of the cell that contains a direction, if each band and each sector has this
+/// many parts.
+fn cell(direction: Vec3, parts: usize) -> usize {
     let direction = direction.as_dvec3();
-    // Casts saturate, so a direction on the last border, or without a length, is in some cell too.
-    let band = ((direction.y + 1.0) / 2.0 * bands as f64) as usize;
     let turn = direction.z.atan2(direction.x).rem_euclid(TAU) / TAU;
-    let sector = (turn * sectors as f64) as usize;
-    band.min(bands - 1) * sectors + sector.min(sectors - 1)
+    let fractions = [(direction.y + 1.0) / 2.0, turn];
+    let [band, sector] = [0, 1].map(|axis| {
+        let count = parts * CELLS[axis];
+        // Casts saturate, so a direction on the last border, or without a length, is in some cell
+        // too.
+        let part = (fractions[axis] * count as f64) as usize;
+        part.min(count - 1) % CELLS[axis]
+    });
+    band * CELLS[1] + sector
 }
 
 #[cfg(test)]
@@ -152,6 +168,9 @@ mod tests {
         assert_eq!(judged(&crowded).as_deref(), Some("spread"));
         let half = spread_by(on_sphere);
         assert_eq!(judged(&half).as_deref(), Some("spread"));
+        // Even from afar, but with only 16 different heights.
+        let steps = spread_by(|x, y| on_sphere(((16.0 * x).floor() - 7.5) / 8.0, y));
+        assert_eq!(judged(&steps).as_deref(), Some("spread"));
     }
 
     #[test]

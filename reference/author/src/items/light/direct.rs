@@ -36,6 +36,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         NO_SAMPLE,
         OTHER_MATERIALS,
     ],
+    domains: &[&crate::domains::light::transport::DIRECT],
     ..AuthoredTask::NEW
 };
 

@@ -34,6 +34,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
     items: &[
         SEEN, ONE_BOUNCE, BOUNCES, ONCE, THROUGHPUT, MIRROR, GLASS, ROULETTE, SURVIVORS, SIZES,
     ],
+    domains: &[&crate::domains::light::transport::RADIANCE],
     ..AuthoredTask::NEW
 };
 

@@ -16,6 +16,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 /// The maximum length of a list that is written element by element in text formats.
 pub const MAX_PLAIN_LEN: usize = 32;
 
+/// The maximum length of a list that is read.
+const MAX_LEN: usize = 10_000_000;
+const TOO_LONG: &str = "a list has more than ten million elements";
+
 /// Serialises a list as described in the module documentation.
 pub fn serialize<T: Serialize, S: Serializer>(list: &[T], out: S) -> Result<S::Ok, S::Error> {
     if !out.is_human_readable() || list.len() <= MAX_PLAIN_LEN {
@@ -54,10 +58,8 @@ impl<'de, T: DeserializeOwned> Visitor<'de> for ListOrText<T> {
         while let Some(element) = seq.next_element()? {
             list.push(element);
         }
-        if list.len() > 10_000_000 {
-            return Err(A::Error::custom(
-                "a list has more than ten million elements",
-            ));
+        if list.len() > MAX_LEN {
+            return Err(A::Error::custom(TOO_LONG));
         }
         Ok(list)
     }
@@ -86,6 +88,46 @@ pub mod text {
         }
         let text = String::deserialize(from)?;
         decode(&text)
+    }
+}
+
+/// Compact serialisation of lists in which neighbours are often equal:
+/// `#[serde(with = "packed::runs")]`.
+pub mod runs {
+    use super::*;
+
+    /// Serialises a list as its runs of equal elements in text formats, and unchanged in binary
+    /// formats.
+    pub fn serialize<T: Serialize + PartialEq, S: Serializer>(
+        list: &[T],
+        out: S,
+    ) -> Result<S::Ok, S::Error> {
+        if !out.is_human_readable() {
+            return list.serialize(out);
+        }
+        let runs = list.chunk_by(PartialEq::eq);
+        let runs: Vec<(usize, &T)> = runs.map(|run| (run.len(), &run[0])).collect();
+        super::serialize(&runs, out)
+    }
+
+    /// Deserialises a list that [`serialize`] wrote.
+    pub fn deserialize<'de, T: DeserializeOwned + Clone, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<T>, D::Error> {
+        if !from.is_human_readable() {
+            return Vec::deserialize(from);
+        }
+        let runs: Vec<(usize, T)> = super::deserialize(from)?;
+        let count = runs
+            .iter()
+            .try_fold(0, |sum: usize, run| sum.checked_add(run.0));
+        if count.is_none_or(|count| count > MAX_LEN) {
+            return Err(D::Error::custom(TOO_LONG));
+        }
+        let lists = runs
+            .into_iter()
+            .map(|(count, element)| vec![element; count]);
+        Ok(lists.collect::<Vec<_>>().concat())
     }
 }
 
@@ -130,6 +172,25 @@ mod tests {
             let bytes = postcard::to_stdvec(&holder(n)).unwrap();
             assert_eq!(postcard::from_bytes::<Holder>(&bytes).unwrap(), holder(n));
         }
+    }
+
+    #[derive(Debug, PartialEq, Serialize, Deserialize)]
+    struct Picture {
+        #[serde(with = "runs")]
+        pixels: Vec<f32>,
+    }
+
+    #[test]
+    fn runs_of_equal_elements_are_written_once() {
+        let pixels = [vec![0.25; 1000], vec![0.5; 200], vec![0.25]].concat();
+        let picture = Picture { pixels };
+        let text = serde_json::to_string(&picture).unwrap();
+        assert_eq!(text, r#"{"pixels":[[1000,0.25],[200,0.5],[1,0.25]]}"#);
+        assert_eq!(serde_json::from_str::<Picture>(&text).unwrap(), picture);
+        let bytes = postcard::to_stdvec(&picture).unwrap();
+        assert_eq!(postcard::from_bytes::<Picture>(&bytes).unwrap(), picture);
+        let error = serde_json::from_str::<Picture>(r#"{"pixels":[[20000000,0.25]]}"#);
+        assert!(error.unwrap_err().to_string().starts_with(TOO_LONG));
     }
 
     #[test]

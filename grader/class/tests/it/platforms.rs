@@ -354,7 +354,10 @@ fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
     let class = with_clone(clones(TestClass::named("clones")), "handout");
     let error = class.refused_preview(&["--layout", "gitlab"]);
     let odd = "begin with cg26-pathtracing-tum-, unlike handout, so it is unclear";
-    assert_contains(&error, &[odd, "move them elsewhere; otherwise, pass a list"]);
+    assert_contains(
+        &error,
+        &[odd, "move them elsewhere; otherwise, pass a list"],
+    );
     let roster = class.write_beside("roster.csv", "name,sid\nAnn,tum-ann\nBob,tum-bob\n");
     let options = ["--layout", "gitlab", "--roster", &roster];
     let preview = class.preview_of(&class.input(), &options);

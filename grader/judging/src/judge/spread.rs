@@ -14,6 +14,14 @@ use crate::types::{FieldType, UnitLength, in_units_of, number};
 /// equal areas (Archimedes).
 const CELLS: [usize; 2] = [8, 8];
 
+/// The numbers of parts that each band and each sector is divided into, so that directions are also
+/// spread evenly within the cells. The parts are again counted in [`CELLS`]: part 0 of every band in
+/// band 0, and so on, modulo 8.
+const PARTS: [usize; 3] = [1, 8, 64];
+
+/// The number of directions in each cell.
+pub type Counts = [[u32; CELLS[1]]; CELLS[0]];
+
 /// Directions and the maximum χ² of their numbers in the cells.
 pub(super) struct Spread<'a> {
     pub(super) max_chi_squared: f64,
@@ -32,9 +40,15 @@ impl Spread<'_> {
         })
     }
 
-    /// Returns χ² of the numbers of directions in the cells. Infinite if there are no directions.
+    /// Returns the largest χ² of the numbers of directions in the cells, for all sizes of parts.
+    /// Infinite if there are no directions.
     fn chi_squared(&self) -> f64 {
-        let counts = cell_counts(self.answer);
+        let all = PARTS.map(|parts| self.chi_squared_of_parts(parts));
+        all.into_iter().fold(0.0, f64::max)
+    }
+
+    fn chi_squared_of_parts(&self, parts: usize) -> f64 {
+        let counts = counts_of_parts(self.answer, parts);
         let counts = counts.as_flattened();
         let expected = self.answer.len() as f64 / counts.len() as f64;
         let terms = counts
@@ -95,26 +109,35 @@ impl Comparison for Spread<'_> {
 
 /// Returns the number of directions in each cell of the sphere. The outer index is the band, from
 /// y = -1 to y = 1, and the inner one the sector, counted from +x toward +z.
-pub fn cell_counts(answer: &[ElementOutcome<LocalDirection>]) -> [[u32; CELLS[1]]; CELLS[0]] {
+pub fn cell_counts(answer: &[ElementOutcome<LocalDirection>]) -> Counts {
+    counts_of_parts(answer, 1)
+}
+
+/// Returns the number of directions in each cell if each band and each sector has this many parts.
+fn counts_of_parts(answer: &[ElementOutcome<LocalDirection>], parts: usize) -> Counts {
     let mut counts = [[0; CELLS[1]]; CELLS[0]];
     for outcome in answer {
         if let Some(LocalDirection { direction }) = outcome.value() {
-            let [band, sector] = cell(*direction);
+            let [band, sector] = cell(*direction, parts);
             counts[band][sector] += 1;
         }
     }
     counts
 }
 
-/// Returns the band and the sector of the cell that contains a direction.
-fn cell(direction: Vec3) -> [usize; 2] {
-    let [bands, sectors] = CELLS;
+/// Returns the band and the sector of the cell that contains a direction, if each band and each
+/// sector has this many parts.
+fn cell(direction: Vec3, parts: usize) -> [usize; 2] {
     let direction = direction.as_dvec3();
-    // Casts saturate, so a direction on the last border, or without a length, is in some cell too.
-    let band = ((direction.y + 1.0) / 2.0 * bands as f64) as usize;
     let turn = direction.z.atan2(direction.x).rem_euclid(TAU) / TAU;
-    let sector = (turn * sectors as f64) as usize;
-    [band.min(bands - 1), sector.min(sectors - 1)]
+    let fractions = [(direction.y + 1.0) / 2.0, turn];
+    [0, 1].map(|axis| {
+        let count = parts * CELLS[axis];
+        // Casts saturate, so a direction on the last border, or without a length, is in some cell
+        // too.
+        let part = (fractions[axis] * count as f64) as usize;
+        part.min(count - 1) % CELLS[axis]
+    })
 }
 
 #[cfg(test)]
@@ -164,6 +187,9 @@ mod tests {
         assert_eq!(judged(&crowded).as_deref(), Some("spread"));
         let half = spread_by(on_sphere);
         assert_eq!(judged(&half).as_deref(), Some("spread"));
+        // Even from afar, but with only 16 different heights.
+        let steps = spread_by(|x, y| on_sphere(((16.0 * x).floor() - 7.5) / 8.0, y));
+        assert_eq!(judged(&steps).as_deref(), Some("spread"));
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! Draws lights as they are seen from the point that they light: a picture of the directions around
 //! one direction.
 
+use std::f64::consts::TAU;
+
 use glam::{DVec2, DVec3, dvec2};
 use protocol::Value;
-use protocol::light::lights::FlatLight;
+use protocol::light::lights::{FlatLight, ListedLight, SphericalLight};
 
 use super::row::{RowComparison, last_direction};
 use crate::drawing::Drawing;
@@ -15,6 +17,8 @@ use crate::drawing::window::Window;
 
 /// The number of parts that each edge is drawn in, since straight edges appear bent.
 const PARTS: u32 = 6;
+/// The number of corners that a sphere is drawn with.
+const CORNERS: u32 = 24;
 /// The height of the picture, in page units.
 const HEIGHT: f64 = 220.0;
 /// The maximum angle between the picture's centre and a mark that the picture should show.
@@ -22,7 +26,7 @@ const MAX_DEGREES: f64 = 100.0;
 
 /// Draws the lights, and the expected and the submitted direction, or the direction whose density
 /// is computed.
-pub(super) fn draw(lights: &[FlatLight], row: &RowComparison) -> Option<Drawing> {
+pub(super) fn draw(lights: &[ListedLight], row: &RowComparison) -> Option<Drawing> {
     let from = row.input.values().find_map(|value| {
         if let Value::Point(point) = value {
             Some(point.as_dvec3())
@@ -32,7 +36,10 @@ pub(super) fn draw(lights: &[FlatLight], row: &RowComparison) -> Option<Drawing>
     })?;
     let asked = last_direction(row.input.as_ref());
     let (wanted, got) = (row.wanted_direction(), row.wrong_direction());
-    let toward = |light: &FlatLight| light.corner.as_dvec3() - from;
+    let toward = |light: &ListedLight| match light {
+        ListedLight::Flat(light) => light.corner.as_dvec3() - from,
+        ListedLight::Sphere(light) => light.center.as_dvec3() - from,
+    };
     let center = asked.or(wanted).or(got);
     let view = View::new(from, center.or_else(|| lights.first().map(toward))?)?;
     let outlines = lights.iter().filter_map(|light| view.outline(light));
@@ -133,7 +140,32 @@ impl View {
     }
 
     /// Returns a light's outline, or `None` if a part of it is directly behind the viewer.
-    fn outline(&self, light: &FlatLight) -> Option<Outline> {
+    fn outline(&self, light: &ListedLight) -> Option<Outline> {
+        match light {
+            ListedLight::Flat(light) => self.outline_of_flat(light),
+            ListedLight::Sphere(light) => self.outline_of_sphere(light),
+        }
+    }
+
+    /// Returns a sphere's outline, or `None` if the viewer is inside.
+    fn outline_of_sphere(&self, light: &SphericalLight) -> Option<Outline> {
+        let center = light.center.as_dvec3() - self.from;
+        let sine = f64::from(light.radius) / center.length();
+        let cosine = (sine < 1.0).then(|| (1.0 - sine * sine).sqrt())?;
+        let forward = center.normalize();
+        let (right, up) = forward.any_orthonormal_pair();
+        let corner = |index: u32| {
+            let turn = TAU * f64::from(index) / f64::from(CORNERS);
+            let aside = turn.cos() * right + turn.sin() * up;
+            self.project(cosine * forward + sine * aside)
+        };
+        Some(Outline {
+            points: (0..CORNERS).map(corner).collect::<Option<Vec<DVec2>>>()?,
+            is_lit: true,
+        })
+    }
+
+    fn outline_of_flat(&self, light: &FlatLight) -> Option<Outline> {
         let corner = light.corner.as_dvec3();
         let [first, second] = light.edges.map(|edge| edge.as_dvec3());
         let mut corners = vec![corner, corner + first];

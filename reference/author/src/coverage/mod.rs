@@ -73,8 +73,8 @@ pub fn coverage(root: &Path, authoring: &Authoring, exam: &Exam) -> Result<Cover
         let file = files::read_to_string(root.join(handed_out.reference).join(task.file))?;
         coverage.add_task(task, &contract::sentences(&file, task), authored);
     }
-    for domain in authoring.tasks.iter().filter_map(|task| task.domain) {
-        coverage.add_function(domain, exam);
+    for domain in authoring.tasks.iter().flat_map(|task| task.domains) {
+        coverage.add_function(*domain, exam);
     }
     Ok(coverage)
 }
@@ -207,26 +207,52 @@ mod tests {
     use judging::exam::Item;
 
     use super::*;
-    use crate::authoring::RAYS;
-    use crate::items;
+    use crate::authoring::{LIGHT, RAYS};
+    use crate::items::{self, resolve};
+    use crate::seed::Seed;
 
-    /// Returns the coverage problems of an exam that contains only some of the items about boxes.
-    fn problems(keep: impl Fn(&Item) -> bool) -> Vec<String> {
+    /// Returns the coverage problems of a function in an exam that contains only some of the items
+    /// of one task.
+    fn problems(
+        authoring: &Authoring,
+        exam: &Exam,
+        function: &str,
+        keep: impl Fn(&Item) -> bool,
+    ) -> Vec<String> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let exam = items::exam_of_boxes().filter_items(keep);
-        let coverage = coverage(&root, &RAYS, &exam).expect("the reference can be read");
+        let exam = exam.clone().filter_items(keep);
+        let coverage = coverage(&root, authoring, &exam).expect("the reference can be read");
         let mut all = coverage.problems;
-        all.retain(|line| line.contains("BBox"));
+        all.retain(|line| line.contains(function));
         all
     }
 
     #[test]
     fn a_class_that_is_no_longer_asked_is_a_problem() {
-        let asked: Vec<String> = problems(|_| true);
-        let mut new = problems(|item| item.id != "bbox.flat");
-        new.retain(|line| !asked.contains(line));
-        let not_asked = "BBox::hit is tested 0 times at form \"flat along x\" for some";
-        assert!(new.iter().any(|line| line == not_asked), "{new:?}");
+        let matte = authored_task("lambertian", LIGHT.tasks).expect("matte surfaces have items");
+        let items = resolve(matte.draw(Seed(1), &[]));
+        let exam_of_matte = Exam::new(LIGHT.handed_out.assignment, "test", items);
+        let cases = [
+            (
+                &RAYS,
+                items::exam_of_boxes(),
+                "bbox.flat",
+                "BBox::hit is tested 0 times at form \"flat along x\" for some",
+            ),
+            (
+                &LIGHT,
+                exam_of_matte,
+                "lambertian.grazing",
+                "Lambertian::pdf is tested 0 times at incoming \"1e-3 above\" for pdf",
+            ),
+        ];
+        for (authoring, exam, left_out, expected) in cases {
+            let function = expected.split_once(' ').expect("a sentence").0;
+            let asked = problems(authoring, &exam, function, |_| true);
+            let mut new = problems(authoring, &exam, function, |item| item.id != left_out);
+            new.retain(|line| !asked.contains(line));
+            assert!(new.iter().any(|line| line == expected), "{new:?}");
+        }
     }
 
     #[test]

@@ -42,7 +42,7 @@ impl Classes {
         for (asked, before) in item.questions.iter().zip(before) {
             let calls = domain.classes(&asked.question, before);
             let Key::Table { judged, rows, .. } = &asked.key else {
-                let judged = judged_of_tree(&asked.key);
+                let judged = judged_without_rows(&asked.key);
                 counted.add_all(&pairs, &calls, |_| {
                     std::iter::once(PRESENT)
                         .chain(judged.iter().copied())
@@ -211,8 +211,11 @@ fn reason(domain: &dyn Domain, aspect: &str, class: &str, column: &str) -> Optio
     found.map(|reason| reason.why)
 }
 
-/// Returns the names of the judged properties of a tree.
-fn judged_of_tree(key: &Key) -> Vec<&'static str> {
+/// Returns the names of the judged properties of an answer that isn't compared row by row.
+fn judged_without_rows(key: &Key) -> Vec<&'static str> {
+    if let Key::SpreadEvenly { .. } = key {
+        return vec!["evenness"];
+    }
     let Key::Tree {
         checks, sweep_cost, ..
     } = key

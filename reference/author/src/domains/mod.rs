@@ -12,6 +12,7 @@ pub mod build;
 pub mod camera;
 pub mod classes;
 pub mod fields;
+pub mod light;
 mod placed;
 pub mod shape;
 pub mod sphere;

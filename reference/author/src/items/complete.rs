@@ -1,4 +1,4 @@
-//! Regenerates items until every exam tests every class of each task's domain.
+//! Regenerates items until every exam tests every class of each task's domains.
 
 use std::mem;
 
@@ -30,7 +30,7 @@ pub(super) fn draw_items(
     })
 }
 
-/// Generates the items of a task. While any class of the task's domain is missing, items that could
+/// Generates the items of a task. While any class of the task's domains is missing, items that could
 /// test it are regenerated. A new item is kept only if it reduces the number of missing classes.
 fn draw_complete(
     seed: Seed,
@@ -45,12 +45,13 @@ fn draw_complete(
     };
     let mut drawn: Vec<DeclaredItem> = (0..items.len()).map(|index| draw(seed, index)).collect();
     let mut finished = finish(&drawn);
-    let Some(domain) = task.domain else {
-        return finished;
+    let count = |item: &DeclaredItem| -> Vec<Classes> {
+        let domains = task.domains.iter();
+        let counts = domains.map(|domain| Classes::of_item(*domain, item.item()));
+        counts.collect()
     };
-    let count = |item: &DeclaredItem| Classes::of_item(domain, item.item());
-    let mut counts: Vec<Classes> = finished.iter().map(count).collect();
-    let mut missing = missing_columns(domain, &counts);
+    let mut counts: Vec<Vec<Classes>> = finished.iter().map(count).collect();
+    let mut missing = missing_columns(task.domains, &counts);
     let mut seeds = vec![seed; items.len()];
     for index in (0..ATTEMPTS).flat_map(|_| 0..items.len()) {
         if missing.is_empty() {
@@ -71,8 +72,8 @@ fn draw_complete(
                 count(other)
             }
         });
-        let other_counts: Vec<Classes> = recounted.collect();
-        let still_missing = missing_columns(domain, &other_counts);
+        let other_counts: Vec<Vec<Classes>> = recounted.collect();
+        let still_missing = missing_columns(task.domains, &other_counts);
         if still_missing.len() < missing.len() {
             (finished, counts, missing) = (others, other_counts, still_missing);
         } else {
@@ -82,22 +83,29 @@ fn draw_complete(
     finished
 }
 
-/// Returns the column of each missing class, and an empty name for each missing pair of classes.
-fn missing_columns(domain: &dyn Domain, counts: &[Classes]) -> Vec<String> {
-    let classes = Classes::sum(counts);
-    let cells = classes.cells(domain).into_iter();
-    let cells = cells
-        .filter(|cell| cell.is_missing())
-        .map(|cell| cell.column);
-    let pairs = classes.pairs(domain).into_iter();
-    let pairs = pairs.filter(|pair| pair.is_missing());
-    cells.chain(pairs.map(|_| String::new())).collect()
+/// Returns, for each missing class, the index of its domain and the column, and for each missing
+/// pair of classes, the index and an empty name. `counts` contains the counts for each domain in
+/// each item.
+fn missing_columns(domains: &[&dyn Domain], counts: &[Vec<Classes>]) -> Vec<(usize, String)> {
+    let missing = domains.iter().enumerate().flat_map(|(index, &domain)| {
+        let classes = Classes::sum(counts.iter().map(|of_item| &of_item[index]));
+        let cells = classes.cells(domain).into_iter();
+        let cells = cells
+            .filter(|cell| cell.is_missing())
+            .map(|cell| cell.column);
+        let pairs = classes.pairs(domain).into_iter();
+        let pairs = pairs.filter(|pair| pair.is_missing());
+        let columns = cells.chain(pairs.map(|_| String::new()));
+        columns.map(move |column| (index, column))
+    });
+    missing.collect()
 }
 
-/// Returns whether an item tests the domain's function in at least one of these columns. An empty
+/// Returns whether an item tests a domain's function in at least one of these columns. An empty
 /// name stands for any column.
-fn tests_any(counts: &Classes, columns: &[String]) -> bool {
-    let tested = counts.columns();
-    let is_tested = |column: &String| column.is_empty() || tested.contains(column);
-    !tested.is_empty() && columns.iter().any(is_tested)
+fn tests_any(counts: &[Classes], columns: &[(usize, String)]) -> bool {
+    columns.iter().any(|(index, column)| {
+        let tested = counts[*index].columns();
+        !tested.is_empty() && (column.is_empty() || tested.contains(column))
+    })
 }

@@ -19,8 +19,8 @@ pub struct AuthoredTask {
     pub finish: fn(Seed, &mut [DeclaredItem]),
     /// The sentences of the method's documentation that no item tests, each with the reason.
     pub untested: &'static [(&'static str, &'static str)],
-    /// The domain of the function that the items call, unless an earlier task already declares it.
-    pub domain: Option<&'static dyn Domain>,
+    /// The domains of the functions that the items call, except those that an earlier task declares.
+    pub domains: &'static [&'static dyn Domain],
 }
 
 impl AuthoredTask {
@@ -31,7 +31,7 @@ impl AuthoredTask {
         points: &[],
         finish: |_, _| {},
         untested: &[],
-        domain: None,
+        domains: &[],
     };
 
     /// Generates the items. Their questions differ from those of the items in `practice`.

@@ -24,7 +24,7 @@ pub static BALL: AuthoredTask = AuthoredTask {
 /// The task `mirror`.
 pub static MIRROR: AuthoredTask = AuthoredTask {
     items: &[REFLECTS],
-    domain: Some(&DIRECTIONS),
+    domains: &[&DIRECTIONS],
     ..AuthoredTask::NEW
 };
 

@@ -29,7 +29,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         hits::AXIS_PARALLEL,
         hits::FLAT,
     ],
-    domain: Some(&BOX),
+    domains: &[&BOX],
     untested: &[(
         "Neither the box nor `times` is ever empty (`min > max`).",
         "This is a promise about the arguments, so there is nothing to test.",

@@ -40,7 +40,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         unusual_inputs::COINCIDENT,
         unusual_inputs::CONCENTRIC,
     ],
-    domain: Some(&BUILD),
+    domains: &[&BUILD],
     untested: &[(
         "You may reorder the primitives and the nodes.",
         "This is a permission: every item accepts any order.",

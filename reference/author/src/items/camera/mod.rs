@@ -35,7 +35,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         ray::ORIGIN_AND_RANGE,
         ray::PICTURE,
     ],
-    domain: Some(&CAMERA),
+    domains: &[&CAMERA],
     untested: &[
         (
             "[`Ray::new`] sets both.",

@@ -7,7 +7,9 @@ use protocol::light::LightQuestion;
 use protocol::light::environment::{MapImage, MapSample, RandomPair};
 
 use super::groups::MAPS;
-use super::{color, densities, directions, local, random, random_pair, single, table};
+use super::{color, densities, directions, local, random_pair, single, table};
+use crate::domains::light::environment::{MAP_PDF, MAP_SAMPLE, UNIFORM_SPHERE, picked};
+use crate::domains::light::fields::{self, BELOW_ONE};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::WithMargin;
 use crate::oracle::light::environment::Map64;
@@ -15,8 +17,12 @@ use crate::seed::Rng;
 
 /// The number of calls in each question.
 const CALLS: usize = 16;
-/// How far a random number is from the border between two pixels.
-const BORDER: f64 = 3e-4;
+/// How far a random number is from the border between two pixels, as a fraction of the pixel's
+/// share.
+const BORDER: f64 = 0.2;
+/// How far a random number is from the border between two pixels at least, because weights are
+/// rounded.
+const ROUNDING: f64 = 1e-6;
 /// How far a direction is from a pixel's edge, as a fraction of the pixel.
 const EDGE: f64 = 0.02;
 /// The number of directions that must be spread evenly.
@@ -30,6 +36,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
     items: &[
         UNIFORM, PICK, POSITION, SINE, LUMINANCE, ENDS, BLACK, PDF, SIZES,
     ],
+    domains: &[&UNIFORM_SPHERE, &MAP_SAMPLE, &MAP_PDF],
     ..AuthoredTask::NEW
 };
 
@@ -81,7 +88,7 @@ const PICK: Declaration = Declaration {
         let sizes = [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)];
         let questions = sizes.map(|size| {
             let map = colorful(rng, size);
-            samples(rng, map, |_| true)
+            samples(rng, map)
         });
         questions.into()
     },
@@ -105,7 +112,7 @@ const POSITION: Declaration = Declaration {
         let sizes = [uvec2(2, 1), uvec2(2, 1), uvec2(4, 2)];
         let questions = sizes.map(|size| {
             let map = colorful(rng, size);
-            samples(rng, map, |_| true)
+            samples(rng, map)
         });
         questions.into()
     },
@@ -123,12 +130,12 @@ const SINE: Declaration = Declaration {
     questions: |rng| {
         let sizes = [uvec2(4, 2), uvec2(6, 3), uvec2(16, 8)];
         let questions = sizes.map(|size| {
-            let grey = single(DVec3::splat(rng.uniform(0.2, 3.0)));
+            let grey = single(DVec3::splat(rng.log_uniform(0.02, 500.0)));
             let map = MapImage {
                 size,
                 pixels: vec![grey.as_vec3(); size.element_product() as usize],
             };
-            samples(rng, map, |_| true)
+            samples(rng, map)
         });
         questions.into()
     },
@@ -150,7 +157,7 @@ const LUMINANCE: Declaration = Declaration {
             size,
             pixels: pixels.collect(),
         };
-        let mut questions = vec![samples(rng, map.clone(), |_| true)];
+        let mut questions = vec![samples(rng, map.clone())];
         questions.extend([pdfs(rng, map, |_| true)]);
         questions
     },
@@ -177,15 +184,13 @@ const ENDS: Declaration = Declaration {
                 with_borders.pixels[last] = Vec3::ZERO;
             }
             for map in [whole, with_borders] {
-                let below_one = 1.0 - f32::EPSILON / 2.0;
-                let choices = [0.0, 1e-6, below_one - f32::EPSILON, below_one];
-                let choices = choices.into_iter().chain([random(rng), random(rng)]);
+                let choices = [0.0, 1e-6, BELOW_ONE - f32::EPSILON, BELOW_ONE];
                 let calls = choices.map(|choice| MapSample {
                     choice,
-                    random: random_pair(rng),
+                    random: fields::number_pair(rng),
                 });
-                let calls = calls.collect();
-                questions.push(sampled(map, calls));
+                let usual = sample_calls(rng, &map, 2);
+                questions.push(sampled(map, [calls.into(), usual].concat()));
             }
         }
         questions
@@ -219,7 +224,7 @@ const BLACK: Declaration = Declaration {
             map.pixels[width..2 * width].fill(Vec3::ZERO);
             map.pixels[1] = Vec3::ONE;
             map.pixels[2 * width] = Vec3::new(0.5, 0.25, 1.0);
-            questions.push(samples(rng, map.clone(), |_| true));
+            questions.push(samples(rng, map.clone()));
             questions.push(pdfs(rng, map.clone(), |pdf| pdf == 0.0));
             questions.push(pdfs(rng, map, |pdf| pdf > 0.0));
         }
@@ -264,8 +269,8 @@ const PDF: Declaration = Declaration {
 const SIZES: Declaration = Declaration {
     id: "environment.sizes",
     points: 1,
-    title: "maps of any size are sampled, from two pixels to many",
-    look: "Do you mix up the width and the height, or rows and columns?",
+    title: "maps of any size are sampled, from two pixels to a hundred thousand",
+    look: "Do you mix up the width and the height? If only large maps fail: are all sums in `f64`?",
     section: "light/environment.md#three-components-and-two-angles",
     tests: &[
         "`choice` picks the pixel: …",
@@ -276,9 +281,12 @@ const SIZES: Declaration = Declaration {
         let mut questions = Vec::new();
         for size in sizes {
             let map = colorful(rng, size);
-            questions.push(samples(rng, map.clone(), |_| true));
+            questions.push(samples(rng, map.clone()));
             questions.push(pdfs(rng, map, |_| true));
         }
+        let map = large(rng);
+        questions.push(samples(rng, map.clone()));
+        questions.push(pdfs(rng, map, |_| true));
         questions
     },
     ..Declaration::in_group(MAPS)
@@ -286,11 +294,10 @@ const SIZES: Declaration = Declaration {
 
 /// Returns a question about the lengths of uniform directions at the ends of the random numbers.
 fn unit_at_the_ends(rng: &mut Rng) -> ExamQuestion {
-    let below_one = 1.0 - f32::EPSILON / 2.0;
-    let ends = [0.0, 1e-7, 0.5, below_one];
+    let ends = [0.0, 1e-7, 0.25, 0.5, 0.75, 0.9999, BELOW_ONE];
     let corners = ends.into_iter().flat_map(|x| ends.map(|y| Vec2::new(x, y)));
     let mut pairs: Vec<Vec2> = corners.collect();
-    pairs.extend((0..CALLS).map(|_| random_pair(rng)));
+    pairs.extend((0..CALLS).map(|_| fields::number_pair(rng)));
     let pairs = pairs.into_iter().map(|random| RandomPair { random });
     let pairs: Vec<RandomPair> = pairs.collect();
     // Only the length is judged, so any direction will do.
@@ -301,36 +308,67 @@ fn unit_at_the_ends(rng: &mut Rng) -> ExamQuestion {
 
 /// Returns a map whose pixels have random colours, some of which are very bright.
 fn colorful(rng: &mut Rng, size: UVec2) -> MapImage {
-    let pixels = (0..size.element_product()).map(|_| {
-        let brightness = rng.log_uniform(0.01, 100.0);
-        (color(rng) * brightness).as_vec3()
-    });
+    let pixels = (0..size.element_product()).map(|_| pixel(rng));
     MapImage {
         size,
         pixels: pixels.collect(),
     }
 }
 
+/// Returns a random colour: white, grey, or with one, two or three channels.
+fn pixel(rng: &mut Rng) -> Vec3 {
+    let brightness = rng.log_uniform(0.01, 200.0);
+    let mut color = color(rng);
+    match rng.index(10) {
+        0 => return Vec3::ONE,
+        1 => color = DVec3::splat(color.x),
+        2 => color *= DVec3::AXES[rng.index(3)],
+        3 => color[rng.index(3)] = 0.0,
+        _ => {}
+    }
+    (color * brightness).as_vec3()
+}
+
+/// Returns a map with so many pixels that their number doesn't fit into 16 bits, and that sums in
+/// single precision aren't exact enough. Many neighbours have the same colour, so that the exam
+/// stays small.
+fn large(rng: &mut Rng) -> MapImage {
+    let size = uvec2(512, 256);
+    let mut pixels = Vec::new();
+    while pixels.len() < size.element_product() as usize {
+        let pixel = color(rng) * rng.log_uniform(0.5, 5.0);
+        let count = rng.integer(100, 3000) as usize;
+        pixels.resize(pixels.len() + count, pixel.as_vec3());
+    }
+    pixels.truncate(size.element_product() as usize);
+    MapImage { size, pixels }
+}
+
 fn oracle(map: &MapImage) -> Map64 {
     Map64::new(map.size, &map.pixels)
 }
 
-/// Returns a question about samples whose directions fulfil a condition.
-fn samples(rng: &mut Rng, map: MapImage, condition: impl Fn(DVec3) -> bool) -> ExamQuestion {
-    let map64 = oracle(&map);
+/// Returns a question about samples.
+fn samples(rng: &mut Rng, map: MapImage) -> ExamQuestion {
+    let calls = sample_calls(rng, &map, CALLS);
+    sampled(map, calls)
+}
+
+/// Returns random calls that aren't close to the border between two pixels.
+fn sample_calls(rng: &mut Rng, map: &MapImage, count: usize) -> Vec<MapSample> {
+    let map64 = oracle(map);
     let call = |_| {
         rng.retry(|rng| {
             let call = MapSample {
-                choice: random(rng),
-                random: random_pair(rng),
+                choice: fields::number(rng),
+                random: fields::number_pair(rng),
             };
-            let sample = sample(&map64, &call);
-            let direction = sample.value?;
-            (sample.margin > BORDER && condition(direction)).then_some(call)
+            let share = map64.shares()[picked(&map64, call.choice)];
+            let border = (BORDER * share).max(ROUNDING);
+            (sample(&map64, &call).margin > border).then_some(call)
         })
     };
-    let calls = (0..CALLS).map(call).collect();
-    sampled(map, calls)
+    (0..count).map(call).collect()
 }
 
 fn sample(map: &Map64, call: &MapSample) -> WithMargin<Option<DVec3>> {
@@ -345,12 +383,26 @@ fn sampled(map: MapImage, calls: Vec<MapSample>) -> ExamQuestion {
     table(question, &["direction", "unit_direction"], rows)
 }
 
+/// Returns a random direction. Some are close to a pole, and some between two axes.
+fn direction(rng: &mut Rng) -> DVec3 {
+    let mut direction = rng.direction();
+    if rng.index(8) == 0 {
+        direction.x = 0.0;
+    }
+    if rng.index(4) == 0 {
+        let flat = DVec3::new(direction.x, 0.0, direction.z).normalize();
+        let sine = rng.log_uniform(0.032, 0.2);
+        direction = sine * flat + rng.sign() * (1.0 - sine * sine).sqrt() * DVec3::Y;
+    }
+    single(direction.normalize())
+}
+
 /// Returns a question about the densities of directions that fulfil a condition.
 fn pdfs(rng: &mut Rng, map: MapImage, condition: fn(f64) -> bool) -> ExamQuestion {
     let map64 = oracle(&map);
     let direction = |_| {
         rng.retry(|rng| {
-            let direction = single(rng.direction());
+            let direction = direction(rng);
             let pdf = map64.pdf(direction);
             (pdf.margin > EDGE && condition(pdf.value)).then_some(direction)
         })

@@ -7,14 +7,21 @@ use protocol::light::LightQuestion;
 use protocol::light::lambertian::{DirectionPair, Matte, MatteSample};
 
 use super::groups::{MATTE, MATTE_SAMPLES};
-use super::{above, below, color, colors, densities, direction_with_height, random_pair};
-use super::{scattered, table};
+use super::{colors, densities, scattered, table};
+use crate::domains::light::fields::{self, ABOVE, BELOW_ONE, HORIZON, number};
+use crate::domains::light::materials::{MATTE_EVALUATE, MATTE_PDF, MATTE_SCATTER};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::lambertian;
 use crate::seed::Rng;
 
 /// The number of calls in each question.
-const CALLS: usize = 12;
+const CALLS: usize = 8;
+
+/// The signs of the components of a related direction.
+const SAME: [f64; 3] = [1.0, 1.0, 1.0];
+const OPPOSITE: [f64; 3] = [-1.0, -1.0, -1.0];
+const ABOUT_THE_NORMAL: [f64; 3] = [-1.0, -1.0, 1.0];
+const THROUGH_THE_SURFACE: [f64; 3] = [1.0, 1.0, -1.0];
 
 /// The task `lambertian`.
 pub static TASK: AuthoredTask = AuthoredTask {
@@ -27,6 +34,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         ATTENUATION,
         SAMPLED_PDF,
     ],
+    domains: &[&MATTE_EVALUATE, &MATTE_PDF, &MATTE_SCATTER],
     ..AuthoredTask::NEW
 };
 
@@ -43,7 +51,11 @@ const EVALUATE: Declaration = Declaration {
     ],
     questions: |rng| {
         surfaces(rng, |rng, matte| {
-            vec![evaluations(matte, pairs(rng, above, above))]
+            let pairs = [
+                pairs(rng, above, above),
+                related(rng, above, [SAME, ABOUT_THE_NORMAL]),
+            ];
+            vec![evaluations(matte, pairs.concat())]
         })
     },
     ..Declaration::in_group(MATTE)
@@ -61,7 +73,11 @@ const PDF: Declaration = Declaration {
     ],
     questions: |rng| {
         surfaces(rng, |rng, matte| {
-            vec![pdfs(matte, pairs(rng, above, above))]
+            let pairs = [
+                pairs(rng, above, above),
+                related(rng, above, [SAME, ABOUT_THE_NORMAL]),
+            ];
+            vec![pdfs(matte, pairs.concat())]
         })
     },
     ..Declaration::in_group(MATTE)
@@ -83,6 +99,8 @@ const BELOW: Declaration = Declaration {
                 pairs(rng, above, above),
                 pairs(rng, horizon, above),
                 pairs(rng, above, horizon),
+                related(rng, above, [OPPOSITE, THROUGH_THE_SURFACE]),
+                related(rng, below, [SAME, OPPOSITE, ABOUT_THE_NORMAL]),
             ];
             let mixed = rng.shuffled(both.concat());
             vec![evaluations(matte, mixed.clone()), pdfs(matte, mixed)]
@@ -141,8 +159,8 @@ const ATTENUATION: Declaration = Declaration {
         surfaces(rng, |rng, matte| {
             let mut numbers = randoms(rng);
             // These lead to directions close to the normal and to the horizon.
-            let ends = [0.0, 1e-6, 1.0 - f32::EPSILON, 1.0 - f32::EPSILON / 2.0];
-            numbers.extend(ends.map(|x| Vec2::new(x, random_pair(rng).y)));
+            let ends = [0.0, 1e-6, 1.0 - f32::EPSILON, BELOW_ONE];
+            numbers.extend(ends.map(|x| Vec2::new(x, number(rng))));
             samples(matte, &["attenuation"], numbers, rng)
         })
     },
@@ -169,23 +187,49 @@ fn surfaces(
     rng: &mut Rng,
     questions: impl Fn(&mut Rng, Matte) -> Vec<ExamQuestion>,
 ) -> Vec<ExamQuestion> {
-    let albedos = [color(rng), color(rng) * DVec3::X, DVec3::ONE, DVec3::ZERO];
-    let mattes = albedos.map(|albedo| Matte {
+    let mattes = fields::reflectances(rng).into_iter().map(|albedo| Matte {
         albedo: albedo.as_vec3(),
     });
-    let questions = mattes.into_iter().flat_map(|matte| questions(rng, matte));
-    questions.collect()
+    mattes.flat_map(|matte| questions(rng, matte)).collect()
+}
+
+/// Returns a direction above the surface that doesn't graze it.
+fn above(rng: &mut Rng) -> DVec3 {
+    let class = [0, 1, 2, 2, 2, 2][rng.index(6)];
+    fields::direction(rng, class)
+}
+
+/// Returns a direction below the surface, at any angle.
+fn below(rng: &mut Rng) -> DVec3 {
+    let class = HORIZON + 1 + rng.index(ABOVE);
+    fields::direction(rng, class)
 }
 
 /// Returns a direction along the surface.
 fn horizon(rng: &mut Rng) -> DVec3 {
-    let along = rng.perpendicular_to(DVec3::Z);
-    DVec3::new(along.x, along.y, 0.0)
+    fields::direction(rng, HORIZON)
 }
 
 fn grazing(rng: &mut Rng) -> DVec3 {
-    let height = rng.log_uniform(1e-5, 0.1);
-    direction_with_height(rng, height, 1.01 * height, 1.0)
+    let class = 3 + rng.index(3);
+    fields::direction(rng, class)
+}
+
+/// Returns pairs of directions in which `incoming` is `out` with the signs of its components
+/// changed.
+fn related<const N: usize>(
+    rng: &mut Rng,
+    out: fn(&mut Rng) -> DVec3,
+    signs: [[f64; 3]; N],
+) -> Vec<DirectionPair> {
+    let pairs = signs.map(|signs| {
+        let out = out(rng);
+        DirectionPair {
+            out: out.as_vec3(),
+            incoming: (DVec3::from_array(signs) * out).as_vec3(),
+        }
+    });
+    pairs.into()
 }
 
 /// Returns pairs of directions, each drawn by one of the two functions.
@@ -227,12 +271,15 @@ fn pdfs(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
 }
 
 fn randoms(rng: &mut Rng) -> Vec<Vec2> {
-    (0..CALLS).map(|_| random_pair(rng)).collect()
+    (0..CALLS).map(|_| fields::number_pair(rng)).collect()
 }
 
 fn samples(matte: Matte, judged: &[&str], numbers: Vec<Vec2>, rng: &mut Rng) -> Vec<ExamQuestion> {
     let calls = numbers.into_iter().map(|random| MatteSample {
-        out: above(rng).as_vec3(),
+        out: {
+            let class = rng.index(ABOVE);
+            fields::direction(rng, class).as_vec3()
+        },
         random,
     });
     let calls: Vec<MatteSample> = calls.collect();

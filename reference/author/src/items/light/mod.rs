@@ -12,11 +12,12 @@ mod path;
 mod rooms;
 mod specular;
 
-use glam::{DVec2, DVec3, Vec2};
+use glam::{DVec3, Vec2};
 use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use protocol::{Color, Density, Fraction, LocalDirection, Question, Scattered};
 
 use super::AuthoredTask;
+use crate::domains::light::fields;
 use crate::oracle::light::Scattered64;
 use crate::seed::Rng;
 
@@ -87,28 +88,14 @@ fn single(v: DVec3) -> DVec3 {
     v.as_vec3().as_dvec3()
 }
 
-/// Returns a random direction whose z component has this absolute value range and this sign.
-fn direction_with_height(rng: &mut Rng, min: f64, max: f64, sign: f64) -> DVec3 {
-    let height = rng.uniform(min, max);
-    let around = loop {
-        let direction = rng.direction();
-        let flat = DVec2::new(direction.x, direction.y);
-        if flat.length() > 0.1 {
-            break flat.normalize();
-        }
-    };
-    let flat = around * (1.0 - height * height).max(0.0).sqrt();
-    single(DVec3::new(flat.x, flat.y, sign * height))
-}
-
-/// Returns a random direction above the surface, not close to the horizon.
+/// Returns a random direction above the surface, close neither to the horizon nor to the normal.
 fn above(rng: &mut Rng) -> DVec3 {
-    direction_with_height(rng, 0.1, 1.0, 1.0)
+    fields::direction(rng, 2)
 }
 
-/// Returns a random direction below the surface, not close to the horizon.
+/// Returns a random direction below the surface, close neither to the horizon nor to the normal.
 fn below(rng: &mut Rng) -> DVec3 {
-    direction_with_height(rng, 0.1, 1.0, -1.0)
+    -above(rng)
 }
 
 /// Returns a colour with a different value for each channel.

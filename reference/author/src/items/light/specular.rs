@@ -1,5 +1,7 @@
 //! The items about mirrors and glass.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec3;
 use judging::exam::ExamQuestion;
 use protocol::light::LightQuestion;
@@ -7,8 +9,12 @@ use protocol::light::specular::{GlassSample, Medium, MirrorColor};
 use protocol::{LocalDirection, Table};
 
 use super::groups::SPECULAR;
-use super::{MARGIN, above, below, color, direction_with_height, directions, fractions, local};
-use super::{optional_directions, random, scattered, single, table};
+use super::{MARGIN, above, below, directions, fractions, local, optional_directions, scattered};
+use super::{single, table};
+use crate::domains::light::fields::{self, ABOVE, HORIZON};
+use crate::domains::light::materials::{
+    GLASS_SCATTER, MIRROR_SCATTER, REFLECTED_FRACTION, REFLECTION, REFRACTED,
+};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::specular;
 use crate::seed::Rng;
@@ -35,6 +41,13 @@ pub static TASK: AuthoredTask = AuthoredTask {
         GLASS_RADIANCE,
         GLASS_TOTAL,
     ],
+    domains: &[
+        &REFLECTION,
+        &REFRACTED,
+        &REFLECTED_FRACTION,
+        &MIRROR_SCATTER,
+        &GLASS_SCATTER,
+    ],
     ..AuthoredTask::NEW
 };
 
@@ -45,7 +58,10 @@ const REFLECT: Declaration = Declaration {
     look: "Which components change sign, and which one stays the same?",
     section: "light/glass.md#the-mirror-direction",
     tests: &["Mirrors a direction about the normal."],
-    questions: |rng| vec![reflections(list(rng, above))],
+    questions: |rng| {
+        let special = every_height(rng, 0..=HORIZON);
+        vec![reflections([list(rng, above), special].concat())]
+    },
     ..Declaration::in_group(SPECULAR)
 };
 
@@ -58,7 +74,11 @@ const REFLECT_INSIDE: Declaration = Declaration {
     tests: &[
         "The result is on the same side of the surface as `out`, which can be on either side.",
     ],
-    questions: |rng| vec![reflections([list(rng, below), list(rng, above)].concat())],
+    questions: |rng| {
+        let special = every_height(rng, HORIZON + 1..=2 * HORIZON);
+        let usual = [list(rng, below), list(rng, above)].concat();
+        vec![reflections([usual, special].concat())]
+    },
     ..Declaration::in_group(SPECULAR)
 };
 
@@ -75,8 +95,10 @@ const ENTERING: Declaration = Declaration {
         "If out.z > 0, the path is outside, where the index is 1, and the result has z < 0.",
     ],
     questions: |rng| {
-        media(rng, dense, |rng, medium| {
-            refractions(medium, rng, above, any)
+        media(rng, DENSE, |rng, medium| {
+            let mut out = directions_that(rng, medium, above, any);
+            out.extend(few(rng, medium, grazing, any));
+            refraction(medium, out)
         })
     },
     ..Declaration::in_group(SPECULAR)
@@ -90,8 +112,10 @@ const LEAVING: Declaration = Declaration {
     section: "light/glass.md#the-side-decides-the-ratio",
     tests: &["If out.z < 0, the path is inside, and the result has z > 0."],
     questions: |rng| {
-        media(rng, dense, |rng, medium| {
-            refractions(medium, rng, below, refracted)
+        media(rng, DENSE, |rng, medium| {
+            let mut out = directions_that(rng, medium, below, refracted);
+            out.extend(near_critical(rng, medium, -1.0, refracted));
+            refraction(medium, out)
         })
     },
     ..Declaration::in_group(SPECULAR)
@@ -107,8 +131,9 @@ const TOTAL: Declaration = Declaration {
         "Directions along the surface (z = 0), and those at the critical angle, are not tested.",
     ],
     questions: |rng| {
-        media(rng, dense, |rng, medium| {
-            let mut out = directions_that(rng, medium, below, total);
+        media(rng, DENSE, |rng, medium| {
+            let mut out = directions_that(rng, medium, any_below, total);
+            out.extend(near_critical(rng, medium, -1.0, total));
             out.extend(directions_that(rng, medium, below, refracted));
             out.extend(directions_that(rng, medium, above, any));
             refraction(medium, rng.shuffled(out))
@@ -125,13 +150,13 @@ const HEAD_ON: Declaration = Declaration {
     section: "light/glass.md#straight-through-is-not-a-special-case",
     tests: &["The result has length one, even along the normal."],
     questions: |rng| {
-        media(rng, dense, |rng, medium| {
+        media(rng, DENSE, |rng, medium| {
             let tilted = [
                 above(rng),
                 directions_that(rng, medium, below, refracted)[0],
             ];
             let out = [DVec3::Z, DVec3::NEG_Z].into_iter().chain(tilted);
-            let near = [1.0, -1.0].map(|side| nearly_along_the_normal(rng, side));
+            let near = [1, 2 * HORIZON - 1].map(|class| fields::direction(rng, class));
             refraction(medium, out.chain(near).collect())
         })
     },
@@ -149,15 +174,12 @@ const LOW_INDEX: Declaration = Declaration {
         "It can also be 1, in which case light isn't bent.",
     ],
     questions: |rng| {
-        let mut questions = media(rng, thin, |rng, medium| {
-            let mut out = directions_that(rng, medium, above, total);
-            out.extend(directions_that(rng, medium, above, refracted));
-            out.extend(directions_that(rng, medium, below, any));
-            refraction(medium, rng.shuffled(out))
+        let mut questions = media(rng, THIN, |rng, medium| {
+            refraction(medium, thin_directions(rng, medium))
         });
-        let same = Medium { ior: 1.0 };
-        let out = [list(rng, above), list(rng, below)].concat();
-        questions.push(refraction(same, out));
+        questions.extend(media(rng, SAME, |rng, medium| {
+            refraction(medium, straight_directions(rng, medium))
+        }));
         questions
     },
     ..Declaration::in_group(SPECULAR)
@@ -176,10 +198,11 @@ const FRESNEL_ENTERING: Declaration = Declaration {
         "Schlick's approximation isn't accurate enough.",
     ],
     questions: |rng| {
-        media(rng, dense, |rng, medium| {
+        media(rng, DENSE, |rng, medium| {
             let mut out = directions_that(rng, medium, above, any);
-            out.extend((0..CALLS).map(|_| direction_with_height(rng, 0.02, 0.5, 1.0)));
-            out.push(DVec3::Z);
+            out.extend(directions_that(rng, medium, slanted, any));
+            out.extend(few(rng, medium, grazing, any));
+            out.extend([DVec3::Z, fields::direction(rng, 1)]);
             fresnel(medium, out)
         })
     },
@@ -197,9 +220,10 @@ const FRESNEL_LEAVING: Declaration = Declaration {
         "Two directions that refract into each other have the same fraction.",
     ],
     questions: |rng| {
-        media(rng, dense, |rng, medium| {
+        media(rng, DENSE, |rng, medium| {
             let mut out = directions_that(rng, medium, below, refracted);
-            out.push(DVec3::NEG_Z);
+            out.extend(near_critical(rng, medium, -1.0, refracted));
+            out.extend([DVec3::NEG_Z, -fields::direction(rng, 1)]);
             fresnel(medium, out)
         })
     },
@@ -214,8 +238,9 @@ const FRESNEL_TOTAL: Declaration = Declaration {
     section: "light/glass.md#total-reflection-is-full-reflection",
     tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
     questions: |rng| {
-        media(rng, dense, |rng, medium| {
-            let mut out = directions_that(rng, medium, below, total);
+        media(rng, DENSE, |rng, medium| {
+            let mut out = directions_that(rng, medium, any_below, total);
+            out.extend(near_critical(rng, medium, -1.0, total));
             out.extend(directions_that(rng, medium, below, refracted));
             fresnel(medium, rng.shuffled(out))
         })
@@ -231,14 +256,12 @@ const FRESNEL_LOW_INDEX: Declaration = Declaration {
     section: "light/glass.md#an-index-below-one",
     tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
     questions: |rng| {
-        let mut questions = media(rng, thin, |rng, medium| {
-            let mut out = directions_that(rng, medium, above, refracted);
-            out.extend(directions_that(rng, medium, above, total));
-            out.extend(directions_that(rng, medium, below, any));
-            fresnel(medium, rng.shuffled(out))
+        let mut questions = media(rng, THIN, |rng, medium| {
+            fresnel(medium, thin_directions(rng, medium))
         });
-        let out = [list(rng, above), list(rng, below)].concat();
-        questions.push(fresnel(Medium { ior: 1.0 }, out));
+        questions.extend(media(rng, SAME, |rng, medium| {
+            fresnel(medium, straight_directions(rng, medium))
+        }));
         questions
     },
     ..Declaration::in_group(SPECULAR)
@@ -255,9 +278,9 @@ const MIRROR: Declaration = Declaration {
         "`attenuation` is the reflectance, and `pdf` is `None`.",
     ],
     questions: |rng| {
-        let colors = [color(rng), color(rng), DVec3::ONE];
+        let colors = fields::reflectances(rng).into_iter();
         let question = |reflectance: DVec3| {
-            let out = list(rng, above);
+            let out = list(rng, any_above);
             let rows = out
                 .iter()
                 .map(|out| specular::mirror_scatter(reflectance, *out));
@@ -269,7 +292,7 @@ const MIRROR: Declaration = Declaration {
             let question = LightQuestion::MirrorScatter(Table::of_list(mirror, out));
             table(question, &["direction", "attenuation", "pdf"], rows)
         };
-        colors.map(question).into()
+        colors.map(question).collect()
     },
     ..Declaration::in_group(SPECULAR)
 };
@@ -316,13 +339,15 @@ const GLASS_TOTAL: Declaration = Declaration {
     section: "light/glass.md#total-reflection-is-not-scaled",
     tests: &["If the path is reflected, `attenuation` is 1: …"],
     questions: |rng| {
-        let mut questions = media(rng, dense, |rng, medium| {
-            let mut out = directions_that(rng, medium, below, total);
+        let mut questions = media(rng, DENSE, |rng, medium| {
+            let mut out = directions_that(rng, medium, any_below, total);
+            out.extend(near_critical(rng, medium, -1.0, total));
             out.extend(directions_that(rng, medium, below, refracted));
             glass_samples(rng, medium, out, &["direction", "attenuation", "pdf"])
         });
-        questions.extend(media(rng, thin, |rng, medium| {
-            let out = directions_that(rng, medium, above, total);
+        questions.extend(media(rng, THIN, |rng, medium| {
+            let mut out = directions_that(rng, medium, any_above, total);
+            out.extend(near_critical(rng, medium, 1.0, total));
             glass_samples(rng, medium, out, &["direction", "attenuation", "pdf"])
         }));
         questions
@@ -335,33 +360,71 @@ fn list(rng: &mut Rng, draw: fn(&mut Rng) -> DVec3) -> Vec<DVec3> {
     (0..CALLS).map(|_| draw(rng)).collect()
 }
 
-/// Returns a direction that leaves the normal by at most a few degrees.
-fn nearly_along_the_normal(rng: &mut Rng, side: f64) -> DVec3 {
-    let tilt = 0.03 * rng.direction();
-    single(DVec3::new(tilt.x, tilt.y, side).normalize())
+/// Returns two directions at each angle in this range of classes.
+fn every_height(rng: &mut Rng, classes: RangeInclusive<usize>) -> Vec<DVec3> {
+    let twice = classes.clone().chain(classes);
+    twice.map(|class| fields::direction(rng, class)).collect()
 }
 
-/// Returns the index of a medium that is denser than air.
-fn dense(rng: &mut Rng) -> f64 {
-    1.0 + rng.log_uniform(0.03, 3.0)
+/// Returns a direction above the surface, at any angle.
+fn any_above(rng: &mut Rng) -> DVec3 {
+    let class = rng.index(ABOVE);
+    fields::direction(rng, class)
 }
 
-/// Returns the index of a medium that is thinner than what surrounds it.
-fn thin(rng: &mut Rng) -> f64 {
-    1.0 / dense(rng)
+/// Returns a direction below the surface, at any angle.
+fn any_below(rng: &mut Rng) -> DVec3 {
+    -any_above(rng)
 }
 
-/// Returns questions about media with different indices.
+/// Returns a direction above the surface that grazes it.
+fn grazing(rng: &mut Rng) -> DVec3 {
+    let class = rng.index(3) + 3;
+    fields::direction(rng, class)
+}
+
+/// Returns a direction above the surface, farther from the normal than from the horizon.
+fn slanted(rng: &mut Rng) -> DVec3 {
+    rng.retry(|rng| Some(above(rng)).filter(|out| out.z < 0.5))
+}
+
+/// Returns directions at the surface of a medium that is thinner than its surroundings.
+fn thin_directions(rng: &mut Rng, medium: Medium) -> Vec<DVec3> {
+    let mut out = directions_that(rng, medium, any_above, total);
+    out.extend(directions_that(rng, medium, above, refracted));
+    out.extend(directions_that(rng, medium, below, any));
+    out.extend(few(rng, medium, any_below, any));
+    for wanted in [refracted, total] {
+        out.extend(near_critical(rng, medium, 1.0, wanted));
+    }
+    rng.shuffled(out)
+}
+
+/// Returns directions at the surface of a medium with the index of its surroundings.
+fn straight_directions(rng: &mut Rng, medium: Medium) -> Vec<DVec3> {
+    let usual = [list(rng, above), list(rng, below)].concat();
+    let special = [any_above, any_below].map(|draw| few(rng, medium, draw, any));
+    [usual, special.concat()].concat()
+}
+
+/// The classes of indices of media that are denser than their surroundings.
+const DENSE: &[usize] = &[5, 6, 4];
+/// The classes of indices of media that are thinner than their surroundings.
+const THIN: &[usize] = &[1, 0, 2];
+/// The class of the index of the surroundings.
+const SAME: &[usize] = &[3];
+
+/// Returns a question about a medium for each of these classes of indices.
 fn media(
     rng: &mut Rng,
-    ior: fn(&mut Rng) -> f64,
+    classes: &[usize],
     mut question: impl FnMut(&mut Rng, Medium) -> ExamQuestion,
 ) -> Vec<ExamQuestion> {
-    let question = |_| {
-        let ior = ior(rng) as f32;
+    let question = |&class: &usize| {
+        let ior = fields::index(rng, class);
         question(rng, Medium { ior })
     };
-    (0..3).map(question).collect()
+    classes.iter().map(question).collect()
 }
 
 fn any(_: DVec3, _: f64) -> bool {
@@ -376,7 +439,7 @@ fn total(out: DVec3, ior: f64) -> bool {
     !refracted(out, ior)
 }
 
-/// Returns directions for which a condition is true, not close to the critical angle.
+/// Returns directions for which a condition is true and that all correct formulas agree on.
 fn directions_that(
     rng: &mut Rng,
     medium: Medium,
@@ -387,27 +450,79 @@ fn directions_that(
     let direction = |_| {
         rng.retry(|rng| {
             let out = draw(rng);
-            let is_clear = specular::critical_margin(out, ior) > 0.02;
-            (is_clear && condition(out, ior)).then_some(out)
+            (is_clear(out, ior) && condition(out, ior)).then_some(out)
         })
     };
     (0..CALLS).map(direction).collect()
+}
+
+/// Returns a few such directions.
+fn few(
+    rng: &mut Rng,
+    medium: Medium,
+    draw: fn(&mut Rng) -> DVec3,
+    condition: fn(DVec3, f64) -> bool,
+) -> Vec<DVec3> {
+    let mut all = directions_that(rng, medium, draw, condition);
+    all.truncate(CALLS / 2);
+    all
+}
+
+/// The smallest difference of a cosine from that of the critical angle.
+const CRITICAL: f64 = 0.02;
+
+/// Returns up to two directions close to the critical angle, on the side with this sign, for which
+/// a condition is true.
+fn near_critical(
+    rng: &mut Rng,
+    medium: Medium,
+    side: f64,
+    condition: fn(DVec3, f64) -> bool,
+) -> Vec<DVec3> {
+    let ior = f64::from(medium.ior);
+    let critical = (1.0 - ior.min(1.0 / ior).powi(2)).sqrt();
+    let direction = |_| {
+        rng.attempt(1_000, |rng| {
+            let height = critical + rng.sign() * rng.uniform(CRITICAL, 2.8 * CRITICAL);
+            let flat = above(rng).truncate().normalize();
+            let height = height.clamp(0.0, 1.0);
+            let out = single((flat * (1.0 - height * height).sqrt()).extend(side * height));
+            let is_wanted = is_clear(out, ior) && condition(out, ior);
+            (height > 1e-3 && height < 0.999 && is_wanted).then_some(out)
+        })
+    };
+    (0..2).filter_map(direction).collect()
+}
+
+/// Returns whether a direction is not close to the critical angle, and rounding doesn't matter much:
+/// the squared cosine of the refracted direction is 1 minus a number that is rounded.
+fn is_clear(out: DVec3, ior: f64) -> bool {
+    /// A tenth of the tolerances for directions and fractions.
+    const MOST: f64 = 1e-4;
+    /// Smaller fractions are compared as if they had this size.
+    const SMALLEST_FRACTION: f64 = 0.01;
+    let (near, far) = if out.z > 0.0 { (1.0, ior) } else { (ior, 1.0) };
+    let ratio = near / far;
+    let cosine = out.z.abs();
+    let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    let rounding = 2e-7 * (1.0 + ratio * ratio);
+    if squared.abs() < rounding || specular::critical_margin(out, ior) < CRITICAL {
+        return false;
+    }
+    let [least, most] = [squared - rounding, squared + rounding].map(|it| it.max(0.0).sqrt());
+    let fraction = |refracted: f64| {
+        let square = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
+        let perpendicular = square(near * cosine, far * refracted);
+        0.5 * (perpendicular + square(far * cosine, near * refracted))
+    };
+    let [a, b] = [least, most].map(fraction);
+    most - least < MOST && (a - b).abs() < MOST * a.max(b).max(SMALLEST_FRACTION)
 }
 
 fn reflections(out: Vec<DVec3>) -> ExamQuestion {
     let rows = directions(out.iter().map(|out| specular::reflect(*out)));
     let question = LightQuestion::Reflect(Table::of_list((), locals(out)));
     table(question, &["direction", "unit_direction"], rows)
-}
-
-fn refractions(
-    medium: Medium,
-    rng: &mut Rng,
-    draw: fn(&mut Rng) -> DVec3,
-    condition: fn(DVec3, f64) -> bool,
-) -> ExamQuestion {
-    let out = directions_that(rng, medium, draw, condition);
-    refraction(medium, out)
 }
 
 fn refraction(medium: Medium, out: Vec<DVec3>) -> ExamQuestion {
@@ -427,17 +542,15 @@ fn fresnel(medium: Medium, out: Vec<DVec3>) -> ExamQuestion {
 /// Returns questions about glass in which some paths are reflected and others refracted, from both
 /// sides.
 fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
-    let mut questions = media(rng, dense, |rng, medium| {
-        let mut out = directions_that(rng, medium, above, refracted);
-        out.extend(directions_that(rng, medium, below, refracted));
+    let classes = [DENSE, THIN, SAME].concat();
+    media(rng, &classes, |rng, medium| {
+        let mut out = Vec::new();
+        for (draw, side) in [(any_above as fn(&mut Rng) -> DVec3, 1.0), (any_below, -1.0)] {
+            out.extend(few(rng, medium, draw, refracted));
+            out.extend(near_critical(rng, medium, side, refracted));
+        }
         glass_samples(rng, medium, out, judged)
-    });
-    questions.extend(media(rng, thin, |rng, medium| {
-        let mut out = directions_that(rng, medium, above, refracted);
-        out.extend(directions_that(rng, medium, below, any));
-        glass_samples(rng, medium, out, judged)
-    }));
-    questions
+    })
 }
 
 /// Returns a question in which each direction is asked twice: with a random number on each side of
@@ -459,10 +572,12 @@ fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]
                 let number = if rng.coin() {
                     number as f32
                 } else {
-                    random(rng)
+                    fields::number(rng)
                 };
                 let is_random = (0.0..1.0).contains(&number);
-                let is_clear = specular::glass_margin(ior, out, number.into()) > MARGIN;
+                // Total reflection doesn't depend on the number.
+                let is_far = (f64::from(number) - fraction).abs() > MARGIN;
+                let is_clear = is_far || total(out, ior);
                 let is_wanted = (f64::from(number) < fraction) == is_below;
                 (is_random && is_clear && is_wanted).then_some(number)
             });

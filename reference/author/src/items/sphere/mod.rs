@@ -27,7 +27,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         surface::ORIGIN_AND_MATERIAL,
         surface::PICTURE,
     ],
-    domain: Some(&SPHERE),
+    domains: &[&SPHERE],
     points: POINTS,
     ..AuthoredTask::NEW
 };

@@ -51,7 +51,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         end_to_end::PICTURE,
         end_to_end::RADIANCE,
     ],
-    domain: Some(&TRAVERSE),
+    domains: &[&TRAVERSE],
     finish: |seed, items| {
         let mut mover = Mover::new(seed);
         for item in items.iter_mut() {

@@ -30,7 +30,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         surface::ORIGIN_AND_MATERIAL,
         scene::PICTURE,
     ],
-    domain: Some(&TRIANGLE),
+    domains: &[&TRIANGLE],
     untested: &[(
         "It need not have length one.",
         "The answer is normalised before it is compared.",

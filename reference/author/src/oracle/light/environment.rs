@@ -57,8 +57,8 @@ impl Map64 {
     }
 
     /// Returns the index of the pixel that shows a direction. The margin is the distance from the
-    /// pixel's border, as a fraction of a row or column, or the squared cosine of the latitude if
-    /// that is less: near the poles, rounding changes this square the most.
+    /// pixel's border, as a fraction of a row or column, or 20 times the squared cosine of the
+    /// latitude if that is less: near the poles, rounding changes this square the most.
     pub fn index(&self, direction: DVec3) -> WithMargin<usize> {
         let across = libm::hypot(direction.x, direction.z);
         let turns = libm::atan2(direction.z, direction.x) / TAU;
@@ -69,7 +69,7 @@ impl Map64 {
         let inside = (position - pixel).min(pixel + 1.0 - position);
         WithMargin {
             value: (pixel.y * size.x + pixel.x) as usize,
-            margin: inside.min_element().min(across * across),
+            margin: inside.min_element().min(20.0 * across * across),
         }
     }
 

@@ -109,8 +109,8 @@ impl SphericalLight64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::light::evenness::uniform_sphere;
     use crate::oracle::light::grid;
+    use crate::oracle::light::uniform_sphere;
 
     /// A light of radius 1 that is 2 away from the origin, so that its cone's half-angle is 30°.
     const LIGHT: SphericalLight64 = SphericalLight64 {

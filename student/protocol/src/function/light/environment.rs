@@ -28,8 +28,9 @@ pub struct EnvironmentPdf;
 pub struct MapImage {
     /// The width and height in pixels.
     pub size: UVec2,
-    /// The radiance of each pixel, row by row from the top.
-    #[serde(with = "packed")]
+    /// The radiance of each pixel, row by row from the top. In exam files, equal neighbours are
+    /// written once.
+    #[serde(with = "packed::runs")]
     pub pixels: Vec<Vec3>,
 }
 

@@ -38,6 +38,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         OTHER_MATERIALS,
         map::MAP,
     ],
+    domains: &[&crate::domains::light::transport::DIRECT],
     ..AuthoredTask::NEW
 };
 

@@ -9,7 +9,10 @@ use protocol::light::LightQuestion;
 use protocol::light::lights::{FlatLight, LightList, LightSample, ListedLight, Toward};
 
 use super::groups::{LIGHT_DENSITIES, LIGHT_SAMPLES};
-use super::{MARGIN, color, densities, optional_directions, random, random_pair, single, table};
+use super::{MARGIN, color, densities, optional_directions, single, table};
+use crate::domains::fields::{FURTHEST, direction as random_direction};
+use crate::domains::light::fields;
+use crate::domains::light::lights::{AREA_LIGHT_PDF, LIGHTS_PDF, LIGHTS_SAMPLE};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::flat_shape::FlatShape;
 use crate::oracle::light::lights::{FlatLight64, Lights64};
@@ -34,6 +37,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         OVERLAP,
         spheres::DENSITIES,
     ],
+    domains: &[&AREA_LIGHT_PDF, &LIGHTS_PDF, &LIGHTS_SAMPLE],
     ..AuthoredTask::NEW
 };
 
@@ -53,8 +57,8 @@ const DENSITY: Declaration = Declaration {
         "The given [`AreaLight::intersect`] finds the distance.",
     ],
     questions: |rng| {
-        one_light(rng, false, |rng, light| {
-            toward(rng, light, Side::Front, CALLS)
+        one_light(rng, RECTANGLES, |rng, light| {
+            toward(rng, light, FRONT, CALLS)
         })
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -71,8 +75,8 @@ const TRIANGLE: Declaration = Declaration {
          light if points on the light are sampled uniformly: …",
     ],
     questions: |rng| {
-        one_light(rng, true, |rng, light| {
-            toward(rng, light, Side::Front, CALLS)
+        one_light(rng, TRIANGLES, |rng, light| {
+            toward(rng, light, FRONT, CALLS)
         })
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -86,10 +90,11 @@ const BEHIND: Declaration = Declaration {
     section: "light/lights.md#the-back-of-a-light-is-dark",
     tests: &["The result is zero if the direction misses the light, and from behind, …"],
     questions: |rng| {
-        one_light(rng, false, |rng, light| {
-            let mut calls = toward(rng, light, Side::Back, CALLS);
-            calls.extend(toward(rng, light, Side::Front, CALLS));
-            rng.shuffled(calls)
+        one_light(rng, EVERY_FORM, |rng, light| {
+            let mut calls = toward(rng, light, BACK, CALLS / 2)?;
+            calls.extend(toward(rng, light, EDGE_ON_BACK, CALLS / 4)?);
+            calls.extend(toward(rng, light, FRONT, CALLS / 2)?);
+            Some(rng.shuffled(calls))
         })
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -106,15 +111,11 @@ const PAST: Declaration = Declaration {
          doesn't emit.",
     ],
     questions: |rng| {
-        one_light(rng, false, |rng, light| {
-            let mut calls = toward(rng, light, Side::Front, CALLS);
-            let turned = calls.clone().into_iter().map(|call| Toward {
-                direction: -call.direction,
-                ..call
-            });
-            calls.extend(turned.collect::<Vec<_>>());
+        one_light(rng, EVERY_FORM, |rng, light| {
+            let mut calls = toward(rng, light, FRONT, CALLS / 2)?;
+            calls.extend(calls.iter().map(turned).collect::<Vec<Toward>>());
             calls.extend(past(rng, light));
-            rng.shuffled(calls)
+            Some(rng.shuffled(calls))
         })
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -131,8 +132,8 @@ const GRAZING: Declaration = Declaration {
          light if points on the light are sampled uniformly: …",
     ],
     questions: |rng| {
-        one_light(rng, false, |rng, light| {
-            toward(rng, light, Side::Grazing, CALLS)
+        one_light(rng, EVERY_FORM, |rng, light| {
+            toward(rng, light, EDGE_ON, CALLS / 2)
         })
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -151,9 +152,9 @@ const DIRECTION: Declaration = Declaration {
         "The result is the direction to that point, as a unit vector.",
     ],
     questions: |rng| {
-        let kinds = [false, true, false];
-        let questions = kinds.into_iter().map(|is_triangle| {
-            let light = light(rng, is_triangle);
+        let sizes = every_size(rng);
+        let questions = EVERY_FORM.iter().zip(sizes).map(|(&form, size)| {
+            let light = light(rng, form, size);
             let samples = samples(rng, &[light], CALLS, Option::is_some);
             sampled(&[light], samples)
         });
@@ -176,8 +177,9 @@ const PICK: Declaration = Declaration {
     ],
     questions: |rng| {
         let counts = [2, 3, 7, 40, 100];
-        let questions = counts.into_iter().map(|count| {
-            let lights = several(rng, count);
+        let sizes = every_size(rng);
+        let questions = counts.into_iter().zip(sizes).map(|(count, size)| {
+            let lights = several(rng, count, size);
             let samples = samples(rng, &lights, 2 * CALLS, Option::is_some);
             sampled(&lights, samples)
         });
@@ -198,13 +200,15 @@ const FACES_AWAY: Declaration = Declaration {
         "No other light is picked instead.",
     ],
     questions: |rng| {
-        let counts = [1, 2, 5, 9];
+        let counts = [1, 2, 5, 9, 25, 60];
+        let sizes = every_size(rng);
         let mut questions: Vec<ExamQuestion> = counts
             .into_iter()
-            .map(|count| {
-                let lights = several(rng, count);
+            .zip(sizes)
+            .map(|(count, size)| {
+                let lights = several(rng, count, size);
                 let mut mixed = samples(rng, &lights, CALLS, Option::is_none);
-                mixed.extend(samples(rng, &lights, CALLS, Option::is_some));
+                mixed.extend(samples(rng, &lights, CALLS / 2, Option::is_some));
                 sampled(&lights, rng.shuffled(mixed))
             })
             .collect();
@@ -227,12 +231,17 @@ const SHARES: Declaration = Declaration {
         "The result is zero if there are no lights.",
     ],
     questions: |rng| {
-        let counts = [2, 3, 8, 100];
+        let counts = [1, 2, 3, 8, 40, 100];
+        let sizes = every_size(rng);
         let mut questions: Vec<ExamQuestion> = counts
             .into_iter()
-            .map(|count| {
-                let lights = several(rng, count);
-                let calls = toward_any(rng, &lights, 2 * CALLS);
+            .zip(sizes)
+            .map(|(count, size)| {
+                let (lights, calls) = rng.retry(|rng| {
+                    let lights = several(rng, count, size);
+                    let calls = calls_of_list(rng, &lights)?;
+                    Some((lights, calls))
+                });
                 list_densities(&lights, calls)
             })
             .collect();
@@ -262,8 +271,9 @@ const OVERLAP: Declaration = Declaration {
     questions: |rng| {
         let orders = [false, true];
         let questions = orders.into_iter().map(|is_reversed| {
-            let front = light(rng, false);
-            let away = front.shape.normal() * -rng.uniform(0.5, 1.5);
+            let size = size(rng, 3);
+            let front = light(rng, RECTANGLES[0], size);
+            let away = front.shape.normal() * -rng.uniform(0.5, 1.5) * size;
             let behind = shifted(rng, &front, away);
             let mut lights = vec![front, behind, shifted(rng, &front, 2.0 * away)];
             if is_reversed {
@@ -277,7 +287,7 @@ const OVERLAP: Declaration = Declaration {
             };
             let calls = (0..2 * CALLS).map(|_| {
                 rng.retry(|rng| {
-                    let calls = clear(&lights, toward(rng, &front, Side::Front, 1));
+                    let calls = clear(&lights, toward(rng, &front, FRONT, 1)?);
                     calls.into_iter().find(hits_several)
                 })
             });
@@ -289,24 +299,57 @@ const OVERLAP: Declaration = Declaration {
     ..Declaration::in_group(LIGHT_DENSITIES)
 };
 
-/// Where a light is seen from.
+/// How a light is seen: the range of the cosine at the light, and whether from the front or the
+/// back.
 #[derive(Clone, Copy)]
-enum Side {
-    Front,
-    Back,
-    Grazing,
+struct View {
+    cosine: [f64; 2],
+    sign: f64,
 }
 
+const FRONT: View = View {
+    cosine: [0.2, 1.0],
+    sign: 1.0,
+};
+const BACK: View = View {
+    sign: -1.0,
+    ..FRONT
+};
+const EDGE_ON: View = View {
+    cosine: [0.005, 0.1],
+    sign: 1.0,
+};
+const EDGE_ON_BACK: View = View {
+    sign: -1.0,
+    ..EDGE_ON
+};
+const VERY_EDGE_ON: View = View {
+    cosine: [0.005, 0.0199],
+    sign: 1.0,
+};
+const VERY_EDGE_ON_BACK: View = View {
+    sign: -1.0,
+    ..VERY_EDGE_ON
+};
+
+/// The forms of lights, as indices of the classes of their domain.
+const EVERY_FORM: &[usize] = &[0, 1, 2, 3, 4, 5];
+const RECTANGLES: &[usize] = &[2, 0, 1];
+const TRIANGLES: &[usize] = &[5, 3, 4];
+
 /// Returns a light at a random position, turned in a random direction.
-fn light(rng: &mut Rng, is_triangle: bool) -> FlatLight64 {
-    let first = rng.direction() * rng.uniform(0.3, 2.0);
-    let across = rng.perpendicular_to(first) * rng.uniform(0.3, 2.0);
-    // The edges need not be perpendicular.
-    let second = across + first * rng.uniform(-0.5, 0.5);
+fn light(rng: &mut Rng, form: usize, size: f64) -> FlatLight64 {
+    let first = rng.direction() * rng.uniform(0.5, 1.0) * size;
+    let across = rng.perpendicular_to(first) * rng.uniform(0.3, 1.0) * size;
+    let second = match form % 3 {
+        0 => across,
+        1 => across * rng.uniform(0.12, 0.18) * first.length() / across.length(),
+        _ => across + first * rng.uniform(0.1, 0.5) * rng.sign(),
+    };
     let shape = FlatShape {
-        corner: single(rng.point(2.0)),
+        corner: single(rng.point(size)),
         edges: [single(first), single(second)],
-        is_triangle,
+        is_triangle: form >= 3,
     };
     FlatLight64 {
         shape,
@@ -314,12 +357,35 @@ fn light(rng: &mut Rng, is_triangle: bool) -> FlatLight64 {
     }
 }
 
-fn several(rng: &mut Rng, count: usize) -> Vec<FlatLight64> {
+/// Returns a random size of a light in this class of lengths.
+fn size(rng: &mut Rng, class: usize) -> f64 {
+    let decade = 10_f64.powi(class as i32 - 3);
+    decade * rng.log_uniform(2.0, 9.0)
+}
+
+/// Returns a size in each class of lengths, from a few thousandths to a few hundreds, in random
+/// order.
+fn every_size(rng: &mut Rng) -> Vec<f64> {
+    let sizes = (0..6).map(|class| size(rng, class)).collect();
+    rng.shuffled(sizes)
+}
+
+/// Returns lights of different forms. Some lists are dim, and in some, a light has no power.
+fn several(rng: &mut Rng, count: usize, size: f64) -> Vec<FlatLight64> {
+    let brightness = rng.log_uniform(1e-3, 1.0);
     let lights = (0..count).map(|_| {
-        let is_triangle = rng.coin();
-        light(rng, is_triangle)
+        let form = rng.index(EVERY_FORM.len());
+        let size = size * rng.uniform(0.3, 1.0);
+        let mut light = light(rng, form, size);
+        light.radiance = single(brightness * light.radiance);
+        light
     });
-    lights.collect()
+    let mut lights: Vec<FlatLight64> = lights.collect();
+    if count > 1 && rng.coin() {
+        let dark = if rng.coin() { 0 } else { rng.index(count) };
+        lights[dark].radiance = DVec3::ZERO;
+    }
+    lights
 }
 
 /// Returns a copy of a light that is moved and has another radiance.
@@ -333,15 +399,18 @@ fn shifted(rng: &mut Rng, light: &FlatLight64, offset: DVec3) -> FlatLight64 {
     }
 }
 
-/// Returns questions about the densities of different lights.
+/// Returns questions about the densities of lights of these forms, in different sizes.
 fn one_light(
     rng: &mut Rng,
-    is_triangle: bool,
-    calls: impl Fn(&mut Rng, &FlatLight64) -> Vec<Toward>,
+    forms: &[usize],
+    calls: impl Fn(&mut Rng, &FlatLight64) -> Option<Vec<Toward>>,
 ) -> Vec<ExamQuestion> {
-    let question = |_| {
-        let light = light(rng, is_triangle);
-        let calls = clear(&[light], calls(rng, &light));
+    let sizes = every_size(rng);
+    let question = |(&form, size)| {
+        let (light, calls) = rng.retry(|rng| {
+            let light = light(rng, form, size);
+            Some((light, calls(rng, &light)?))
+        });
         let rows = calls
             .iter()
             .map(|call| light.pdf(call.from.as_dvec3(), call.direction.as_dvec3()));
@@ -349,63 +418,148 @@ fn one_light(
         let question = LightQuestion::AreaLightPdf(Table::of_list(subject(&[light]), calls));
         table(question, &["pdf"], rows)
     };
-    (0..3).map(question).collect()
+    forms.iter().zip(sizes).map(question).collect()
 }
 
-/// Returns directions from points on one side of a light to points on the light.
-fn toward(rng: &mut Rng, light: &FlatLight64, side: Side, count: usize) -> Vec<Toward> {
-    let normal = light.shape.normal();
+/// Returns the length of a light's first edge.
+fn length(light: &FlatLight64) -> f64 {
+    light.shape.edges[0].length()
+}
+
+/// Returns directions to points on a light. No direction is close to the light's edge. Returns
+/// `None` if there are no such directions, e.g. because the light is too narrow.
+fn toward(rng: &mut Rng, light: &FlatLight64, view: View, count: usize) -> Option<Vec<Toward>> {
+    const ATTEMPTS: usize = 2_000;
     let call = |_| {
-        let target = light.point(DVec2::new(rng.uniform(0.1, 0.9), rng.uniform(0.1, 0.9)));
-        let (height, sign) = match side {
-            Side::Front => (rng.uniform(0.2, 1.0), 1.0),
-            Side::Back => (rng.uniform(0.2, 1.0), -1.0),
-            Side::Grazing => (rng.log_uniform(0.006, 0.1), 1.0),
-        };
-        let along = rng.perpendicular_to(normal) * (1.0 - height * height).sqrt();
-        let distance = rng.log_uniform(0.5, 20.0);
-        let from = single(target + distance * (sign * height * normal + along));
-        Toward {
-            from: from.as_vec3(),
-            direction: (target - from).normalize().as_vec3(),
-        }
+        rng.attempt(ATTEMPTS, |rng| {
+            let along = DVec2::new(rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0));
+            let call = toward_point(rng, light, view, light.shape.at(along))?;
+            let (from, direction) = (call.from.as_dvec3(), call.direction.as_dvec3());
+            let hit = light.shape.intersect_plane(from, direction);
+            hit.filter(|hit| hit.is_hit() && hit.margin() > MARGIN)?;
+            Some(call)
+        })
     };
     (0..count).map(call).collect()
 }
 
-/// Returns directions toward lights that are picked at random, from in front of them.
-fn toward_any(rng: &mut Rng, lights: &[FlatLight64], count: usize) -> Vec<Toward> {
-    let calls = (0..count).map(|_| {
-        let light = lights[rng.index(lights.len())];
-        rng.retry(|rng| {
-            let calls = clear(lights, toward(rng, &light, Side::Front, 1));
-            calls.into_iter().next()
-        })
-    });
-    calls.collect()
+/// Returns a direction to a point in a light's plane. Some directions are along an axis or in a
+/// plane between two axes.
+fn toward_point(rng: &mut Rng, light: &FlatLight64, view: View, target: DVec3) -> Option<Toward> {
+    let normal = light.shape.normal();
+    let View {
+        cosine: [least, most],
+        sign,
+    } = view;
+    let special = if rng.coin() {
+        DVec3::AXES[rng.index(3)]
+    } else {
+        random_direction(rng)
+    };
+    let special = special * -sign * special.dot(normal).signum();
+    let cosine = (special.dot(normal)).abs();
+    let direction = if rng.coin() && (least..most).contains(&cosine) {
+        special
+    } else {
+        let height = match rng.index(6) {
+            0 if most == 1.0 => rng.uniform(0.991, 1.0),
+            _ => rng.log_uniform(least, most),
+        };
+        let along = rng.perpendicular_to(normal) * (1.0 - height * height).sqrt();
+        -(sign * height * normal + along)
+    };
+    let distance = length(light) * rng.log_uniform(0.05, 20.0);
+    let from = single(target - distance * direction);
+    (from.abs().max_element() < FURTHEST).then(|| Toward {
+        from: from.as_vec3(),
+        direction: direction.as_vec3(),
+    })
 }
 
-/// Returns directions that miss a light but hit its plane.
-fn past(rng: &mut Rng, light: &FlatLight64) -> Vec<Toward> {
+/// Returns directions toward lights that are picked at random. Returns `None` if none are found.
+fn toward_any(
+    rng: &mut Rng,
+    lights: &[FlatLight64],
+    view: View,
+    count: usize,
+) -> Option<Vec<Toward>> {
+    const ATTEMPTS: usize = 100;
     let call = |_| {
-        rng.retry(|rng| {
-            let [a, b] = [rng.uniform(-1.5, 2.5), rng.uniform(-1.5, 2.5)];
-            let target = light.shape.at(DVec2::new(a, b));
-            let from = toward(rng, light, Side::Front, 1)[0].from.as_dvec3();
-            let call = Toward {
-                from: from.as_vec3(),
-                direction: (target - from).normalize().as_vec3(),
-            };
-            let density = light.pdf(from, call.direction.as_dvec3());
-            (density == 0.0).then_some(call)
+        rng.attempt(ATTEMPTS, |rng| {
+            let light = lights[rng.index(lights.len())];
+            clear(lights, toward(rng, &light, view, 1)?).pop()
         })
     };
+    (0..count).map(call).collect()
+}
+
+/// Returns directions that miss a light but hit its plane, half of them just past an edge.
+fn past(rng: &mut Rng, light: &FlatLight64) -> Vec<Toward> {
+    let call = |_| rng.retry(|rng| past_once(rng, light));
     (0..CALLS).map(call).collect()
+}
+
+fn past_once(rng: &mut Rng, light: &FlatLight64) -> Option<Toward> {
+    let [mut a, b] = [rng.uniform(-1.5, 2.5), rng.uniform(-1.5, 2.5)];
+    if rng.coin() {
+        a = -rng.uniform(0.0, 0.1);
+    }
+    let along = if rng.coin() { [a, b] } else { [b, a] };
+    let target = light.shape.at(DVec2::from_array(along));
+    let call = toward_point(rng, light, FRONT, target)?;
+    let density = light.pdf(call.from.as_dvec3(), call.direction.as_dvec3());
+    let calls = clear(&[*light], vec![call]);
+    calls.into_iter().find(|_| density == 0.0)
+}
+
+/// Returns directions that miss the light that they are next to.
+fn past_any(rng: &mut Rng, lights: &[FlatLight64]) -> Vec<Toward> {
+    let call = |_| {
+        rng.retry(|rng| {
+            let light = lights[rng.index(lights.len())];
+            let call = past_once(rng, &light)?;
+            clear(lights, vec![call]).pop()
+        })
+    };
+    (0..4).map(call).collect()
+}
+
+/// Returns directions toward and past the lights in a list. Returns `None` if too few are found.
+fn calls_of_list(rng: &mut Rng, lights: &[FlatLight64]) -> Option<Vec<Toward>> {
+    /// The maximum number of lights of which one is seen almost exactly edge-on. No direction may
+    /// be close to the edge of any other light.
+    const FEW: usize = 10;
+    let mut calls = toward_any(rng, lights, FRONT, CALLS)?;
+    let opposite = calls[..4].iter().map(turned).collect();
+    calls.extend(clear(lights, opposite));
+    for (view, count) in [(EDGE_ON, 2), (BACK, 2), (EDGE_ON_BACK, 2)] {
+        calls.extend(toward_any(rng, lights, view, count)?);
+    }
+    if lights.len() < FEW {
+        for view in [VERY_EDGE_ON, VERY_EDGE_ON_BACK] {
+            calls.extend(toward_any(rng, lights, view, 1)?);
+        }
+    }
+    calls.extend(past_any(rng, lights));
+    Some(calls)
+}
+
+/// Returns the opposite direction from the same point.
+fn turned(call: &Toward) -> Toward {
+    Toward {
+        direction: -call.direction,
+        ..*call
+    }
 }
 
 /// Returns the calls whose directions aren't close to the edge of any light.
 fn clear(lights: &[FlatLight64], calls: Vec<Toward>) -> Vec<Toward> {
-    let lights = Lights64::new(lights.iter().copied());
+    // Lights without power have edges, too.
+    let bright = lights.iter().map(|light| FlatLight64 {
+        radiance: DVec3::ONE,
+        ..*light
+    });
+    let lights = Lights64::new(bright);
     let is_clear = |call: &Toward| {
         let density = lights.pdf(call.from.as_dvec3(), call.direction.as_dvec3());
         density.margin > MARGIN
@@ -432,17 +586,24 @@ fn samples(
     condition: fn(&Option<DVec3>) -> bool,
 ) -> Vec<LightSample> {
     let all = Lights64::new(lights.iter().copied());
+    let scale = lights.iter().map(length).fold(0.0, f64::max).max(1e-3);
     let call = |_| {
         rng.retry(|rng| {
-            let choice = match rng.index(8) {
-                0 => 0.0,
-                1 => 1.0 - f32::EPSILON / 2.0,
-                _ => random(rng),
+            let random = fields::number_pair(rng);
+            let from = if lights.is_empty() || rng.coin() {
+                let half = (scale * rng.log_uniform(0.3, 10.0)).min(FURTHEST);
+                rng.point(half)
+            } else {
+                // In front of a light or behind it, close to its normal or to its plane.
+                let light = lights[rng.index(lights.len())];
+                let view = [FRONT, BACK, EDGE_ON, EDGE_ON_BACK][rng.index(4)];
+                let target = light.point(random.as_dvec2());
+                toward_point(rng, &light, view, target)?.from.as_dvec3()
             };
             let call = LightSample {
-                from: rng.point(6.0).as_vec3(),
-                choice,
-                random: random_pair(rng),
+                from: from.as_vec3(),
+                choice: fields::number(rng),
+                random,
             };
             let sample = sample(&all, &call);
             (sample.margin > MARGIN && condition(&sample.value)).then_some(call)

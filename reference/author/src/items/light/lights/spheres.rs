@@ -9,7 +9,7 @@ use protocol::light::lights::{LightList, LightSample, ListedLight, SphericalLigh
 use super::super::{
     MARGIN, color, densities, optional_directions, random, random_pair, single, table,
 };
-use super::{light, listed};
+use super::{EVERY_FORM, light, listed};
 use crate::items::Declaration;
 use crate::oracle::light::lights::{Light64, Lights64};
 use crate::oracle::light::spherical_light::SphericalLight64;
@@ -71,8 +71,8 @@ fn lists(
     let questions = counts.map(|(spheres, others)| {
         let mut lights: Vec<Light64> = (0..spheres).map(|_| sphere(rng)).collect();
         lights.extend((0..others).map(|_| {
-            let is_triangle = rng.coin();
-            Light64::Flat(light(rng, is_triangle))
+            let form = rng.index(EVERY_FORM.len());
+            Light64::Flat(light(rng, form, 1.0))
         }));
         let lights = lights.into_iter().map(|light| similar(rng, light));
         let lights: Vec<Light64> = lights.collect();

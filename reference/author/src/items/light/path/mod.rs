@@ -49,6 +49,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
         SIZES,
         map::MAP,
     ],
+    domains: &[&crate::domains::light::transport::RADIANCE],
     ..AuthoredTask::NEW
 };
 

@@ -1,0 +1,521 @@
+//! The domains of lights.
+
+use glam::{DVec3, Vec3};
+use protocol::function::Function;
+use protocol::light::lights::{
+    AreaLightPdf, FlatLight, LightList, LightSample, LightsPdf, LightsSample, ListedLight, Toward,
+};
+
+use super::fields::{LENGTHS, MAGNITUDES, SHARES, length_class, magnitude_class, share_class};
+use super::{Row, rows_of};
+use crate::domains::fields::{DIRECTIONS, OCTANTS, class_up_to, direction_class, octant};
+use crate::domains::{Aspect, FunctionDomain, UntestedClasses, not_asked};
+use crate::oracle::light::flat_shape::FlatShape;
+use crate::oracle::light::lights::{FlatLight64, Light64};
+use crate::oracle::light::spherical_light::SphericalLight64;
+
+/// The domain of `AreaLight::pdf`.
+pub static AREA_LIGHT_PDF: FunctionDomain<Row<AreaLightPdf>> = FunctionDomain {
+    function: "AreaLight::pdf",
+    subject_aspects: &[],
+    aspects: Aspect::TOWARD,
+    pairs: &[["form of the light", "seen"]],
+    calls: rows_of!(AreaLightPdf),
+    not_asked: &[WITHIN_THE_SCENE],
+};
+
+/// The domain of `Lights::pdf`.
+pub static LIGHTS_PDF: FunctionDomain<Row<LightsPdf>> = FunctionDomain {
+    function: "Lights::pdf",
+    subject_aspects: &[Aspect::COUNT, Aspect::KINDS],
+    aspects: &[
+        Aspect::FORM,
+        Aspect::SIDE,
+        Aspect::DISTANCE,
+        Aspect::COSINE,
+        Aspect::SEEN,
+        Aspect::RAY_DIRECTION,
+        LIGHTS_AHEAD,
+        SHARE_AHEAD,
+    ],
+    pairs: &[],
+    calls: rows_of!(LightsPdf),
+    not_asked: &[WITHIN_THE_SCENE],
+};
+
+/// The domain of `Lights::sample`.
+pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
+    function: "Lights::sample",
+    subject_aspects: &[Aspect::COUNT, Aspect::KINDS],
+    aspects: &[
+        Aspect::CHOICE,
+        Aspect::RANDOM_X,
+        Aspect::RANDOM_Y,
+        PICKED,
+        PICKED_KIND,
+        PICKED_SHARE,
+        PICKED_FORM,
+        PICKED_SIDE,
+        PICKED_RADIANCE,
+        PICKED_DISTANCE,
+        PICKED_COSINE,
+        PICKED_OCTANT,
+        WITHOUT_POWER,
+    ],
+    pairs: &[],
+    calls: rows_of!(LightsSample),
+    not_asked: &[
+        WITHIN_THE_SCENE,
+        not_asked(
+            &["lights"],
+            &["none"],
+            &["some", "direction", "unit_direction"],
+            "Without lights, there is no direction.",
+        ),
+        not_asked(
+            &["cosine at the light"],
+            COSINES.split_at(4).1,
+            &["some", "direction", "unit_direction"],
+            "Seen from behind, the light faces away.",
+        ),
+        not_asked(
+            &["cosine at the light"],
+            COSINES.split_at(4).0,
+            &["`None`"],
+            "Seen from the front, the light doesn't face away.",
+        ),
+        not_asked(
+            &["share of the picked light"],
+            &["0", "below 1e-4"],
+            &[],
+            "A light with so little power is only picked by numbers close to a border.",
+        ),
+        not_asked(
+            &["radiance of the picked light"],
+            &["0"],
+            &[],
+            "A light without power is never picked.",
+        ),
+    ],
+};
+
+/// Scenes have coordinates up to 1,000.
+const WITHIN_THE_SCENE: UntestedClasses = not_asked(
+    &[
+        "longer edge of the light",
+        "longer edge of the picked light",
+    ],
+    &["1000"],
+    &[],
+    "Scenes have coordinates up to 1,000, so hardly any light is this large.",
+);
+
+/// The forms of flat lights.
+const FORMS: &[&str] = &[
+    "rectangle",
+    "narrow rectangle",
+    "parallelogram",
+    "right triangle",
+    "narrow right triangle",
+    "triangle",
+];
+
+/// Returns the class of a light's form. A rectangle is narrow if it is more than five times as long
+/// as it is wide.
+fn form_class(light: &FlatLight64) -> usize {
+    let [e0, e1] = light.shape.edges;
+    let lengths = [e0.length(), e1.length()];
+    let cosine = e0.dot(e1) / (lengths[0] * lengths[1]);
+    let ratio = lengths[0] / lengths[1];
+    let class = match ratio.max(1.0 / ratio) {
+        _ if cosine.abs() > 1e-3 => 2,
+        5.0.. => 1,
+        _ => 0,
+    };
+    class + 3 * usize::from(light.shape.is_triangle)
+}
+
+/// Returns the class of a light's longer edge.
+fn side_class(light: &FlatLight64) -> usize {
+    let [e0, e1] = light.shape.edges;
+    length_class(e0.length().max(e1.length()))
+}
+
+/// The classes of the cosine at a light, from in front of it to behind it.
+const COSINES: &[&str] = &[
+    "head-on",
+    "0.1",
+    "0.02",
+    "below 0.02",
+    "below 0.02, from behind",
+    "0.02, from behind",
+    "0.1, from behind",
+    "head-on, from behind",
+];
+
+/// Returns the class of the cosine at a light. It is positive in front of the light.
+fn cosine_class(cosine: f64) -> usize {
+    let class = match cosine.abs() {
+        0.99.. => 0,
+        0.1.. => 1,
+        0.02.. => 2,
+        _ => 3,
+    };
+    if cosine > 0.0 {
+        class
+    } else {
+        COSINES.len() - 1 - class
+    }
+}
+
+/// The classes of positions at which a line crosses the plane of a light.
+const SEEN: &[&str] = &[
+    "in the middle",
+    "between the middle and an edge",
+    "near an edge",
+    "just past an edge",
+    "past an edge",
+    "in the opposite direction",
+];
+
+/// A light in a direction, or past which the direction leads.
+struct Sight {
+    light: FlatLight64,
+    distance: f64,
+    /// The cosine at the light.
+    cosine: f64,
+    /// The class in [`SEEN`].
+    seen: usize,
+}
+
+impl Sight {
+    /// Returns whether the direction leads to the front of the light.
+    fn is_lit(&self) -> bool {
+        self.seen < 3 && self.cosine > 0.0
+    }
+}
+
+/// Returns how each flat light is seen.
+fn sights(list: &LightList, toward: &Toward) -> Vec<Sight> {
+    let (from, direction) = (toward.from.as_dvec3(), toward.direction.as_dvec3());
+    let lights = list.lights.iter().filter_map(flat);
+    let sights = lights.filter_map(|light| {
+        let hit = light.shape.intersect_plane(from, direction)?;
+        let inset = inset(&light.shape, from + hit.distance * direction);
+        let seen = match inset {
+            _ if hit.distance < 0.0 => 5,
+            0.25.. => 0,
+            0.05.. => 1,
+            0.0.. => 2,
+            -0.1.. => 3,
+            _ => 4,
+        };
+        Some(Sight {
+            light,
+            distance: hit.distance.abs(),
+            cosine: -hit.cosine,
+            seen,
+        })
+    });
+    sights.collect()
+}
+
+/// Returns the sight of the light that decides the answer: one that is lit, if possible.
+fn main_sight(list: &LightList, toward: &Toward) -> Option<Sight> {
+    let sights = sights(list, toward).into_iter();
+    sights.min_by_key(|sight| (!sight.is_lit(), sight.seen))
+}
+
+/// Returns how far a point in the plane of a shape is from the nearest edge, as a fraction of the
+/// edges. Negative outside.
+fn inset(shape: &FlatShape, point: DVec3) -> f64 {
+    let [e0, e1] = shape.edges;
+    let (normal, from_corner) = (e0.cross(e1), point - shape.corner);
+    let a = from_corner.cross(e1).dot(normal) / normal.length_squared();
+    let b = e0.cross(from_corner).dot(normal) / normal.length_squared();
+    let far = if shape.is_triangle {
+        1.0 - a - b
+    } else {
+        (1.0 - a).min(1.0 - b)
+    };
+    a.min(b).min(far)
+}
+
+/// Converts a light to double precision.
+fn double(light: &ListedLight) -> Light64 {
+    match light {
+        ListedLight::Flat(FlatLight {
+            corner,
+            edges,
+            is_triangle,
+            radiance,
+        }) => Light64::Flat(FlatLight64 {
+            shape: FlatShape {
+                corner: corner.as_dvec3(),
+                edges: edges.map(Vec3::as_dvec3),
+                is_triangle: *is_triangle,
+            },
+            radiance: radiance.as_dvec3(),
+        }),
+        ListedLight::Sphere(light) => Light64::Sphere(SphericalLight64 {
+            center: light.center.as_dvec3(),
+            radius: light.radius.into(),
+            radiance: light.radiance.as_dvec3(),
+        }),
+    }
+}
+
+/// Converts a flat light to double precision. Returns `None` for a sphere.
+fn flat(light: &ListedLight) -> Option<FlatLight64> {
+    match double(light) {
+        Light64::Flat(light) => Some(light),
+        Light64::Sphere(_) => None,
+    }
+}
+
+impl<F: Function<Subject = LightList>> Aspect<Row<F>> {
+    /// The number of lights.
+    pub const COUNT: Self = Aspect {
+        name: "lights",
+        classes: &["none", "1", "2", "3 to 9", "10 to 49", "50 or more"],
+        class: |row| Some(class_up_to(&[0, 1, 2, 9, 49], row.subject.lights.len())),
+    };
+
+    /// The kinds of lights in the list.
+    pub const KINDS: Self = Aspect {
+        name: "kinds of lights",
+        classes: &["flat lights", "spheres", "both"],
+        class: |row| {
+            let lights = || row.subject.lights.iter();
+            let spheres = lights().filter(|light| flat(light).is_none()).count();
+            let all = lights().count();
+            (all > 0).then_some(match spheres {
+                0 => 0,
+                _ if spheres == all => 1,
+                _ => 2,
+            })
+        },
+    };
+}
+
+impl<F: Function<Subject = LightList, Input = Toward>> Aspect<Row<F>> {
+    /// The form of the light.
+    pub const FORM: Self = Aspect {
+        name: "form of the light",
+        classes: FORMS,
+        class: |row| Some(form_class(&main_sight(&row.subject, &row.input)?.light)),
+    };
+
+    /// The longer edge of the light.
+    pub const SIDE: Self = Aspect {
+        name: "longer edge of the light",
+        classes: LENGTHS,
+        class: |row| Some(side_class(&main_sight(&row.subject, &row.input)?.light)),
+    };
+
+    /// The distance of the light.
+    pub const DISTANCE: Self = Aspect {
+        name: "distance",
+        classes: LENGTHS,
+        class: |row| Some(length_class(main_sight(&row.subject, &row.input)?.distance)),
+    };
+
+    /// The cosine at the light.
+    pub const COSINE: Self = Aspect {
+        name: "cosine at the light",
+        classes: COSINES,
+        class: |row| Some(cosine_class(main_sight(&row.subject, &row.input)?.cosine)),
+    };
+
+    /// Where the direction crosses the plane of the light.
+    pub const SEEN: Self = Aspect {
+        name: "seen",
+        classes: SEEN,
+        class: |row| Some(main_sight(&row.subject, &row.input)?.seen),
+    };
+
+    /// The direction in the world.
+    pub const RAY_DIRECTION: Self = Aspect {
+        name: "direction",
+        classes: DIRECTIONS,
+        class: |row| direction_class(row.input.direction),
+    };
+
+    /// All aspects of a direction toward a light.
+    const TOWARD: &'static [Self] = &[
+        Self::FORM,
+        Self::SIDE,
+        Self::DISTANCE,
+        Self::COSINE,
+        Self::SEEN,
+        Self::RAY_DIRECTION,
+    ];
+}
+
+/// The number of lights whose density is positive.
+const LIGHTS_AHEAD: Aspect<Row<LightsPdf>> = Aspect {
+    name: "lights ahead",
+    classes: &["none", "1", "2", "3 or more"],
+    class: |row| {
+        let sights = sights(&row.subject, &row.input);
+        let lit = sights.iter().filter(|sight| sight.is_lit()).count();
+        Some(class_up_to(&[0, 1, 2], lit))
+    },
+};
+
+/// The share of the light that is seen.
+const SHARE_AHEAD: Aspect<Row<LightsPdf>> = Aspect {
+    name: "share of the light",
+    classes: SHARES,
+    class: |row| {
+        let sight = main_sight(&row.subject, &row.input).filter(Sight::is_lit)?;
+        Some(share_class(sight.light.power() / power(&row.subject)))
+    },
+};
+
+/// Returns the sum of the lights' powers.
+fn power(list: &LightList) -> f64 {
+    list.lights.iter().map(|light| double(light).power()).sum()
+}
+
+/// The light that a sample picks.
+struct Pick {
+    light: Light64,
+    share: f64,
+    /// Its position among the lights with power: 0 for the only one, 1 for the first, 2 for the
+    /// last and 3 for any other.
+    place: usize,
+    /// The vector from the point that is lit to the point on the light, if the light is flat.
+    to_light: Option<DVec3>,
+}
+
+impl Pick {
+    fn flat(&self) -> Option<FlatLight64> {
+        match self.light {
+            Light64::Flat(light) => Some(light),
+            Light64::Sphere(_) => None,
+        }
+    }
+}
+
+/// Returns the light that a sample picks, or `None` if no light has power.
+fn pick(row: &Row<LightsSample>) -> Option<Pick> {
+    let LightSample {
+        from,
+        choice,
+        random,
+    } = row.input;
+    let lights = row.subject.lights.iter().map(double);
+    let lights: Vec<Light64> = lights.filter(|light| light.power() > 0.0).collect();
+    let total = power(&row.subject);
+    let mut rest = f64::from(choice) * total;
+    let picked = lights.iter().position(|light| {
+        rest -= light.power();
+        rest < 0.0
+    });
+    let last = lights.len().checked_sub(1)?;
+    let index = picked.unwrap_or(last);
+    let light = lights[index];
+    Some(Pick {
+        light,
+        share: light.power() / total,
+        place: match index {
+            _ if last == 0 => 0,
+            0 => 1,
+            _ if index == last => 2,
+            _ => 3,
+        },
+        to_light: match light {
+            Light64::Flat(light) => Some(light.point(random.as_dvec2()) - from.as_dvec3()),
+            Light64::Sphere(_) => None,
+        },
+    })
+}
+
+/// The position of the picked light among the lights with power.
+const PICKED: Aspect<Row<LightsSample>> = Aspect {
+    name: "picked light",
+    classes: &["the only one", "the first", "the last", "any other"],
+    class: |row| Some(pick(row)?.place),
+};
+
+/// The kind of the picked light.
+const PICKED_KIND: Aspect<Row<LightsSample>> = Aspect {
+    name: "kind of the picked light",
+    classes: &["flat", "sphere"],
+    class: |row| Some(usize::from(pick(row)?.flat().is_none())),
+};
+
+/// The share of the picked light.
+const PICKED_SHARE: Aspect<Row<LightsSample>> = Aspect {
+    name: "share of the picked light",
+    classes: SHARES,
+    class: |row| Some(share_class(pick(row)?.share)),
+};
+
+/// The form of the picked light.
+const PICKED_FORM: Aspect<Row<LightsSample>> = Aspect {
+    name: "form of the picked light",
+    classes: FORMS,
+    class: |row| Some(form_class(&pick(row)?.flat()?)),
+};
+
+/// The longer edge of the picked light.
+const PICKED_SIDE: Aspect<Row<LightsSample>> = Aspect {
+    name: "longer edge of the picked light",
+    classes: LENGTHS,
+    class: |row| Some(side_class(&pick(row)?.flat()?)),
+};
+
+/// The radiance of the picked light in its brightest channel.
+const PICKED_RADIANCE: Aspect<Row<LightsSample>> = Aspect {
+    name: "radiance of the picked light",
+    classes: MAGNITUDES,
+    class: |row| {
+        let radiance = match pick(row)?.light {
+            Light64::Flat(light) => light.radiance,
+            Light64::Sphere(light) => light.radiance,
+        };
+        Some(magnitude_class(radiance.max_element()))
+    },
+};
+
+/// The distance of the point on the picked light.
+const PICKED_DISTANCE: Aspect<Row<LightsSample>> = Aspect {
+    name: "distance",
+    classes: LENGTHS,
+    class: |row| Some(length_class(pick(row)?.to_light?.length())),
+};
+
+/// The cosine at the picked light.
+const PICKED_COSINE: Aspect<Row<LightsSample>> = Aspect {
+    name: "cosine at the light",
+    classes: COSINES,
+    class: |row| {
+        let pick = pick(row)?;
+        let normal = pick.flat()?.shape.normal();
+        Some(cosine_class(-pick.to_light?.normalize().dot(normal)))
+    },
+};
+
+/// The octant of the direction to the point on the picked light.
+const PICKED_OCTANT: Aspect<Row<LightsSample>> = Aspect {
+    name: "octant",
+    classes: OCTANTS,
+    class: |row| octant(pick(row)?.to_light?),
+};
+
+/// Whether the list contains lights without power.
+const WITHOUT_POWER: Aspect<Row<LightsSample>> = Aspect {
+    name: "lights without power",
+    classes: &["the first", "another one", "none"],
+    class: |row| {
+        let lights = row.subject.lights.iter().map(double);
+        let dark: Vec<bool> = lights.map(|light| light.power() == 0.0).collect();
+        Some(match dark.iter().position(|is_dark| *is_dark) {
+            Some(0) => 0,
+            Some(_) => 1,
+            None => 2,
+        })
+    },
+};

@@ -18,7 +18,7 @@ fn a_score_begins_with_the_items_of_each_task_in_lecture_order() {
             ("Task 2: spheres", 0, 8, vec!["sphere.normal", "sphere.uv"]),
         ]
     );
-    assert_eq!(score.tasks[0].chapter, Some(Section::new("boxes.md")));
+    assert_eq!(score.tasks[0].chapter, Some(Section::new("triangle.md")));
     assert_eq!((score.points, score.max_points), (0, 12));
     let names = (&*score.submission, &*score.exam.id);
     assert_eq!((names, score.complete), (("alice", "small"), false));

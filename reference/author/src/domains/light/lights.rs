@@ -85,6 +85,18 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
             "Seen from the front, the light doesn't face away.",
         ),
         not_asked(
+            &["kinds of lights"],
+            &["spheres"],
+            &["`None`"],
+            "A sphere that is seen from outside never faces away.",
+        ),
+        not_asked(
+            &["kind of the picked light"],
+            &["sphere"],
+            &["`None`"],
+            "A sphere that is seen from outside never faces away.",
+        ),
+        not_asked(
             &["share of the picked light"],
             &["0", "below 1e-4"],
             &[],

@@ -357,12 +357,15 @@ fn every_size(rng: &mut Rng) -> Vec<f64> {
     rng.shuffled(sizes)
 }
 
-/// Returns lights of different forms. In some lists, a light has no power.
+/// Returns lights of different forms. Some lists are dim, and in some, a light has no power.
 fn several(rng: &mut Rng, count: usize, size: f64) -> Vec<FlatLight64> {
+    let brightness = rng.log_uniform(1e-3, 1.0);
     let lights = (0..count).map(|_| {
         let form = rng.index(EVERY_FORM.len());
         let size = size * rng.uniform(0.3, 1.0);
-        light(rng, form, size)
+        let mut light = light(rng, form, size);
+        light.radiance = single(brightness * light.radiance);
+        light
     });
     let mut lights: Vec<FlatLight64> = lights.collect();
     if count > 1 && rng.coin() {

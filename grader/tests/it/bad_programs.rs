@@ -68,7 +68,8 @@ fn a_compiler_error_leads_to_the_task_whose_method_contains_it() {
         assert!(step.contains(&format!("\n  what    {task}.")), "{step}");
         assert!(step.contains(&format!(" --task {task}")), "{step}");
         let graded = submission.grade();
-        let (_, next) = graded.page().split_once("What to do next").unwrap();
+        let page = graded.page();
+        let (_, next) = page.split_once("What to do next").unwrap();
         let link = next.split_once("href=\"#").unwrap().1;
         assert!(link.starts_with(&format!("{task}.")), "{link:.80}");
     }

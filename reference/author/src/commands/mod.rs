@@ -11,6 +11,7 @@ use std::path::Path;
 use std::slice;
 
 use anyhow::bail;
+use grader::handed_out::HandedOut;
 use grader::printing::print_error_line;
 
 use crate::authoring::Authoring;
@@ -108,10 +109,22 @@ fn report(problems: &[String], line: &str) -> CommandResult {
     }
 }
 
-/// Adds the result of a run to the table of long runs if `--record` was given.
-fn record_result(wanted: RecordArgs, run: &str, exams: &str, line: &str) -> CommandResult {
+/// Adds the result of a run to the table of long runs if `--record` was given. The name of the run
+/// begins with the id of the assignment, unless it is the default one.
+fn record_result(
+    (wanted, authoring): (RecordArgs, &Authoring),
+    run: &str,
+    exams: &str,
+    line: &str,
+) -> CommandResult {
+    let handed_out = authoring.handed_out;
+    let run = if handed_out == <&HandedOut>::default() {
+        run.to_owned()
+    } else {
+        format!("{}: {run}", handed_out.assignment.id)
+    };
     if wanted.record {
-        long_runs::record(Path::new(ROOT), run, exams, line)?;
+        long_runs::record(Path::new(ROOT), &run, exams, line)?;
     }
     Ok(())
 }

@@ -56,7 +56,7 @@ pub(super) fn mistakes(
     );
     // Record the result before writing the files. Otherwise, the table would say that there were
     // uncommitted changes.
-    record_result(args.record, "mistakes", &written(&(0..seeds.all)), &line)?;
+    record_result((args.record, authoring), "mistakes", &written(&(0..seeds.all)), &line)?;
     let committed = FailedItems::load(root, handed_out)?;
     if mode == Mode::Check {
         let mut problems = failures::problems(&committed, &failed);
@@ -124,7 +124,7 @@ pub(super) fn mutants(
         println!("selected: all mutants{of_task}");
     }
     let line = format!("mutants: {}", findings.summary_line());
-    record_result(record, "mutants of the reference", PRACTICE, &line)?;
+    record_result((record, authoring), "mutants of the reference", PRACTICE, &line)?;
     report(&findings.problems(), &line)
 }
 
@@ -138,7 +138,7 @@ pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandRe
     };
     let seeds = written(&args.seeds);
     let summary = proof::prove::prove(&selected, args.seeds, args.mistakes)?;
-    record_result(args.record, "prove", &seeds, &summary.summary_line())?;
+    record_result((args.record, authoring), "prove", &seeds, &summary.summary_line())?;
     for note in summary.notes() {
         print_error_line(note);
     }
@@ -156,7 +156,7 @@ pub(super) fn calibrate(
     let written = written(&seeds);
     let calibration = proof::calibrate::calibrate(&solutions(authoring)?, seeds, args.mistakes)?;
     let line = calibration.summary_line();
-    record_result(args.record, "calibrate", &written, &line)?;
+    record_result((args.record, authoring), "calibrate", &written, &line)?;
     if args.check {
         table::check(root, authoring.handed_out, &calibration)?;
     } else {
@@ -186,6 +186,6 @@ pub(super) fn hints(root: &Path, authoring: &'static Authoring, args: HintsArgs)
         ("hints, one exam", recognise(&solutions, &practice)?)
     };
     let exams = seeds.as_deref().unwrap_or(PRACTICE);
-    record_result(args.record, run, exams, &recognition.summary_line)?;
+    record_result((args.record, authoring), run, exams, &recognition.summary_line)?;
     report(&recognition.problems, &recognition.to_string())
 }

@@ -56,7 +56,12 @@ pub(super) fn mistakes(
     );
     // Record the result before writing the files. Otherwise, the table would say that there were
     // uncommitted changes.
-    record_result((args.record, authoring), "mistakes", &written(&(0..seeds.all)), &line)?;
+    record_result(
+        (args.record, authoring),
+        "mistakes",
+        &written(&(0..seeds.all)),
+        &line,
+    )?;
     let committed = FailedItems::load(root, handed_out)?;
     if mode == Mode::Check {
         let mut problems = failures::problems(&committed, &failed);
@@ -124,7 +129,12 @@ pub(super) fn mutants(
         println!("selected: all mutants{of_task}");
     }
     let line = format!("mutants: {}", findings.summary_line());
-    record_result((record, authoring), "mutants of the reference", PRACTICE, &line)?;
+    record_result(
+        (record, authoring),
+        "mutants of the reference",
+        PRACTICE,
+        &line,
+    )?;
     report(&findings.problems(), &line)
 }
 
@@ -138,7 +148,12 @@ pub(super) fn prove(authoring: &'static Authoring, args: ProveArgs) -> CommandRe
     };
     let seeds = written(&args.seeds);
     let summary = proof::prove::prove(&selected, args.seeds, args.mistakes)?;
-    record_result((args.record, authoring), "prove", &seeds, &summary.summary_line())?;
+    record_result(
+        (args.record, authoring),
+        "prove",
+        &seeds,
+        &summary.summary_line(),
+    )?;
     for note in summary.notes() {
         print_error_line(note);
     }
@@ -186,6 +201,11 @@ pub(super) fn hints(root: &Path, authoring: &'static Authoring, args: HintsArgs)
         ("hints, one exam", recognise(&solutions, &practice)?)
     };
     let exams = seeds.as_deref().unwrap_or(PRACTICE);
-    record_result((args.record, authoring), run, exams, &recognition.summary_line)?;
+    record_result(
+        (args.record, authoring),
+        run,
+        exams,
+        &recognition.summary_line,
+    )?;
     report(&recognition.problems, &recognition.to_string())
 }

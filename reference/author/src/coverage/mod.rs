@@ -243,7 +243,7 @@ mod tests {
                 &LIGHT,
                 exam_of_matte,
                 "lambertian.grazing",
-                "Lambertian::pdf is tested 0 times at incoming \"1e-3 above\" for pdf",
+                "Lambertian::pdf is tested 0 times at out \"1e-3 above\" for pdf",
             ),
         ];
         for (authoring, exam, left_out, expected) in cases {

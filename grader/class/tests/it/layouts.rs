@@ -113,8 +113,8 @@ fn unusual_files_of_one_student_do_not_affect_the_others() {
         writer.start_file(path, plain).unwrap();
         writer.write_all(bytes).unwrap();
     };
-    for five in RAYS.file_names() {
-        write(&format!("class/fine/{five}"), b"text");
+    for file in RAYS.file_names() {
+        write(&format!("class/fine/{file}"), b"text");
     }
     write("class/long/camera.rs", &[b' '; (1 << 20) + 1]);
     write("class/outside/../../escaped.rs", b"text");
@@ -175,7 +175,7 @@ fn numbered_archives_of_one_canvas_user_can_be_parts() {
         .with("leeann_7002_9004_hw-2.zip", zip([("bvh.rs", "newer")]));
     let preview = class.preview();
     let expected = [
-        "doejane: 2 of 5 files",
+        &format!("doejane: 2 of {} files", RAYS.files.len()),
         "leeann: nothing to grade",
         "hw-1.zip",
     ];

@@ -113,12 +113,11 @@ fn a_folder_for_each_task_is_one_submission_if_no_file_has_two_versions() {
             WORK,
         )
     };
-    let class = [
-        part("301", "task1", "camera.rs"),
-        part("301", "task2", "triangle.rs"),
-        part("301", "task2", "sphere.rs"),
-        part("301", "task3", "bbox.rs"),
-        part("301", "task3", "bvh.rs"),
+    let folders = ["task1", "task2"].into_iter().cycle();
+    let complete = folders
+        .zip(RAYS.file_names())
+        .map(|(folder, name)| part("301", folder, name));
+    let others = [
         part("302", "task1", "camera.rs"),
         part("302", "task2", "bvh.rs"),
         (
@@ -127,8 +126,8 @@ fn a_folder_for_each_task_is_one_submission_if_no_file_has_two_versions() {
         ),
     ];
     let add = |class: TestClass, (path, text): (String, &str)| class.with(&path, text);
-    let preview = class
-        .into_iter()
+    let preview = complete
+        .chain(others)
         .fold(TestClass::named("class"), add)
         .preview();
     let refused = "it contains different copies of bvh.rs, in old and task2: keep only the one \
@@ -198,8 +197,8 @@ fn a_submission_that_is_too_large_affects_no_other() {
     let class = TestClass::named("class");
     let mut files = Vec::new();
     for who in ["ann", "bomb", "many", "archives"] {
-        for file in ["camera", "triangle", "sphere", "bbox", "bvh"] {
-            files.push((format!("{who}/{file}.rs"), b"text".to_vec()));
+        for file in RAYS.file_names() {
+            files.push((format!("{who}/{file}"), b"text".to_vec()));
         }
     }
     let empty = |number| (format!("many/{number}.txt"), Vec::new());

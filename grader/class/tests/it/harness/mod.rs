@@ -136,6 +136,11 @@ impl TestClass {
         );
         for item in all.iter_mut() {
             item["needs"] = Value::Array(Vec::new());
+            // Tests take points away from this item, so it must have two, whatever the practice
+            // exam says.
+            if item["id"] == "camera.offset" {
+                item["points"] = 2.into();
+            }
         }
         exam["id"] = "small".into();
         self.write_beside("exam.json", &exam.to_string())

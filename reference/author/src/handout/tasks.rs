@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use grader::files;
 use grader::handed_out::HandedOut;
 use judging::assignment::TaskInfo;
@@ -60,6 +60,12 @@ pub fn generated_files(root: &Path, handed_out: &HandedOut) -> Result<Vec<Genera
         }
         for path in task.methods {
             let documentation = contract::documentation(starter.starter, path);
+            // The starter is part of this program, so its file may be newer.
+            ensure!(
+                !documentation.is_empty(),
+                "{file} in the starter does not document {path}: run `cargo author starter`, then \
+                 this command again"
+            );
             let text = with_contract(&chapters[index].1, path, &documentation);
             chapters[index].1 = text.with_context(|| {
                 format!(

@@ -144,10 +144,16 @@ fn cell(direction: Vec3, parts: usize) -> [usize; 2] {
 mod tests {
     use super::*;
 
-    /// Returns directions from a lattice on the unit square.
+    /// Returns directions from pseudorandom points in the unit square.
     fn spread_by(direction: impl Fn(f32, f32) -> Vec3) -> Vec<ElementOutcome<LocalDirection>> {
-        let at = |n: usize| (n as f32 + 0.5) / 64.0;
-        let all = (0..64 * 64).map(|n| direction(at(n / 64), at(n % 64)));
+        // SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+        let random = |n: u64| {
+            let mut bits = n.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((bits ^ (bits >> 31)) >> 40) as f32 / (1 << 24) as f32
+        };
+        let all = (0..64 * 64).map(|n| direction(random(2 * n), random(2 * n + 1)));
         all.map(|direction| ElementOutcome::Value(LocalDirection { direction }))
             .collect()
     }

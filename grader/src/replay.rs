@@ -33,6 +33,7 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
         .map(|number| find_element(item, number))
         .transpose()?;
     let prepared = PreparedSubmission::new(options)?;
+    let paths = prepared.source_paths();
     let tasks = tasks_asked(&exam, item, options.handed_out);
     let unwritten = tasks.iter().filter_map(|info| {
         let methods = prepared.submission.task_methods(info);
@@ -46,11 +47,12 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     let own = unwritten.iter().find(|(info, _)| info.task() == item.task);
     if let Some((_, method)) = own {
         // Any answers come from the code that was handed out.
-        return Ok(format!(
+        let text = format!(
             "{} can only be run once {method} is written: the method is unchanged from the version \
              that was handed out\n",
             reference.item
-        ));
+        );
+        return Ok(paths.in_text(&text).into_owned());
     }
     let builder = Builder::prepare(&prepared.workspace)?;
     let builder = with_requested_level(builder, options.isolation)?;
@@ -66,7 +68,6 @@ pub fn replay(options: &GradeOptions, reference: &QuestionRef) -> Result<String,
     for (file, why) in &build.not_compiled {
         text += &format!("{}\n\n", file_message(file, why));
     }
-    let paths = prepared.source_paths();
     let needed: Vec<&str> = tasks.iter().map(|info| info.file).collect();
     let mut missing = build.not_compiled.keys();
     // If a file doesn't compile, the program contains the starter's file instead.

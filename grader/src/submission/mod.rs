@@ -71,7 +71,7 @@ impl Submission {
         Err(match path.symlink_metadata() {
             Ok(_) => SubmissionError::NotFileOrFolder(path.to_owned()),
             Err(_) => {
-                let name = path.to_str().filter(|_| path.components().count() == 1);
+                let name = path.file_name().and_then(|name| name.to_str());
                 let suggestion =
                     name.map(|name| suggestion_for_submission(name, handed_out.assignment));
                 SubmissionError::NotFound {

@@ -143,7 +143,7 @@ fn archives_unknown_tasks_and_folders_without_tasks_are_refused() {
     );
     assert_refused(&reset(&submission, &["sphre"]), "did you mean sphere?");
     let unknown = reset(&submission, &["wrld"]);
-    for text in ["did you mean world?", "bvh.rs, world.rs"] {
+    for text in ["did you mean world?", "world.rs, main.rs"] {
         assert_refused(&unknown, text);
     }
     let empty = tempfile::tempdir().unwrap();

@@ -211,7 +211,7 @@ fn only_attempts_that_may_count_are_in_the_copy() {
     let why = "the same person also submitted another attempt";
     assert_contains(&row("bob1")["why"], &[why]);
 
-    // Points for a pseudonym stay with this attempt, even if another one counts later.
+    // Points for a pseudonym stay with this attempt, even if a different attempt counts later.
     let manual = format!(
         "student,task,delta,comment,author\n{},camera,-1,copied,Tess\n",
         key["ann2"]

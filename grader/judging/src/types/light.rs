@@ -34,8 +34,8 @@ fn many_text(lights: &[ListedLight]) -> String {
     let all = lights.len();
     match lights.iter().filter(is_sphere).count() {
         0 => format!("{all} lights"),
-        1 => format!("{all} lights, of which 1 is a sphere"),
-        spheres => format!("{all} lights, of which {spheres} are spheres"),
+        1 => format!("{all} lights, 1 of them a sphere"),
+        spheres => format!("{all} lights, {spheres} of them spheres"),
     }
 }
 

@@ -19,7 +19,7 @@ fn value<T>(value: T) -> Vec<ElementOutcome<T>> {
     vec![ElementOutcome::Value(value)]
 }
 
-/// Returns the captions for directions, some of which shouldn't exist.
+/// Returns the captions for directions. Some of the directions shouldn't exist.
 pub(super) fn directions() -> String {
     let exam_question = |wanted: Option<Vec3>| {
         let table = Table::of_list(Medium { ior: 1.0 }, vec![OUT]);

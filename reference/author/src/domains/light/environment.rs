@@ -91,7 +91,7 @@ pub static MAP_PDF: FunctionDomain<Row<EnvironmentPdf>> = FunctionDomain {
 /// The classes of random numbers that consist of a single number.
 const EXACT_NUMBERS: &[&str] = &[NUMBERS[0], NUMBERS[3], NUMBERS[6]];
 
-/// The longitudes at which every map has an edge between two columns.
+/// The longitudes where every map has an edge between two columns.
 const SEAMS: &[&str] = &[AZIMUTHS[0], AZIMUTHS[2]];
 
 /// The arguments of a function about a pixel of a map.

@@ -12,6 +12,8 @@ use protocol::{Geometry, Question};
 use rayon::prelude::*;
 
 use crate::solutions::Solutions;
+use crate::solutions::catalogue::Mistake;
+use crate::solutions::solution::Solution;
 use crate::solutions::workbench::Answers;
 
 /// The maximum number of elements that a signature records for an item.
@@ -23,39 +25,82 @@ const MIN_ELEMENTS: usize = 12;
 /// confused with a different one that gives only a few of the same wrong answers.
 const WRONG_ANSWERS: usize = 4;
 
-/// Adds all known mistakes to the exam, along with each mistake's answers to some of the questions.
-pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
-    let answers: Vec<Vec<Option<Vec<ObservedAnswer>>>> = solutions
-        .mistakes
-        .par_iter()
-        .map(|mistake| {
-            let solution = solutions.workbench.build(&mistake.sources, &mistake.id)?;
-            let items = exam.items.iter();
-            let observed = items.map(|item| {
-                let own = item.task == mistake.task() && is_table(item);
-                own.then(|| Ok(observed_answers(item, &solution.answers(item)?)))
-                    .transpose()
-            });
-            observed.collect()
-        })
-        .collect::<Result<_>>()?;
+/// The answers of a known mistake to each item. `None` for items without signatures and for items
+/// in other tasks.
+struct RecordedMistake<'s> {
+    mistake: &'s Mistake,
+    answers: Vec<Option<Vec<ObservedAnswer>>>,
+}
 
-    let mistakes = solutions.catalogue.iter().map(|mistake| KnownMistake {
-        id: mistake.id.clone(),
-        nudge: mistake.nudge.clone(),
-        hint: mistake.hint.clone(),
-        section: mistake.section.clone(),
+/// Adds all known mistakes to the exam, along with each mistake's answers to some of the questions.
+/// A mistake is listed again for each other form of the reference's code in which it gives
+/// different answers.
+pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
+    let known = record(&exam, solutions, &solutions.mistakes)?;
+    let in_other_forms = record(&exam, solutions, &solutions.mistakes_in_other_forms)?;
+    let known_count = known.len();
+    let mut recorded = known;
+    for form in in_other_forms {
+        if !recorded.iter().any(|other| other.covers(&form)) {
+            recorded.push(form);
+        }
+    }
+
+    let mistakes = recorded.iter().map(|recorded| KnownMistake {
+        id: recorded.mistake.id.clone(),
+        nudge: recorded.mistake.nudge.clone(),
+        hint: recorded.mistake.hint.clone(),
+        section: recorded.mistake.section.clone(),
     });
     exam.mistakes = mistakes.collect();
     for (index, item) in exam.items.iter_mut().enumerate() {
         if is_table(item) {
-            let by_mistake = (0..).zip(&answers);
-            let wrong = by_mistake
-                .filter_map(|(mistake, observed)| Some((mistake, observed[index].as_deref()?)));
-            item.signatures = signatures(&expected(item), &wrong.collect::<Vec<_>>());
+            let by_mistake = (0..).zip(&recorded);
+            let wrong: Vec<_> = by_mistake
+                .filter_map(|(mistake, recorded)| {
+                    Some((mistake, recorded.answers[index].as_deref()?))
+                })
+                .collect();
+            item.signatures = signatures(&expected(item), &wrong, known_count as u32);
         }
     }
     Ok(exam)
+}
+
+/// Builds wrong solutions and runs them on the items of their tasks.
+fn record<'s>(
+    exam: &Exam,
+    solutions: &'s Solutions,
+    wrong: &[Solution],
+) -> Result<Vec<RecordedMistake<'s>>> {
+    let record = |solution: &Solution| {
+        let mut catalogue = solutions.catalogue.iter();
+        let mistake = catalogue.find(|mistake| mistake.id == solution.id);
+        let built = solutions.workbench.build(&solution.sources, &solution.id)?;
+        let items = exam.items.iter();
+        let answers = items.map(|item| {
+            let own = item.task == solution.task() && is_table(item);
+            own.then(|| Ok(observed_answers(item, &built.answers(item)?)))
+                .transpose()
+        });
+        Ok(RecordedMistake {
+            mistake: mistake.expect("wrong solutions are made from the catalogue"),
+            answers: answers.collect::<Result<_>>()?,
+        })
+    };
+    wrong.par_iter().map(record).collect()
+}
+
+impl RecordedMistake<'_> {
+    /// Returns whether a form of the same mistake gives no other answers than this one. It may crash
+    /// elsewhere, because many mistakes lead to crashes, so these say little about the cause.
+    fn covers(&self, form: &RecordedMistake) -> bool {
+        let items = self.answers.iter().zip(&form.answers);
+        let mut pairs =
+            items.flat_map(|(own, form)| own.iter().flatten().zip(form.iter().flatten()));
+        self.mistake.id == form.mistake.id
+            && pairs.all(|(own, form)| form.is_uninformative() || own.matches(form))
+    }
 }
 
 /// Returns whether all questions of an item are tables or trees. Pictures don't have signatures.
@@ -84,12 +129,14 @@ pub fn observed_answers(item: &Item, answers: &Answers) -> Vec<ObservedAnswer> {
     }
 }
 
-/// Returns the signatures for an item, given the correct answers and each mistake's answers.
+/// Returns the signatures for an item, given the correct answers and each mistake's answers. The
+/// first `known` mistakes are made in the reference's own form.
 fn signatures(
     correct: &[ObservedAnswer],
     by_mistake: &[(u32, &[ObservedAnswer])],
+    known: u32,
 ) -> MistakeSignatures {
-    let elements = choose_elements(correct, by_mistake);
+    let elements = choose_elements(correct, by_mistake, known);
     let mut all: Vec<MistakeAnswers> = Vec::new();
     for (mistake, observed) in by_mistake {
         let answers = (0..).zip(elements.iter().map(|&element| observed[element].clone()));
@@ -131,13 +178,16 @@ fn same_answers(a: &[(u32, ObservedAnswer)], b: &[(u32, ObservedAnswer)]) -> boo
 
 /// Returns the elements that best distinguish the mistakes from each other and from correct
 /// answers. The choice is greedy: each step adds the element that distinguishes the most remaining
+/// pairs. The forms of a mistake need not be distinguished, so only the first `known` mistakes form
 /// pairs. Then, for each mistake with too few wrong answers among the chosen elements, adds more
 /// elements that the mistake gets wrong.
 fn choose_elements(
     correct: &[ObservedAnswer],
     by_mistake: &[(u32, &[ObservedAnswer])],
+    known: u32,
 ) -> Vec<usize> {
-    let mistakes = by_mistake.iter().map(|(_, observed)| *observed);
+    let distinguished = by_mistake.iter().filter(|(mistake, _)| *mistake < known);
+    let mistakes = distinguished.map(|(_, observed)| *observed);
     let all: Vec<&[ObservedAnswer]> = mistakes.chain([correct]).collect();
     let mut pairs: Vec<(usize, usize)> = (0..all.len())
         .flat_map(|b| (0..b).map(move |a| (a, b)))

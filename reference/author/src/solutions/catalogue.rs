@@ -6,6 +6,8 @@
 //!   look as they would in the solution of a student who never saw the reference.
 //! - Code in `same_answers/*.toml` that gives the same answers as known mistakes, but for other
 //!   reasons. The hints for those mistakes must be true of this code too.
+//! - Other forms of the reference's code in `forms.toml`. Known mistakes are recorded in these forms,
+//!   too.
 //! - Unknown mistakes in `unknown/*.toml`. They have no hints of their own, so they show whether
 //!   wrong code gets false hints.
 //!
@@ -174,6 +176,54 @@ pub(super) fn read_folder<T: DeserializeOwned>(
 pub fn independent_mistakes(solutions: &Solutions) -> Result<Vec<Solution>> {
     let all = solutions.read_catalogue("independent")?.into_iter();
     all.map(|mistake| mistake.in_variant(solutions)).collect()
+}
+
+/// Another way to write part of the reference. Students who write their code in this way give
+/// different answers when they make a known mistake.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Form {
+    /// The task whose mistakes are made in this form, too.
+    task: Task,
+    /// The changes to the reference.
+    #[serde(rename = "change")]
+    changes: Vec<Change>,
+}
+
+/// Makes the known mistakes in the other forms of the reference's code. A solution's id is that of
+/// the mistake. A mistake that changes the same code as the form cannot be made in it.
+pub(super) fn mistakes_in_other_forms(
+    root: &Path,
+    catalogue: &[Mistake],
+    reference: &Sources,
+) -> Result<Vec<Solution>> {
+    #[derive(Default, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Forms {
+        form: Vec<Form>,
+    }
+
+    let handed_out = reference.handed_out();
+    let path = root.join(format!("{}/mistakes/forms.toml", handed_out.solutions()));
+    let forms: Forms = if path.exists() {
+        read_toml(&path)?
+    } else {
+        Forms::default()
+    };
+    let mut all = Vec::new();
+    for Form { task, changes } in forms.form {
+        let file = handed_out.assignment.info(task).file;
+        let form = apply_changes(reference, &changes, file).map_err(|(file, count)| {
+            anyhow!(
+                "{}: each `was` must occur once in {}/{file}, but one occurs {count} times",
+                path.display(),
+                handed_out.reference
+            )
+        })?;
+        let of_task = catalogue.iter().filter(|mistake| mistake.task() == task);
+        all.extend(of_task.filter_map(|mistake| mistake.solution(&form).ok()));
+    }
+    Ok(all)
 }
 
 /// Reads the code that gives the same answers as known mistakes, but for other reasons. Each

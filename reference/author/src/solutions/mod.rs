@@ -23,7 +23,7 @@ use grader::files;
 use grader::task_selection::TaskSelection;
 use serde::de::DeserializeOwned;
 
-use crate::solutions::catalogue::{Mistake, mistakes};
+use crate::solutions::catalogue::{Mistake, mistakes, mistakes_in_other_forms};
 use crate::solutions::failed_items::FailedItems;
 use crate::solutions::recording::Recorder;
 use crate::solutions::solution::Solution;
@@ -37,6 +37,8 @@ pub struct Solutions {
     pub catalogue: Vec<Mistake>,
     /// Known wrong solutions, in the order of the catalogue.
     pub mistakes: Vec<Solution>,
+    /// The known mistakes in other forms of the reference's code.
+    pub mistakes_in_other_forms: Vec<Solution>,
     /// Known correct solutions, in the order of the list.
     pub variants: Vec<Solution>,
     /// The workbench that builds the solutions.
@@ -56,9 +58,11 @@ impl Solutions {
         let applied = applied.map(|mistake| mistake.solution(recorder.reference()));
         let variants = variants(root, handed_out)?.into_iter();
         let variants = variants.map(|variant| variant.solution(recorder.reference(), root));
+        let in_other_forms = mistakes_in_other_forms(root, &catalogue, recorder.reference())?;
         let failed = FailedItems::load(root, handed_out)?;
         let mut solutions = Solutions {
             mistakes: applied.collect::<Result<_>>()?,
+            mistakes_in_other_forms: in_other_forms,
             variants: variants.collect::<Result<_>>()?,
             catalogue,
             recorder,

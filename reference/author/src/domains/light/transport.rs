@@ -1,66 +1,280 @@
-//! The domains of direct light and of paths. A question shows the scene as a text, so the classes
-//! are those of the ray and of the numbers.
+//! The domains of direct light and of paths. The classes are those of the surfaces, lights and
+//! directions that decide a call's answer, so each question's room is read from its scene's text.
 
-use protocol::Ray;
-use protocol::function::Function;
-use protocol::light::transport::{Direct, DirectSample, PathStart, Radiance};
+use std::rc::Rc;
 
-use super::{Row, rows_of};
+use glam::DVec3;
+use protocol::light::transport as functions;
+use protocol::light::transport::{DirectSample, PathStart};
+use protocol::{LightQuestion, Question, Ray};
+
 use crate::domains::fields::{OCTANTS, class_up_to, octant};
-use crate::domains::{Aspect, FunctionDomain};
+use crate::domains::{Aspect, FunctionDomain, not_asked};
+use crate::oracle::Ray64;
+use crate::oracle::light::environment::Map64;
+use crate::oracle::light::light_sources::Environment64;
+use crate::oracle::light::quad::{Material64, Quad};
+use crate::oracle::light::room::{Room, Surface64};
+use crate::oracle::light::transport::{self as oracle, emitted};
+use crate::oracle::light::{Numbers64, lambertian, numbers_of_path};
 
 /// The domain of `direct`.
-pub static DIRECT: FunctionDomain<Row<Direct>> = FunctionDomain {
+pub static DIRECT: FunctionDomain<DirectCall> = FunctionDomain {
     function: "direct",
-    subject_aspects: &[],
+    subject_aspects: &[Aspect::ROOM_SIZE, Aspect::LIGHTS, Aspect::ENVIRONMENT],
     aspects: &[
         Aspect::RAY_OCTANT,
+        SURFACE,
+        SIDE,
+        LIGHT_SAMPLE,
+        SCATTERED,
         LIGHT,
         ON_LIGHT_X,
         ON_LIGHT_Y,
         DIRECT_X,
         DIRECT_Y,
     ],
-    pairs: &[],
-    calls: rows_of!(Direct),
-    not_asked: &[],
+    pairs: &[
+        [LIGHT_SAMPLE.name, SCATTERED.name],
+        ["lights", LIGHT_SAMPLE.name],
+    ],
+    calls: direct_calls,
+    not_asked: &[not_asked(
+        &["lights"],
+        &["none"],
+        &["pairs"],
+        "without lights, there is a light sample only under a map",
+    )],
 };
 
 /// The domain of `radiance`.
-pub static RADIANCE: FunctionDomain<Row<Radiance>> = FunctionDomain {
+pub static RADIANCE: FunctionDomain<PathCall> = FunctionDomain {
     function: "radiance",
-    subject_aspects: &[],
-    aspects: &[Aspect::RAY_OCTANT, BOUNCES],
-    pairs: &[],
-    calls: rows_of!(Radiance),
+    subject_aspects: &[Aspect::ROOM_SIZE, Aspect::LIGHTS, Aspect::ENVIRONMENT],
+    aspects: &[Aspect::RAY_OCTANT, BOUNCES, FIRST, FIRST_TWO, LENGTH],
+    pairs: &[["environment", FIRST.name]],
+    calls: path_calls,
     not_asked: &[],
 };
 
-/// Arguments with a ray.
-pub trait WithRay {
+/// A call of `direct`.
+#[derive(Clone, Debug)]
+pub struct DirectCall {
+    room: Rc<Room>,
+    input: DirectSample,
+    /// The surface that the ray hits. `None` if it hits nothing, which isn't asked.
+    surface: Option<Surface64>,
+}
+
+/// A call of `radiance`.
+#[derive(Clone, Debug)]
+pub struct PathCall {
+    room: Rc<Room>,
+    input: PathStart,
+    /// The surfaces that the path hits, as if it always survived.
+    surfaces: Vec<Surface64>,
+}
+
+fn direct_calls(question: &Question) -> Vec<DirectCall> {
+    let Question::Light(LightQuestion::Direct(table)) = question else {
+        return Vec::new();
+    };
+    let room = read_room(&table.subject);
+    let rows = table.rows.to_vec();
+    let calls = rows.iter().map(|input| DirectCall {
+        surface: room.hit(&Ray64::from(&input.ray), None).value,
+        room: room.clone(),
+        input: *input,
+    });
+    calls.collect()
+}
+
+fn path_calls(question: &Question) -> Vec<PathCall> {
+    let Question::Light(LightQuestion::Radiance(table)) = question else {
+        return Vec::new();
+    };
+    let room = read_room(&table.subject);
+    let rows = table.rows.to_vec();
+    let calls = rows.iter().map(|input| PathCall {
+        surfaces: oracle::surfaces(&room, &Ray64::from(&input.ray), &numbers_of_path(input)),
+        room: room.clone(),
+        input: *input,
+    });
+    calls.collect()
+}
+
+/// Reads the room of a question.
+fn read_room(subject: &functions::Room) -> Rc<Room> {
+    let map = subject.map.as_ref();
+    let map = map.map(|map| Map64::new(map.size, &map.pixels));
+    let room = Room::from_text(&subject.scene, map);
+    Rc::new(room.expect("rooms in questions are written by `Room::text`"))
+}
+
+/// A call with a ray in a room.
+pub trait InRoom {
+    /// Returns the room.
+    fn room(&self) -> &Room;
+
     /// Returns the ray.
     fn ray(&self) -> &Ray;
 }
 
-impl WithRay for DirectSample {
+impl InRoom for DirectCall {
+    fn room(&self) -> &Room {
+        &self.room
+    }
+
     fn ray(&self) -> &Ray {
-        &self.ray
+        &self.input.ray
     }
 }
 
-impl WithRay for PathStart {
+impl InRoom for PathCall {
+    fn room(&self) -> &Room {
+        &self.room
+    }
+
     fn ray(&self) -> &Ray {
-        &self.ray
+        &self.input.ray
     }
 }
 
-impl<F: Function<Input: WithRay>> Aspect<Row<F>> {
+impl<C: InRoom> Aspect<C> {
+    /// The largest coordinate in the room.
+    pub const ROOM_SIZE: Self = Aspect {
+        name: "size of the room",
+        classes: &["up to 1", "up to 10", "up to 1,000"],
+        class: |call| {
+            let corners = call.room().quads().iter().flat_map(Quad::corners);
+            let sizes = corners.map(|corner| corner.abs().max_element());
+            let size = sizes.fold(0.0, f64::max);
+            Some([1.0, 10.0].iter().filter(|limit| size > **limit).count())
+        },
+    };
+
+    /// The number of emitting parallelograms. Each consists of two lights.
+    pub const LIGHTS: Self = Aspect {
+        name: "lights",
+        classes: &["none", "one", "several"],
+        class: |call| {
+            let is_light = |quad: &&Quad| matches!(quad.material(), Material64::Emitter { .. });
+            let lights = call.room().quads().iter().filter(is_light);
+            Some(lights.count().min(2))
+        },
+    };
+
+    /// The environment.
+    pub const ENVIRONMENT: Self = Aspect {
+        name: "environment",
+        classes: &["dark", "uniform", "a map"],
+        class: |call| match call.room().sources().environment {
+            Environment64::Constant(DVec3::ZERO) => Some(0),
+            Environment64::Constant(_) => Some(1),
+            Environment64::Map(_) => Some(2),
+        },
+    };
+
     /// The octant of the ray's direction.
     pub const RAY_OCTANT: Self = Aspect {
         name: "octant of the ray",
         classes: OCTANTS,
-        class: |row| octant(row.input.ray().dir.as_dvec3()),
+        class: |call| octant(call.ray().dir.as_dvec3()),
     };
+}
+
+/// The kinds of surfaces.
+const SURFACES: &[&str] = &["matte", "mirror", "glass", "light", "light, from behind"];
+
+fn surface_class(surface: &Surface64) -> usize {
+    match surface.material {
+        Material64::Lambertian { .. } => 0,
+        Material64::Mirror { .. } => 1,
+        Material64::Glass { .. } => 2,
+        Material64::Emitter { .. } if surface.emitted != DVec3::ZERO => 3,
+        Material64::Emitter { .. } => 4,
+    }
+}
+
+/// The kinds of surfaces, or none.
+const HITS: &[&str] = &[
+    "nothing",
+    "matte",
+    "mirror",
+    "glass",
+    "light",
+    "light, from behind",
+];
+
+fn hit_class(surface: Option<&Surface64>) -> usize {
+    surface.map_or(0, |surface| 1 + surface_class(surface))
+}
+
+/// The surface that the ray hits.
+const SURFACE: Aspect<DirectCall> = Aspect {
+    name: "surface",
+    classes: SURFACES,
+    class: |call| call.surface.as_ref().map(surface_class),
+};
+
+/// The angle at which the ray hits a matte surface.
+const SIDE: Aspect<DirectCall> = Aspect {
+    name: "angle of the ray",
+    classes: &["steep", "grazing"],
+    class: |call| Some(usize::from(matte(call)?.out.z < 0.2)),
+};
+
+/// The direction toward a light.
+const LIGHT_SAMPLE: Aspect<DirectCall> = Aspect {
+    name: "light sample",
+    classes: &["none", "below the surface", "blocked", "a light", "a map"],
+    class: |call| {
+        let surface = matte(call)?;
+        let numbers = Numbers64::from(&call.input);
+        let sample = call.room.sources().sample(surface.position, &numbers);
+        let Some(direction) = sample.value else {
+            return Some(0);
+        };
+        if surface.frame.to_local(direction).z <= 0.0 {
+            return Some(1);
+        }
+        Some(2 + found(call, surface, direction))
+    },
+};
+
+/// What the scattered direction finds.
+const SCATTERED: Aspect<DirectCall> = Aspect {
+    name: "scattered direction",
+    classes: &["no light", "a light", "the environment"],
+    class: |call| {
+        let surface = matte(call)?;
+        let local = lambertian::sample_cosine_hemisphere(call.input.direct.as_dvec2());
+        Some(found(call, surface, surface.frame.to_world(local)))
+    },
+};
+
+/// Returns 0 if no light arrives at a surface from a direction, 1 if it is the light of a shape,
+/// and 2 if it is that of the environment.
+fn found(call: &DirectCall, surface: &Surface64, direction: DVec3) -> usize {
+    let is_dark = emitted(&call.room, surface, direction).value == DVec3::ZERO;
+    let ray = Ray64 {
+        origin: surface.position,
+        dir: direction,
+        min: 0.0,
+        max: f64::INFINITY,
+    };
+    let hit = call.room.hit(&ray, Some(surface)).value;
+    match hit {
+        _ if is_dark => 0,
+        Some(_) => 1,
+        None => 2,
+    }
+}
+
+/// Returns the surface that the ray hits if it is matte.
+fn matte(call: &DirectCall) -> Option<&Surface64> {
+    let surface = call.surface.as_ref();
+    surface.filter(|surface| matches!(surface.material, Material64::Lambertian { .. }))
 }
 
 /// The classes of random numbers that are only passed on to other functions, whose own domains
@@ -72,43 +286,88 @@ fn quarter(number: f32) -> Option<usize> {
 }
 
 /// The random number that picks the light.
-const LIGHT: Aspect<Row<Direct>> = Aspect {
+const LIGHT: Aspect<DirectCall> = Aspect {
     name: "light",
     classes: QUARTERS,
-    class: |row| quarter(row.input.light),
+    class: |call| quarter(call.input.light),
 };
 
 /// The first random number for the point on the light.
-const ON_LIGHT_X: Aspect<Row<Direct>> = Aspect {
+const ON_LIGHT_X: Aspect<DirectCall> = Aspect {
     name: "on_light.x",
     classes: QUARTERS,
-    class: |row| quarter(row.input.on_light.x),
+    class: |call| quarter(call.input.on_light.x),
 };
 
 /// The second random number for the point on the light.
-const ON_LIGHT_Y: Aspect<Row<Direct>> = Aspect {
+const ON_LIGHT_Y: Aspect<DirectCall> = Aspect {
     name: "on_light.y",
     classes: QUARTERS,
-    class: |row| quarter(row.input.on_light.y),
+    class: |call| quarter(call.input.on_light.y),
 };
 
 /// The first random number for the scattered direction.
-const DIRECT_X: Aspect<Row<Direct>> = Aspect {
+const DIRECT_X: Aspect<DirectCall> = Aspect {
     name: "direct.x",
     classes: QUARTERS,
-    class: |row| quarter(row.input.direct.x),
+    class: |call| quarter(call.input.direct.x),
 };
 
 /// The second random number for the scattered direction.
-const DIRECT_Y: Aspect<Row<Direct>> = Aspect {
+const DIRECT_Y: Aspect<DirectCall> = Aspect {
     name: "direct.y",
     classes: QUARTERS,
-    class: |row| quarter(row.input.direct.y),
+    class: |call| quarter(call.input.direct.y),
 };
 
 /// The maximum number of bounces.
-const BOUNCES: Aspect<Row<Radiance>> = Aspect {
+const BOUNCES: Aspect<PathCall> = Aspect {
     name: "bounces",
     classes: &["0", "1", "2", "3", "4 to 7", "more"],
-    class: |row| Some(class_up_to(&[0, 1, 2, 3, 7], row.input.bounces as usize)),
+    class: |call| Some(class_up_to(&[0, 1, 2, 3, 7], call.input.bounces as usize)),
+};
+
+/// The surface that the ray hits.
+const FIRST: Aspect<PathCall> = Aspect {
+    name: "first surface",
+    classes: HITS,
+    class: |call| Some(hit_class(call.surfaces.first())),
+};
+
+/// The first two surfaces of a path that is scattered at the first one.
+const FIRST_TWO: Aspect<PathCall> = Aspect {
+    name: "first two surfaces",
+    classes: &[
+        "matte, then nothing",
+        "matte, then matte",
+        "matte, then a mirror",
+        "matte, then glass",
+        "matte, then a light",
+        "matte, then a light, from behind",
+        "a mirror, then nothing",
+        "a mirror, then matte",
+        "a mirror, then a mirror",
+        "a mirror, then glass",
+        "a mirror, then a light",
+        "a mirror, then a light, from behind",
+        "glass, then nothing",
+        "glass, then matte",
+        "glass, then a mirror",
+        "glass, then glass",
+        "glass, then a light",
+        "glass, then a light, from behind",
+    ],
+    class: |call| {
+        let first = call.surfaces.first()?;
+        let is_scattered =
+            call.input.bounces > 0 && !matches!(first.material, Material64::Emitter { .. });
+        is_scattered.then(|| HITS.len() * surface_class(first) + hit_class(call.surfaces.get(1)))
+    },
+};
+
+/// The number of surfaces that the path hits, as if it always survived.
+const LENGTH: Aspect<PathCall> = Aspect {
+    name: "surfaces",
+    classes: &["0", "1", "2", "3", "4 to 8", "more"],
+    class: |call| Some(class_up_to(&[0, 1, 2, 3, 8], call.surfaces.len())),
 };

@@ -4,7 +4,6 @@ use glam::{DVec3, Vec3, uvec2};
 use protocol::Ray;
 use protocol::light::environment::MapImage;
 use protocol::light::transport::{self as functions, DirectSample, PathStart};
-use protocol::sampler::{RandomNumbers, Sampler};
 
 use super::{MARGIN, color, random, random_pair};
 use crate::oracle::Ray64;
@@ -12,7 +11,7 @@ use crate::oracle::light::environment::Map64;
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::{Numbers64, lambertian, specular, transport};
+use crate::oracle::light::{Numbers64, numbers_of_path, transport};
 use crate::seed::Rng;
 
 /// A call of `direct` with its answer.
@@ -90,18 +89,24 @@ pub(super) fn tilted(rng: &mut Rng, center: DVec3, size: f64, material: Material
 }
 
 /// Returns a room without a ceiling and without the wall at +z, under an environment map. `left` is
-/// the material of the wall at −x, whose frame isn't that of the world. If `has_lights` is set,
-/// there is also a light above the floor.
-pub(super) fn under_a_map(rng: &mut Rng, left: Material64, has_lights: bool) -> Room {
+/// the material of the wall at −x, whose frame isn't that of the world. `lights` is the number of
+/// lights above the floor, at most two.
+pub(super) fn under_a_map(rng: &mut Rng, left: Material64, lights: usize) -> Room {
     let half = DVec3::new(2.5, 2.0, 3.0);
     let all = walls(half, || matte(rng));
     let left = panel(DVec3::new(-half.x, 0.0, 0.0), 0, 1.0, half, left);
     let mut quads = vec![left, all[1], all[2], all[4]];
-    if has_lights {
+    let places = [DVec3::new(-0.5, 1.0, -0.4), DVec3::new(1.4, 0.2, -1.6)];
+    for center in places.into_iter().take(lights) {
         let radiance = color(rng) * rng.log_uniform(0.5, 20.0);
         let size = DVec3::new(0.8, 0.0, 0.8);
-        let light = Material64::Emitter { radiance };
-        quads.push(panel(DVec3::new(-0.5, 1.0, -0.4), 1, -1.0, size, light));
+        quads.push(panel(
+            center,
+            1,
+            -1.0,
+            size,
+            Material64::Emitter { radiance },
+        ));
     }
     let map = map(rng);
     Room::new(quads, map)
@@ -171,15 +176,7 @@ pub(super) fn direct_case(
             on_light: random_pair(rng),
             direct: random_pair(rng),
         };
-        let numbers = RandomNumbers {
-            light: call.light,
-            on_light: call.on_light,
-            direct: call.direct,
-            scatter: call.direct,
-            reflect: 0.0,
-            survive: 0.0,
-        };
-        let numbers = Numbers64::from(&numbers);
+        let numbers = Numbers64::from(&call);
         let direct = transport::direct(room, &surface, &numbers);
         let is_clear = hit.margin.min(direct.margin) > MARGIN;
         let light = direct.value;
@@ -212,55 +209,15 @@ pub(super) fn path_case_along(
         let ray = random_ray(rng, reach(room));
         let ray64 = Ray64::from(&ray);
         let seed = rng.integer(0, 1 << 30);
-        let sampler = Sampler::new(seed.into(), glam::UVec2::ZERO, 0);
-        let numbers = (0..bounces).map(|bounce| Numbers64::from(&sampler.numbers(bounce)));
-        let numbers: Vec<Numbers64> = numbers.collect();
+        let call = PathStart { ray, seed, bounces };
+        let numbers = numbers_of_path(&call);
         let radiance = transport::radiance(room, &ray64, &numbers);
         let hit = room.hit(&ray64, None);
         let is_clear = radiance.margin.min(hit.margin) > MARGIN;
         let light = radiance.value;
-        let call = PathStart { ray, seed, bounces };
         let is_wanted = is_clear && wanted(&ray64, &numbers, light);
         is_wanted.then_some(PathCase { call, light })
     })
-}
-
-/// Returns the surfaces that a path hits, as if it always survived.
-pub(super) fn surfaces(room: &Room, ray: &Ray64, numbers: &[Numbers64]) -> Vec<Surface64> {
-    let first = room.hit(ray, None).value;
-    let mut surfaces: Vec<Surface64> = first.into_iter().collect();
-    for numbers in numbers {
-        let last = surfaces.last();
-        let Some(next) = last.and_then(|last| next_surface(room, last, numbers)) else {
-            break;
-        };
-        surfaces.push(next);
-    }
-    surfaces
-}
-
-/// Returns the surface that a path hits after it leaves this one, or `None` if it hits nothing or
-/// leaves a light, which scatters nothing.
-pub(super) fn next_surface(
-    room: &Room,
-    surface: &Surface64,
-    numbers: &Numbers64,
-) -> Option<Surface64> {
-    let direction = match surface.material {
-        Material64::Lambertian { .. } => lambertian::sample_cosine_hemisphere(numbers.scatter),
-        Material64::Mirror { .. } => specular::reflect(surface.out),
-        Material64::Glass { ior } => {
-            specular::glass_scatter(ior, surface.out, numbers.reflect).direction
-        }
-        Material64::Emitter { .. } => return None,
-    };
-    let ray = Ray64 {
-        origin: surface.position,
-        dir: surface.frame.to_world(direction),
-        min: 0.0,
-        max: f64::INFINITY,
-    };
-    room.hit(&ray, Some(surface)).value
 }
 
 /// Returns a room of another size.
@@ -283,18 +240,4 @@ fn reach(room: &Room) -> f64 {
 /// Returns a ray from a random point near the middle of a room in a random direction.
 fn random_ray(rng: &mut Rng, half: f64) -> Ray {
     Ray::new(rng.point(half).as_vec3(), rng.direction().as_vec3())
-}
-
-impl From<&RandomNumbers> for Numbers64 {
-    fn from(numbers: &RandomNumbers) -> Numbers64 {
-        let RandomNumbers {
-            light,
-            on_light,
-            direct,
-            scatter,
-            reflect,
-            survive,
-        } = *numbers;
-        Numbers64::from_single(light, on_light, direct, scatter, reflect, survive)
-    }
 }

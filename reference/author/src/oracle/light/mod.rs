@@ -17,6 +17,7 @@ pub mod light_sources;
 pub mod lights;
 pub mod quad;
 pub mod room;
+mod scene_text;
 pub mod specular;
 pub mod spherical_light;
 pub mod transport;
@@ -24,7 +25,9 @@ pub mod transport;
 #[cfg(test)]
 mod tests;
 
-use glam::{DVec2, DVec3, Vec2};
+use glam::{DVec2, DVec3, UVec2};
+use protocol::light::transport::{DirectSample, PathStart};
+use protocol::sampler::{RandomNumbers, Sampler};
 
 /// A sampled continuation of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,25 +77,41 @@ pub struct Numbers64 {
     pub survive: f64,
 }
 
-impl Numbers64 {
-    /// Converts the fields of the sampler's `RandomNumbers` to double precision. This is exact.
-    pub fn from_single(
-        light: f32,
-        on_light: Vec2,
-        direct: Vec2,
-        scatter: Vec2,
-        reflect: f32,
-        survive: f32,
-    ) -> Numbers64 {
+impl From<&RandomNumbers> for Numbers64 {
+    /// Converts the numbers to double precision. This is exact.
+    fn from(numbers: &RandomNumbers) -> Numbers64 {
         Numbers64 {
-            light: light.into(),
-            on_light: on_light.as_dvec2(),
-            direct: direct.as_dvec2(),
-            scatter: scatter.as_dvec2(),
-            reflect: reflect.into(),
-            survive: survive.into(),
+            light: numbers.light.into(),
+            on_light: numbers.on_light.as_dvec2(),
+            direct: numbers.direct.as_dvec2(),
+            scatter: numbers.scatter.as_dvec2(),
+            reflect: numbers.reflect.into(),
+            survive: numbers.survive.into(),
         }
     }
+}
+
+impl From<&DirectSample> for Numbers64 {
+    /// Returns the random numbers of a call of `direct`. The call doesn't use the other numbers.
+    fn from(call: &DirectSample) -> Numbers64 {
+        Numbers64::from(&RandomNumbers {
+            light: call.light,
+            on_light: call.on_light,
+            direct: call.direct,
+            scatter: call.direct,
+            reflect: 0.0,
+            survive: 0.0,
+        })
+    }
+}
+
+/// Returns the random numbers of a call of `radiance`, one set for each bounce.
+pub fn numbers_of_path(call: &PathStart) -> Vec<Numbers64> {
+    let sampler = Sampler::new(call.seed.into(), UVec2::ZERO, 0);
+    let bounces = 0..call.bounces;
+    bounces
+        .map(|bounce| Numbers64::from(&sampler.numbers(bounce)))
+        .collect()
 }
 
 /// Returns the luminance of a colour. See ITU-R Recommendation BT.709.

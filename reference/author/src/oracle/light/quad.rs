@@ -109,25 +109,9 @@ impl Material64 {
             },
         }
     }
-
-    /// Returns the material's entry in a scene file.
-    pub(super) fn text(&self) -> String {
-        let (kind, key, value) = match *self {
-            Material64::Lambertian { albedo } => ("lambertian", "albedo", numbers(albedo)),
-            Material64::Mirror { reflectance } => ("mirror", "reflectance", numbers(reflectance)),
-            Material64::Glass { ior } => ("glass", "ior", ior.to_string()),
-            Material64::Emitter { radiance } => ("emitter", "radiance", numbers(radiance)),
-        };
-        format!(r#"{{ "{kind}": {{ "{key}": {value} }} }}"#)
-    }
 }
 
 /// Rounds numbers to single precision.
 pub(super) fn rounded(v: DVec3) -> DVec3 {
     v.as_vec3().as_dvec3()
-}
-
-/// Returns a list of three numbers in JSON.
-pub(super) fn numbers(DVec3 { x, y, z }: DVec3) -> String {
-    format!("[{x}, {y}, {z}]")
 }

@@ -7,7 +7,7 @@ use super::flat_shape::PlaneHit;
 use super::frame::Frame64;
 use super::light_sources::{Environment64, LightSources64};
 use super::lights::Lights64;
-use super::quad::{Material64, Quad, numbers, rounded};
+use super::quad::{Material64, Quad, rounded};
 use crate::oracle::Ray64;
 
 /// Below this relative height, a ray's origin is in the plane of a quad. Rounding in double
@@ -127,48 +127,5 @@ impl Room {
             frame,
             quad: index,
         }
-    }
-
-    /// Returns the room as the text of a scene file. The framework reads exactly the numbers of this
-    /// room. The camera, which scene files must have, is at the origin and looks along −z.
-    ///
-    /// An environment map isn't part of the text, since scene files only refer to it.
-    pub fn text(&self) -> String {
-        let quads = || self.quads.iter().enumerate();
-        let materials = quads().map(|(index, quad)| {
-            let material = quad.material().text();
-            format!(r#"    "{index}": {material}"#)
-        });
-        let materials = materials.collect::<Vec<String>>().join(",\n");
-        let shapes = quads().map(|(index, quad)| {
-            let points = quad.corners().map(numbers).join(", ");
-            let polygon = format!(r#"{{ "material": "{index}", "points": [{points}] }}"#);
-            format!(r#"    {{ "polygon": {polygon} }}"#)
-        });
-        let shapes = shapes.collect::<Vec<String>>().join(",\n");
-        let environment = match self.sources.environment {
-            Environment64::Constant(radiance) => radiance,
-            Environment64::Map(_) => DVec3::ZERO,
-        };
-        let environment = numbers(environment);
-        format!(
-            r#"{{
-  "camera": {{
-    "vertical_fov": 90,
-    "film": [64, 64],
-    "position": [0, 0, 0],
-    "look_at": [0, 0, -1],
-    "up": [0, 1, 0]
-  }},
-  "environment": {environment},
-  "materials": {{
-{materials}
-  }},
-  "shapes": [
-{shapes}
-  ]
-}}
-"#
-        )
     }
 }

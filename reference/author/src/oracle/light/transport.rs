@@ -231,6 +231,28 @@ fn scatter(surface: &Surface64, numbers: &Numbers64) -> Option<WithMargin<Scatte
     Some(WithMargin { value, margin })
 }
 
+/// Returns the surfaces that a path hits, as if it always survived.
+pub fn surfaces(room: &Room, ray: &Ray64, numbers: &[Numbers64]) -> Vec<Surface64> {
+    let first = room.hit(ray, None).value;
+    let mut surfaces: Vec<Surface64> = first.into_iter().collect();
+    for numbers in numbers {
+        let last = surfaces.last();
+        let Some(next) = last.and_then(|last| next_surface(room, last, numbers)) else {
+            break;
+        };
+        surfaces.push(next);
+    }
+    surfaces
+}
+
+/// Returns the surface that a path hits after it leaves this one, or `None` if it hits nothing or
+/// leaves a light, which scatters nothing.
+pub fn next_surface(room: &Room, surface: &Surface64, numbers: &Numbers64) -> Option<Surface64> {
+    let direction = scatter(surface, numbers)?.value.direction;
+    let ray = ray(surface.position, surface.frame.to_world(direction));
+    room.hit(&ray, Some(surface)).value
+}
+
 /// Returns the ray from a point in a direction.
 fn ray(origin: DVec3, dir: DVec3) -> Ray64 {
     Ray64 {

@@ -27,13 +27,12 @@ pub(super) const MAP: Declaration = Declaration {
          environment.",
     ],
     questions: |rng| {
-        let has_lights = [true, false].into_iter();
-        let questions = has_lights.flat_map(|has_lights| {
+        let questions = [0, 1, 2].into_iter().flat_map(|lights| {
             rooms(
                 rng,
                 |rng| {
                     let left = matte(rng);
-                    under_a_map(rng, left, has_lights)
+                    under_a_map(rng, left, lights)
                 },
                 |rng, room| {
                     let mut cases = LIT_AND_DARK(rng, room);

@@ -158,11 +158,22 @@ const BLOCKED: Declaration = Declaration {
                 let light = emitter(rng);
                 let half = dvec3(0.6, 0.0, 0.6);
                 quads.push(panel(dvec3(0.0, 1.9, 0.0), 1, -1.0, half, light));
+                let light = emitter(rng);
+                quads.push(panel(dvec3(-1.5, 1.5, -1.0), 1, -1.0, half, light));
                 let screen = matte(rng);
                 quads.push(panel(dvec3(0.3, 0.9, 0.2), 1, 1.0, half, screen));
                 Room::new(quads, DARK)
             },
-            LIT_AND_DARK,
+            |rng, room| {
+                let mut cases = LIT_AND_DARK(rng, room);
+                // The direction toward a light is blocked, but scattering finds a light.
+                cases.extend((0..CALLS / 2).map(|_| {
+                    direct_case(rng, room, |surface, numbers, light| {
+                        is_lit(light) && is_blocked(room, surface, numbers)
+                    })
+                }));
+                cases
+            },
         )
     },
     needs: NEEDS,
@@ -186,12 +197,30 @@ const TURNED: Declaration = Declaration {
                     let material = matte(rng);
                     quads.push(tilted(rng, center, 1.2, material));
                 }
-                let light = emitter(rng);
-                quads.push(panel(dvec3(0.0, 3.5, 0.0), 1, -1.0, 2.0 * HALF, light));
+                for x in [-2.6, 2.6] {
+                    let light = emitter(rng);
+                    quads.push(panel(dvec3(x, 3.5, 0.0), 1, -1.0, HALF, light));
+                }
                 let sky = sky(rng);
                 Room::new(quads, sky)
             },
-            LIT_AND_DARK,
+            |rng, room| {
+                let mut cases = LIT_AND_DARK(rng, room);
+                cases.extend((0..CALLS / 2).map(|_| {
+                    direct_case(rng, room, |surface, _, light| {
+                        is_lit(light) && surface.out.z < 0.15
+                    })
+                }));
+                // The light that was picked is below the surface, but scattering finds the other.
+                cases.extend((0..CALLS / 2).map(|_| {
+                    direct_case(rng, room, |surface, numbers, _| {
+                        let sample = room.sources().sample(surface.position, numbers).value;
+                        let is_below = |direction| surface.frame.to_local(direction).z < 0.0;
+                        sample.is_some_and(is_below) && scatters_to_a_light(room, surface, numbers)
+                    })
+                }));
+                cases
+            },
         )
     },
     needs: NEEDS,
@@ -235,9 +264,9 @@ const NO_SAMPLE: Declaration = Declaration {
                 // The picked light faces away, but scattering finds the other one.
                 cases.extend((0..CALLS).map(|_| {
                     direct_case(rng, room, |surface, numbers, light| {
-                        let direction = scattered(surface, numbers);
-                        let pdf = room.sources().pdf(surface.position, direction);
-                        is_lit(light) && pdf.value > 0.0 && !is_sampled(surface, numbers)
+                        is_lit(light)
+                            && scatters_to_a_light(room, surface, numbers)
+                            && !is_sampled(surface, numbers)
                     })
                 }));
                 cases
@@ -328,6 +357,23 @@ fn scattered(surface: &Surface64, numbers: &Numbers64) -> DVec3 {
     surface.frame.to_world(direction)
 }
 
+/// Returns whether the direction that a surface samples for its direct light leads to a light.
+fn scatters_to_a_light(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool {
+    let direction = scattered(surface, numbers);
+    let light = oracle::emitted(room, surface, direction).value;
+    is_lit(light) && room.sources().pdf(surface.position, direction).value > 0.0
+}
+
+/// Returns whether there is a direction toward a light, above the surface, but no light arrives from
+/// there.
+fn is_blocked(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool {
+    let sample = room.sources().sample(surface.position, numbers).value;
+    sample.is_some_and(|direction| {
+        let is_above = surface.frame.to_local(direction).z > 0.0;
+        is_above && !is_lit(oracle::emitted(room, surface, direction).value)
+    })
+}
+
 fn is_lit(light: DVec3) -> bool {
     light.max_element() > 1e-6
 }
@@ -347,12 +393,14 @@ fn open(rng: &mut Rng) -> Vec<Quad> {
     vec![all[2], all[0], all[4]]
 }
 
-/// Returns one question for each of two rooms, of which the second is large.
+/// Returns one question for each of two rooms. The first is small or of an ordinary size, and the
+/// second is large.
 fn rooms(
     rng: &mut Rng,
     room: impl Fn(&mut Rng) -> Room,
     cases: impl Fn(&mut Rng, &Room) -> Vec<DirectCase>,
 ) -> Vec<ExamQuestion> {
+    let small = if rng.coin() { 0.2 } else { 1.0 };
     let question = |scale| {
         let room = scaled(&room(rng), scale);
         let cases = cases(rng, &room);
@@ -365,5 +413,5 @@ fn rooms(
             rows,
         )
     };
-    [1.0, 100.0].map(question).into()
+    [small, 100.0].map(question).into()
 }

@@ -1,17 +1,18 @@
 //! The item about paths under an environment map.
 
-use glam::DVec3;
+use glam::{DVec3, dvec3};
 
 use super::super::color;
 use super::super::groups::{
     DIRECT, DIRECT_MAPS, LIGHT_DENSITIES, LIGHT_SAMPLES, MAPS, MATTE, MATTE_SAMPLES, SPECULAR,
 };
-use super::super::rooms::{PathCase, next_surface, path_case, under_a_map};
-use super::{first_is_matte, is_lit, is_mirror, rooms};
+use super::super::rooms::{PathCase, block, path_case, under_a_map};
+use super::{first_is_matte, is_glass, is_light_from_behind, is_lit, is_mirror, rooms};
 use crate::items::Declaration;
 use crate::oracle::light::Numbers64;
 use crate::oracle::light::quad::Material64;
 use crate::oracle::light::room::{Room, Surface64};
+use crate::oracle::light::transport::next_surface;
 use crate::seed::Rng;
 
 /// The number of calls of each kind in a question.
@@ -29,13 +30,17 @@ pub(super) const MAP: Declaration = Declaration {
         "After a matte surface, `direct` has already counted it.",
     ],
     questions: |rng| {
-        let has_lights = [true, false].into_iter();
-        let questions = has_lights.flat_map(|has_lights| {
+        let questions = [2, 0].into_iter().flat_map(|lights| {
             rooms(
                 rng,
                 |rng| {
                     let reflectance = color(rng);
-                    under_a_map(rng, Material64::Mirror { reflectance }, has_lights)
+                    let mirror = Material64::Mirror { reflectance };
+                    let room = under_a_map(rng, mirror, lights);
+                    let mut quads = room.quads().to_vec();
+                    let glass = Material64::Glass { ior: 1.5 };
+                    quads.extend(block(dvec3(1.3, -1.0, 0.9), dvec3(0.6, 0.6, 0.6), glass));
+                    Room::new(quads, room.sources().environment.clone())
                 },
                 |rng, room| {
                     let escapes = |first: Option<&Surface64>, numbers: &[Numbers64]| {
@@ -54,6 +59,19 @@ pub(super) const MAP: Declaration = Declaration {
                     cases.extend(self::cases(rng, room, 2, |surface, numbers, light| {
                         first_is_matte(surface, numbers, light) && escapes(surface, numbers)
                     }));
+                    // Glass shows it, too.
+                    cases.extend(self::cases(rng, room, 2, |surface, _, light| {
+                        surface.is_some_and(is_glass) && is_lit(light)
+                    }));
+                    if lights > 0 {
+                        let sides: [fn(&Surface64) -> bool; 2] =
+                            [|it| is_lit(it.emitted), is_light_from_behind];
+                        for is_seen in sides {
+                            cases.extend(self::cases(rng, room, 1, |surface, _, _| {
+                                surface.is_some_and(is_seen)
+                            }));
+                        }
+                    }
                     cases
                 },
             )

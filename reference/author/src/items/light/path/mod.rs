@@ -9,12 +9,12 @@ use protocol::light::LightQuestion;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
 use super::rooms::{
-    self, DARK, PathCase, block, emitter, matte, panel, path_case, path_case_along, sky, subject,
-    walls,
+    DARK, PathCase, block, emitter, matte, panel, path_case, path_case_along, sky, subject, walls,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
 use crate::oracle::Ray64;
+use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
 use crate::oracle::light::{Numbers64, transport as oracle};
@@ -66,16 +66,27 @@ const SEEN: Declaration = Declaration {
          the environment if the ray hits nothing.",
     ],
     questions: |rng| {
-        rooms(rng, bright, |rng, room| {
-            let mut cases = cases(rng, room, 0, |surface, _, _| surface.is_none());
-            cases.extend(self::cases(rng, room, 0, |surface, _, light| {
-                surface.is_some() && is_lit(light)
-            }));
-            cases.extend(self::cases(rng, room, 0, |surface, _, light| {
-                surface.is_some() && !is_lit(light)
-            }));
-            cases
-        })
+        let mut environments = [sky(rng), DARK].into_iter();
+        rooms(
+            rng,
+            |rng| {
+                let environment = environments.next().unwrap_or(DARK);
+                bright(rng, environment)
+            },
+            |rng, room| {
+                let mut cases = cases(rng, room, 0, |surface, _, _| surface.is_none());
+                cases.extend(self::cases(rng, room, 0, |surface, _, light| {
+                    surface.is_some() && is_lit(light)
+                }));
+                cases.extend(self::cases(rng, room, 0, |surface, _, light| {
+                    surface.is_some() && !is_lit(light)
+                }));
+                cases.extend(self::cases(rng, room, 0, |surface, _, _| {
+                    surface.is_some_and(is_light_from_behind)
+                }));
+                cases
+            },
+        )
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -92,7 +103,16 @@ const ONE_BOUNCE: Declaration = Declaration {
         "Bounce 0 is at the first surface.",
         "Both use the random numbers `sampler.numbers(bounce)`.",
     ],
-    questions: |rng| rooms(rng, bright, |rng, room| cases(rng, room, 1, lit)),
+    questions: |rng| {
+        rooms(
+            rng,
+            |rng| {
+                let sky = sky(rng);
+                bright(rng, sky)
+            },
+            |rng, room| cases(rng, room, 1, lit),
+        )
+    },
     needs: NEEDS,
     ..Declaration::ALONE
 };
@@ -241,7 +261,7 @@ const MIRROR: Declaration = Declaration {
          only if …",
     ],
     questions: |rng| {
-        rooms(
+        let mut questions = rooms(
             rng,
             |rng| {
                 let mirror = Material64::Mirror {
@@ -282,7 +302,22 @@ const MIRROR: Declaration = Declaration {
                 }
                 cases
             },
-        )
+        );
+        // From behind, a light is black, also after a mirror, glass or a matte surface.
+        let room = with_backs_of_lights(rng);
+        let kinds: [fn(&Surface64) -> bool; 3] = [|it| is_mirror(Some(it)), is_glass, is_matte];
+        let cases = kinds.into_iter().flat_map(|is_kind| {
+            let wanted = |first: Option<&Surface64>, numbers: &[Numbers64], _| {
+                let first = first.filter(|first| is_kind(first));
+                let second = first.and_then(|it| oracle::next_surface(&room, it, &numbers[0]));
+                second.as_ref().is_some_and(is_light_from_behind)
+            };
+            let case = |_| path_case(rng, &room, 3, wanted);
+            (0..CALLS / 4).map(case).collect::<Vec<PathCase>>()
+        });
+        let cases = cases.collect();
+        questions.push(question(&room, cases));
+        questions
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -300,10 +335,14 @@ const GLASS: Declaration = Declaration {
          only if …",
     ],
     questions: |rng| {
+        let mut environments = [sky(rng), DARK].into_iter();
         rooms(
             rng,
             |rng| {
+                let environment = environments.next().unwrap_or(DARK);
+                // Without one of the walls, glass shows the environment.
                 let mut quads = walls(HALF, || matte(rng));
+                quads.pop();
                 let ior = rng.uniform(1.3, 1.8);
                 let center = rng.point(0.5);
                 quads.extend(block(
@@ -319,7 +358,7 @@ const GLASS: Declaration = Declaration {
                     dvec3(1.5, 0.0, 1.5),
                     light,
                 ));
-                Room::new(quads, DARK)
+                Room::new(quads, environment)
             },
             |rng, room| {
                 let mut cases = Vec::new();
@@ -333,6 +372,10 @@ const GLASS: Declaration = Declaration {
                         surface.is_some_and(is_inside) && is_lit(light)
                     }));
                 }
+                cases.extend(self::cases(rng, room, 3, |surface, numbers, _| {
+                    let first = surface.filter(|surface| is_glass(surface));
+                    first.is_some_and(|it| oracle::next_surface(room, it, &numbers[0]).is_none())
+                }));
                 cases
             },
         )
@@ -367,7 +410,7 @@ const ROULETTE: Declaration = Declaration {
             for (is_kind, survives) in kinds.into_iter().flat_map(|it| [(it, true), (it, false)]) {
                 cases.extend((0..CALLS / 2).map(|_| {
                     path_case_along(rng, room, 7, |ray, numbers, light| {
-                        let surfaces = rooms::surfaces(room, ray, &numbers[..3]);
+                        let surfaces = oracle::surfaces(room, ray, &numbers[..3]);
                         surfaces.get(3).is_some_and(is_kind)
                             && decides(room, ray, numbers, light, survives)
                     })
@@ -445,8 +488,15 @@ fn lit(_: Option<&Surface64>, _: &[Numbers64], light: DVec3) -> bool {
 }
 
 fn first_is_matte(surface: Option<&Surface64>, _: &[Numbers64], light: DVec3) -> bool {
-    let is_matte = |surface: &Surface64| matches!(surface.material, Material64::Lambertian { .. });
     surface.is_some_and(is_matte) && is_lit(light)
+}
+
+fn is_matte(surface: &Surface64) -> bool {
+    matches!(surface.material, Material64::Lambertian { .. })
+}
+
+fn is_light_from_behind(surface: &Surface64) -> bool {
+    matches!(surface.material, Material64::Emitter { .. }) && surface.emitted == DVec3::ZERO
 }
 
 /// Returns whether a path that starts at a surface hits a light after these surfaces. For each of
@@ -454,7 +504,7 @@ fn first_is_matte(surface: Option<&Surface64>, _: &[Numbers64], light: DVec3) ->
 fn leads_to_light(room: &Room, first: &Surface64, numbers: &[Numbers64], kinds: &[bool]) -> bool {
     let mut surface = *first;
     for (kind, numbers) in kinds.iter().zip(numbers) {
-        let next = rooms::next_surface(room, &surface, numbers);
+        let next = oracle::next_surface(room, &surface, numbers);
         let Some(next) = next.filter(|_| is_mirror(Some(&surface)) == *kind) else {
             return false;
         };
@@ -509,7 +559,7 @@ fn decides(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3, surviv
 }
 
 /// Returns a room without a ceiling, with lights of which the back is seen, too.
-fn bright(rng: &mut Rng) -> Room {
+fn bright(rng: &mut Rng, environment: Environment64) -> Room {
     let mut quads: Vec<Quad> = walls(HALF, || matte(rng));
     quads.remove(3);
     for (axis, facing) in [(1, -1.0), (0, 1.0), (2, -1.0)] {
@@ -517,8 +567,7 @@ fn bright(rng: &mut Rng) -> Room {
         let light = emitter(rng);
         quads.push(panel(center, axis, facing, DVec3::splat(0.5), light));
     }
-    let sky = sky(rng);
-    Room::new(quads, sky)
+    Room::new(quads, environment)
 }
 
 /// Returns a closed room with bright walls and one light.
@@ -551,6 +600,19 @@ fn shiny(rng: &mut Rng) -> Room {
     };
     let mut quads = room.quads().to_vec();
     quads.extend(block(rng.point(0.4), dvec3(1.0, 0.8, 1.2), glass));
+    Room::new(quads, DARK)
+}
+
+/// Returns a closed room with mirrors, a glass block and lights of which the back is seen, too.
+fn with_backs_of_lights(rng: &mut Rng) -> Room {
+    let mut quads = shiny(rng).quads().to_vec();
+    for (axis, facing) in [(0, 1.0), (2, -1.0)] {
+        let mut center = DVec3::ZERO;
+        center[axis] = -1.6 * facing;
+        // The fronts face the nearest wall.
+        let light = emitter(rng);
+        quads.push(panel(center, axis, -facing, DVec3::splat(0.9), light));
+    }
     Room::new(quads, DARK)
 }
 
@@ -596,7 +658,7 @@ fn cases(
 /// Returns one question for each of two rooms.
 fn rooms(
     rng: &mut Rng,
-    room: impl Fn(&mut Rng) -> Room,
+    mut room: impl FnMut(&mut Rng) -> Room,
     cases: impl Fn(&mut Rng, &Room) -> Vec<PathCase>,
 ) -> Vec<ExamQuestion> {
     let question = |_| {

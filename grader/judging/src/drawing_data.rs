@@ -5,7 +5,7 @@
 //! it. It isn't judged and isn't sent to the probe.
 
 use glam::Vec3;
-use protocol::{Geometry, Interval, Question, Rows, packed};
+use protocol::{Geometry, Interval, LightQuestion, Question, Rows, packed};
 use serde::{Deserialize, Serialize};
 
 /// The intermediate steps that lead to the correct answers to one question.
@@ -23,6 +23,37 @@ pub enum DrawingData {
     Traversals(#[serde(with = "packed::text")] Vec<Vec<TraversalStep>>),
     /// Data for `Build` questions: the tree of the exact SAH sweep.
     Sweep(#[serde(with = "packed::text")] UpperLevels),
+    /// Data for tables of `radiance`: one correct path per ray.
+    Paths(#[serde(with = "packed::text")] Vec<Vec<PathStep>>),
+}
+
+/// One hit of a path. Steps are listed in order.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathStep {
+    /// What the path hits.
+    pub hit: PathHit,
+    /// Position of the hit in world space, or a point on the ray if it hits nothing.
+    pub position: Vec3,
+    /// The factor for light from here: the product of all earlier attenuations, divided by the
+    /// probabilities of survival.
+    pub throughput: Vec3,
+    /// The light that the path adds here, multiplied by the throughput.
+    pub light: Vec3,
+}
+
+/// What a path hits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum PathHit {
+    /// Nothing, so the path leaves the scene.
+    Nothing,
+    /// A matte surface.
+    Matte,
+    /// A mirror.
+    Mirror,
+    /// Glass.
+    Glass,
+    /// A light.
+    Light,
 }
 
 /// One node that a traversal reaches. Steps are listed in order.
@@ -77,7 +108,10 @@ impl DrawingData {
     pub fn is_none(&self) -> bool {
         match self {
             DrawingData::None => true,
-            DrawingData::Slabs(_) | DrawingData::Traversals(_) | DrawingData::Sweep(_) => false,
+            DrawingData::Slabs(_)
+            | DrawingData::Traversals(_)
+            | DrawingData::Sweep(_)
+            | DrawingData::Paths(_) => false,
         }
     }
 
@@ -117,9 +151,21 @@ impl DrawingData {
             (DrawingData::Sweep(sweep), Question::Build { shapes, .. }) => {
                 sweep.problem(shapes.len())
             }
-            (DrawingData::Slabs(_) | DrawingData::Traversals(_) | DrawingData::Sweep(_), _) => {
-                Some(OTHER_KIND.to_owned())
+            (DrawingData::Paths(paths), Question::Light(LightQuestion::Radiance(_))) => {
+                (paths.len() != count).then(|| {
+                    format!(
+                        "the drawing data has {} paths for {count} rays",
+                        paths.len()
+                    )
+                })
             }
+            (
+                DrawingData::Slabs(_)
+                | DrawingData::Traversals(_)
+                | DrawingData::Sweep(_)
+                | DrawingData::Paths(_),
+                _,
+            ) => Some(OTHER_KIND.to_owned()),
         }
     }
 }
@@ -142,7 +188,8 @@ impl UpperLevels {
 
 #[cfg(test)]
 mod tests {
-    use protocol::Ray;
+    use protocol::light::transport::{PathStart, Room};
+    use protocol::{Ray, Table};
 
     use super::*;
     use crate::tests::{boxes, sphere};
@@ -165,6 +212,19 @@ mod tests {
             shapes: vec![sphere(Vec3::ZERO, 1.0)],
             max_leaf_size: 1,
         }
+    }
+
+    fn radiance() -> Question {
+        let room = Room {
+            scene: String::new(),
+            map: None,
+        };
+        let start = PathStart {
+            ray: Ray::new(Vec3::ZERO, Vec3::X),
+            seed: 0,
+            bounces: 1,
+        };
+        LightQuestion::Radiance(Table::of_list(room, vec![start])).into()
     }
 
     fn sweep(node: LevelNode, axis: u8) -> DrawingData {
@@ -192,6 +252,7 @@ mod tests {
         );
         assert_eq!(sweep(LEAF, 2).problem(&build()), None);
         assert_eq!(DrawingData::None.problem(&build()), None);
+        assert_eq!(DrawingData::Paths(vec![vec![]]).problem(&radiance()), None);
     }
 
     #[test]
@@ -228,6 +289,12 @@ mod tests {
             (sweep(many, 0), build(), "invalid node"),
             (sweep(not_finite, 0), build(), "NaN"),
             (sweep(LEAF, 3), build(), "axis 3"),
+            (DrawingData::Paths(vec![]), radiance(), "0 paths for 1 rays"),
+            (
+                DrawingData::Paths(vec![vec![]]),
+                build(),
+                "a different kind of question",
+            ),
         ];
         for (shown, question, text) in cases {
             let problem = shown.problem(&question).unwrap_or_default();

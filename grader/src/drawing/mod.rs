@@ -72,7 +72,10 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
             } => {
                 let steps = match &question.drawing_data {
                     DrawingData::Traversals(traversals) => traversals.get(element),
-                    DrawingData::None | DrawingData::Slabs(_) | DrawingData::Sweep(_) => None,
+                    DrawingData::None
+                    | DrawingData::Slabs(_)
+                    | DrawingData::Sweep(_)
+                    | DrawingData::Paths(_) => None,
                 };
                 let recorded = RecordedTraversal {
                     shapes,
@@ -106,14 +109,20 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
             },
             slabs: match &question.drawing_data {
                 DrawingData::Slabs(slabs) => slabs.get(element).copied(),
-                DrawingData::None | DrawingData::Traversals(_) | DrawingData::Sweep(_) => None,
+                DrawingData::None
+                | DrawingData::Traversals(_)
+                | DrawingData::Sweep(_)
+                | DrawingData::Paths(_) => None,
             },
         });
     }
     let criteria = TreeCriteria::of(question)?;
     let sweep = match &question.drawing_data {
         DrawingData::Sweep(sweep) => Some(sweep),
-        DrawingData::None | DrawingData::Slabs(_) | DrawingData::Traversals(_) => None,
+        DrawingData::None
+        | DrawingData::Slabs(_)
+        | DrawingData::Traversals(_)
+        | DrawingData::Paths(_) => None,
     };
     build::draw(&criteria, sweep, answer)
 }

@@ -54,6 +54,7 @@ fn visible_task(task: &TaskScore, items: &[ItemView]) -> TaskScore {
         max_points: task.max_points,
         items: items_shown_now(task, &of_task),
         method: task.method.clone(),
+        methods: task.methods.clone(),
         warnings: task
             .warnings
             .iter()
@@ -107,6 +108,7 @@ pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]
             symptom_clue: None,
             clue_section: None,
             symptom: None,
+            called: None,
             hints: item.hints.clone(),
             evidence: None,
             carried_forward: item.carried_forward,

@@ -11,6 +11,8 @@ use super::{HandedOut, TaskFile, starter_methods};
 pub struct TaskMethods {
     /// The methods' names, such as `Sphere::hit`, separated by commas.
     pub names: String,
+    /// Each method and the number of the line with its name, counted from 1.
+    pub lines: Vec<(&'static str, u32)>,
     /// The number of the line with the name of the first method that hasn't been changed, counted
     /// from 1. If all methods have been changed, it is the line of the first method.
     pub line: u32,
@@ -36,7 +38,8 @@ impl HandedOut {
             .task_file(info.file)
             .expect("every task has a task file");
         let mut fresh_text = text.to_owned();
-        let (mut first_line, mut first_unchanged_line) = (None, None);
+        let mut lines = Vec::new();
+        let mut first_unchanged_line = None;
         let mut is_changed = false;
         for path in info.methods {
             let handed_out = find_method(file.starter, path);
@@ -45,7 +48,7 @@ impl HandedOut {
             let span = find_method(text, path).map_err(|why| cannot_find(path, file, why))?;
             let before = text[..span.name_start].matches('\n').count();
             let line = u32::try_from(1 + before).unwrap_or(u32::MAX);
-            first_line.get_or_insert(line);
+            lines.push((*path, line));
             if tokens(&text[span.bytes]) == tokens(handed_out) {
                 first_unchanged_line.get_or_insert(line);
                 continue;
@@ -56,7 +59,10 @@ impl HandedOut {
         }
         Ok(TaskMethods {
             names: info.methods.join(", "),
-            line: first_unchanged_line.or(first_line).unwrap_or(1),
+            line: first_unchanged_line
+                .or(lines.first().map(|(_, line)| *line))
+                .unwrap_or(1),
+            lines,
             is_changed,
             fresh_text,
         })

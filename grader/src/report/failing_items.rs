@@ -29,7 +29,7 @@ pub(super) fn most_informative_first(task: &TaskScore) -> Vec<&ItemScore> {
 }
 
 /// Returns the item to fix first and its task: the most informative failing item of the first
-/// selected task with such an item. If the task's file doesn't compile and contains several tasks'
+/// selected task in which something can be fixed, which a blocked item can't. If the task's file doesn't compile and contains several tasks'
 /// methods, the task is the last one whose method starts above the compiler's first error.
 pub(super) fn first_to_fix(
     score: &Score,
@@ -37,7 +37,10 @@ pub(super) fn first_to_fix(
 ) -> Option<(&TaskScore, &ItemScore)> {
     let selected = || score.tasks.iter().filter(|task| is_selected(task));
     let with_item = |task| Some((task, *most_informative_first(task).first()?));
-    let first = selected().find_map(with_item)?;
+    let can_be_fixed = |found: &(_, &ItemScore)| found.1.verdict.kind() != VerdictKind::Blocked;
+    let with_items = || selected().filter_map(with_item);
+    let first = with_items().find(can_be_fixed);
+    let first = first.or_else(|| with_items().next())?;
     if first.1.verdict.kind() != VerdictKind::NotCompiled {
         return Some(first);
     }

@@ -6,12 +6,13 @@ use judging::section::Section;
 
 use crate::build::RESTORE_LABEL;
 use crate::build::compiler_help::SECTION_LABEL;
+use crate::handed_out::ASSIGNMENTS;
 use crate::inputs::task_selection::TaskSelection;
 use crate::machine::printing::wrap;
 use crate::report::failing_items::first_to_fix;
 use crate::report::text::{HintDetail, MAX_WARNINGS, joined_hints};
 use crate::sandbox::Isolation;
-use crate::score::{Score, TaskScore, Verdict, VerdictKind};
+use crate::score::{CodeLocation, Score, TaskScore, Verdict, VerdictKind};
 
 /// The width of the text to the right of the labels.
 const TEXT_WIDTH: usize = 70;
@@ -27,7 +28,7 @@ pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignme
     let is_complete = |task: &TaskScore| task.points == task.max_points;
     let tasks = score.tasks.iter();
     let mut selected = tasks.filter(|task| selection.includes(task.id));
-    if !selection.is_all() && !selected.clone().any(is_complete) {
+    if !selection.is_all() && !selected.any(is_complete) {
         return String::new();
     }
     let not_compiled = &score.build.not_compiled;
@@ -35,8 +36,9 @@ pub fn next_step(score: &Score, selection: &TaskSelection, assignment: &Assignme
         let step = compile_step(score, &report.file, &report.message);
         return row(step.lines().next().unwrap_or_default());
     }
-    match selected.find(|task| !is_complete(task)) {
-        Some(task) => row(&title_and_chapter(task)),
+    let is_selected = |task: &TaskScore| selection.includes(task.id);
+    match first_to_fix(score, is_selected) {
+        Some((task, _)) => row(&title_and_chapter(task)),
         // The tasks that were not selected were not graded.
         None if !selection.is_all() => row("`cargo grade` shows what the other tasks need"),
         None => row(&after_all_points(assignment)),
@@ -55,26 +57,39 @@ pub fn first_step(
         return labelled(notes(score)) + &row(&after_all_points(assignment));
     };
     let info = assignment.info(task.id);
-    let method = match &item.at {
+    let place = match &item.at {
         Some(at) => format!("{}:{}", at.file, at.line),
-        None => task.method.clone(),
+        None => place_of_method(task, item.called, info.file),
     };
     let step = match item.verdict.kind() {
-        VerdictKind::Unwritten => format!("write {} in {method}", info.method_names("and")),
+        VerdictKind::Unwritten => {
+            let unwritten = item
+                .at
+                .as_ref()
+                .and_then(|at| method_at(score, assignment, at));
+            let names = unwritten.unwrap_or_else(|| info.method_names("and"));
+            format!("write {names} in {place}")
+        }
         VerdictKind::NotCompiled => compile_step(score, info.file, &item.message),
         VerdictKind::Blocked => format!("{} {}", item.id, item.message),
         VerdictKind::Passed
         | VerdictKind::Failed
         | VerdictKind::NoAnswer
-        | VerdictKind::Pending => format!("fix {} in {method}", info.method_names("or")),
+        | VerdictKind::Pending => {
+            let called = item.called.map(|called| info.method_name(called));
+            let names = called.unwrap_or_else(|| info.method_names("or"));
+            format!("fix {names} in {place}")
+        }
     };
     let what = format!("{}: {}", item.id, item.message);
     // What is wrong can be something other than the item's title says, such as a miss instead of a
     // wrong normal.
     let title = (item.verdict.kind() == VerdictKind::Failed).then(|| item.title.clone());
-    // The step for a file that doesn't compile already names a section.
+    // The step for a file that doesn't compile already names a section, and the mistake behind a
+    // blocked item isn't in this task.
+    let has_section = !matches!(item.verdict, Verdict::NotCompiled | Verdict::Blocked { .. });
     let read = item.where_to_read().or(task.chapter.as_ref());
-    let read = read.filter(|_| item.verdict != Verdict::NotCompiled);
+    let read = read.filter(|_| has_section);
     let hint = (!item.hints.is_empty()).then(|| joined_hints(&item.hints, hints));
     let rows = [
         ("next", Some(step)),
@@ -92,6 +107,32 @@ pub fn first_step(
     let warnings = task.relevant_warnings().iter().take(MAX_WARNINGS);
     let warnings = warnings.map(|warning| ("warning", warning.clone()));
     format!("\n{}", labelled(rows.chain(notes(score)).chain(warnings)))
+}
+
+/// Returns the file and the line of a task's method or, if it isn't known, of the task's first
+/// method that isn't written yet.
+fn place_of_method(task: &TaskScore, called: Option<&str>, file: &str) -> String {
+    let mut methods = task.methods.iter();
+    match methods.find(|(method, _)| Some(*method) == called) {
+        Some((_, line)) => format!("{file}:{line}"),
+        None => task.method.clone(),
+    }
+}
+
+/// Returns the name of the method at this place: the last one that begins above it.
+fn method_at(score: &Score, assignment: &Assignment, at: &CodeLocation) -> Option<String> {
+    let infos = score
+        .tasks
+        .iter()
+        .map(|task| (task, assignment.info(task.id)));
+    let in_file = infos.filter(|(_, info)| info.file == at.file);
+    let methods = in_file.flat_map(|(task, info)| {
+        let methods = task.methods.iter();
+        methods.map(move |(method, line)| (info, *method, *line))
+    });
+    let above = methods.filter(|(_, _, line)| *line <= at.line);
+    let (info, method, _) = above.max_by_key(|(_, _, line)| *line)?;
+    Some(info.method_name(method))
 }
 
 /// Returns the notes on the submission's files, with a label.
@@ -153,11 +194,24 @@ fn after_all_points(assignment: &Assignment) -> String {
     let challenge = assignment
         .challenge
         .map(|section| Section::new(section).location());
-    let steps: Vec<String> = picture.into_iter().chain(challenge).collect();
+    let steps = picture.into_iter().chain(challenge);
+    let steps: Vec<String> = steps.chain(next_assignment(assignment)).collect();
     match steps.len() {
         0 => "`cargo handin` packs the files that you hand in".to_owned(),
         _ => steps.join("\n"),
     }
+}
+
+/// Says where the assignment after this one begins, if there is one.
+fn next_assignment(assignment: &Assignment) -> Option<String> {
+    let mut all = ASSIGNMENTS.iter().map(|handed_out| handed_out.assignment);
+    all.find(|other| other.id == assignment.id)?;
+    let next = all.next()?;
+    let chapter = Section::new(next.tasks.first()?.chapter).location();
+    Some(format!(
+        "the next assignment, \"{}\", begins in {chapter}",
+        next.title
+    ))
 }
 
 fn row(text: &str) -> String {

@@ -90,10 +90,12 @@ impl<'a> TaskSession<'a> {
     }
 
     /// Runs one item. Returns its outcome and its answers, if any. The time this takes is deducted
-    /// from the allowance.
+    /// from the allowance. If the item depends on a failed item of another task, wrong answers say
+    /// nothing about the mistakes in this task.
     pub fn ask(
         &mut self,
         item: &Item,
+        depends_on_failed: bool,
         allowance: &mut Allowance,
     ) -> io::Result<(ItemOutcome<'static>, Vec<Answer>)> {
         let Some(launcher) = self.launcher.clone() else {
@@ -117,7 +119,6 @@ impl<'a> TaskSession<'a> {
         match answered {
             Ok(answers) => {
                 self.probe = Some(probe);
-                self.observations.record(item, Ok(&answers));
                 let judgements = item.questions.iter().zip(&answers);
                 let judgements = judgements.map(|(question, answer)| judge(question, answer));
                 let judgements: Vec<Judgement> = judgements.collect();
@@ -131,6 +132,9 @@ impl<'a> TaskSession<'a> {
                 };
                 if outcome.is_pass() {
                     allowance.passed(used.cpu);
+                }
+                if outcome.is_pass() || !depends_on_failed {
+                    self.observations.record(item, Ok(&answers));
                 }
                 Ok((outcome, answers))
             }
@@ -147,8 +151,10 @@ impl<'a> TaskSession<'a> {
                 let culprit = Culprit::find(&launcher, item)?;
                 allowance.spend(culprit.used);
                 self.keep_output(probe);
-                self.observations
-                    .record(item, Err(fault.no_answer_reason()));
+                if !depends_on_failed {
+                    self.observations
+                        .record(item, Err(fault.no_answer_reason()));
+                }
                 let outcome = ItemOutcome::Fault {
                     fault,
                     culprit: culprit.position,

@@ -85,7 +85,7 @@ impl<'a> TaskSessions<'a> {
                 Vec::new(),
             )
         } else {
-            self.own.ask(item, allowance)?
+            self.own.ask(item, blocking.is_some(), allowance)?
         };
         match blocking {
             Some(_) => self.has_blocked_fault |= matches!(outcome, ItemOutcome::Fault { .. }),
@@ -116,7 +116,7 @@ impl<'a> TaskSessions<'a> {
                 let substituted = self
                     .substituted
                     .get_or_insert_with(|| TaskSession::new(self.build, Some(program)));
-                let (outcome, answers) = substituted.ask(item, allowance)?;
+                let (outcome, answers) = substituted.ask(item, false, allowance)?;
                 substituted.count_fault(&outcome);
                 let substituted_item = item_score(item, &outcome, handed_out);
                 Ok((substituted_score(by, &line, substituted_item), answers))

@@ -91,6 +91,10 @@ pub struct TaskScore {
     /// not found. Used for advice. Not stored in the file.
     #[serde(skip)]
     pub method: String,
+    /// The task's methods that were found, each with its line. Used for advice. Not stored in the
+    /// file.
+    #[serde(skip)]
+    pub methods: Vec<(&'static str, u32)>,
     /// The compiler's warnings about the task's file, one line each. Not stored in the file.
     #[serde(skip)]
     pub warnings: Vec<String>,
@@ -140,6 +144,10 @@ pub struct ItemScore {
     /// item's message names it.
     #[serde(skip)]
     pub symptom: Option<Symptom>,
+    /// The method of the task that gave the first wrong answer, or that gave none. Used for advice. Not
+    /// stored in the file.
+    #[serde(skip)]
+    pub called: Option<&'static str>,
     /// For students: hints for the recognised mistake, or for several mistakes that give the same
     /// answers.
     pub hints: Vec<Hint>,
@@ -370,6 +378,7 @@ impl ItemScore {
             symptom_clue: None,
             clue_section: None,
             symptom: None,
+            called: None,
             hints: Vec::new(),
             evidence: None,
             carried_forward: false,

@@ -15,10 +15,14 @@ pub const KEPT_STATE: &str = "Your code answers the same question correctly in i
 pub const UNKNOWN_PANIC: &str = "What does that line require? For the question shown, work out \
                                  which value doesn't meet the requirement.";
 
-/// Returns the clue for an item without an answer.
-pub fn of_fault(fault: &Fault, task: &TaskInfo) -> String {
+/// Returns the clue for an item without an answer. `called` is the method that gave none, if it is
+/// known.
+pub fn of_fault(fault: &Fault, called: Option<&str>, task: &TaskInfo) -> String {
     let TaskInfo { file, clues, .. } = task;
-    let method = task.method_names("or");
+    let method = match called {
+        Some(called) => task.method_name(called),
+        None => task.method_names("or"),
+    };
     match fault {
         Fault::TimedOut(TimeLimit::Waiting) => format!(
             "Find out what {method} in {file} is waiting for: a sleep, a lock, a channel, or \
@@ -147,7 +151,7 @@ mod tests {
     fn a_stack_overflow_in_a_build_leads_to_the_split() {
         let clue = |task: &str| {
             let task = RAYS.assignment.find(task).unwrap();
-            of_fault(&Fault::Crashed(Crash::StackOverflow), task)
+            of_fault(&Fault::Crashed(Crash::StackOverflow), None, task)
         };
         let build = clue("build");
         assert!(build.contains("one side of its split is empty"), "{build}");

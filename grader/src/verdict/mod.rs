@@ -6,7 +6,7 @@ pub mod item_outcome;
 
 use judging::assignment::{Task, TaskInfo};
 use judging::describe;
-use judging::exam::{Exam, Item};
+use judging::exam::{Exam, ExamQuestion, Item};
 use judging::exam_file::ExamName;
 use judging::judge::{Credit, Failure, FailureKind, Judgement};
 use judging::sanitize::sanitize;
@@ -55,6 +55,7 @@ pub fn pending_score(
             max_points: items.iter().map(|item| item.max_points).sum(),
             items,
             method: handed_out.assignment.info(task).file.to_owned(),
+            methods: Vec::new(),
             warnings: Vec::new(),
             printed: None,
         }
@@ -96,7 +97,8 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
             score.verdict = verdict_of(fault);
             score.message = fault.to_string();
             let info = handed_out.assignment.info(item.task);
-            score.clue = Some(clue::of_fault(fault, info));
+            score.called = called_by_all(item, *culprit, info);
+            score.clue = Some(clue::of_fault(fault, score.called, info));
             score.section = item.section.clone();
             if matches!(fault, Fault::Crashed(Crash::StackOverflow)) {
                 let section = info.clues.section_if_stack_overflows.map(Section::new);
@@ -227,6 +229,8 @@ fn score_answers(
         score.verdict = Verdict::Protocol;
         return;
     };
+    let info = handed_out.assignment.info(item.task);
+    score.called = info.called_by(&item.questions[question].question);
     let partial = |verdict| match score.points {
         0 => verdict,
         _ => Verdict::Partial,
@@ -279,9 +283,7 @@ fn score_answers(
             score.at = CodeLocation::from_panic(&panic.location, handed_out);
             let unknown = score.at.is_some().then_some(clue::UNKNOWN_PANIC);
             score.clue = clue::of_panic(message).or(unknown).map(str::to_owned);
-            if score.clue.is_some()
-                && !explains_crashes(item, handed_out.assignment.info(item.task))
-            {
+            if score.clue.is_some() && !explains_crashes(item, info) {
                 // The item's advice is about wrong answers.
                 score.section = chapter(item, handed_out);
             }
@@ -300,6 +302,24 @@ fn score_answers(
         evidence.asked = describe::all_elements(&item.questions[question].question);
     }
     score.evidence = Some(evidence);
+}
+
+/// Returns the method that the culprit calls or, if there is none, the one that all questions of the
+/// item call.
+fn called_by_all(
+    item: &Item,
+    culprit: Option<(usize, usize)>,
+    info: &TaskInfo,
+) -> Option<&'static str> {
+    let called = |question: &ExamQuestion| info.called_by(&question.question);
+    if let Some((question, _)) = culprit {
+        return called(item.questions.get(question)?);
+    }
+    let first = called(item.questions.first()?)?;
+    let mut questions = item.questions.iter();
+    questions
+        .all(|question| called(question) == Some(first))
+        .then_some(first)
 }
 
 /// Returns the name of the library that a panic's location is in, or `None` if it is in the

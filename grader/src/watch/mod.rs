@@ -111,6 +111,7 @@ fn run_exams(
         let pending = std::mem::replace(&mut shown.tasks, last.tasks.clone());
         for (task, pending) in shown.tasks.iter_mut().zip(pending) {
             task.method = pending.method;
+            task.methods = pending.methods;
             task.warnings = pending.warnings;
         }
         shown.update_totals();

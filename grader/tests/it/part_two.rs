@@ -57,3 +57,23 @@ fn a_panic_an_endless_path_and_nonsense_are_named() {
     ];
     assert_snapshot!(reports.join("\n\n"));
 }
+
+/// Returns the reference without the last task, as in the middle of a student's work.
+fn without_the_last_task() -> Submission {
+    let last = LIGHT.task_file("environment.rs").expect("a task file");
+    Submission::reference_of("evening", &LIGHT).with(last.name, last.starter)
+}
+
+#[test]
+fn what_is_not_written_yet_hides_neither_a_hint_nor_the_next_step() {
+    let half = ["direct.rs", "light += value *", "light += 0.5 * value *"];
+    let counted_twice = ["path.rs", "= scattered.pdf.is_none();", "= true;"];
+    let wrong = [half, counted_twice];
+    let wrong = wrong.map(|[file, was, now]| without_the_last_task().with_replaced(file, was, now));
+    let [direct, path] = wrong;
+    let steps = [direct, path, without_the_last_task()].map(|submission| {
+        let graded = submission.grade_with(&["--next", "--hints"]);
+        graded.report()
+    });
+    assert_snapshot!(steps.join("\n"));
+}

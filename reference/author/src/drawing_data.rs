@@ -3,9 +3,12 @@
 
 use judging::drawing_data::{DrawingData, TraversalStep};
 use judging::exam::Exam;
-use protocol::{Interval, Question, Ray, Rows};
+use protocol::{Interval, LightQuestion, Question, Ray, Rows};
 
 use crate::oracle::bbox::Bounds;
+use crate::oracle::light::numbers_of_path;
+use crate::oracle::light::path_steps::path_steps;
+use crate::oracle::light::room::Room;
 use crate::oracle::{Ray64, scan, sweep};
 use crate::tree::Tree;
 use crate::tree::traversal::{Traversal, TraversalRule};
@@ -50,6 +53,15 @@ fn drawing_data(question: &Question) -> DrawingData {
     {
         let boxes: Vec<Bounds> = shapes.iter().map(scan::bounds).collect();
         return DrawingData::Sweep(sweep::upper_levels(&boxes, *max_leaf_size as usize));
+    }
+    if let Question::Light(LightQuestion::Radiance(table)) = question {
+        let room = Room::in_question(&table.subject);
+        let calls = table.rows.to_vec();
+        let paths = calls.iter().map(|call| {
+            let numbers = numbers_of_path(call);
+            path_steps(&room, &Ray64::from(&call.ray), &numbers)
+        });
+        return DrawingData::Paths(paths.collect());
     }
     DrawingData::None
 }

@@ -107,6 +107,15 @@ impl Answer {
         self.table().map(AnyRows::result_text)
     }
 
+    /// Returns whether a row of a table, or the tree, is missing because of a `todo!`.
+    pub fn is_unwritten(&self) -> bool {
+        if let Answer::Tree(outcome) = self {
+            return outcome.is_unwritten();
+        }
+        let mut rows = self.rows().into_iter().flatten();
+        rows.any(|row| row.is_unwritten())
+    }
+
     /// Returns the answer for one row of a table, or `None` if it is missing. Any other answer is
     /// returned unchanged.
     pub fn single(&self, row: usize) -> Option<Answer> {
@@ -134,6 +143,14 @@ impl<T> ElementOutcome<T> {
         match self {
             ElementOutcome::Value(value) => Some(value),
             ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
+        }
+    }
+
+    /// Returns whether the code isn't written yet.
+    pub fn is_unwritten(&self) -> bool {
+        match self {
+            ElementOutcome::Panicked(panic) => panic.is_unimplemented(),
+            ElementOutcome::Value(_) | ElementOutcome::Skipped => false,
         }
     }
 

@@ -7,6 +7,7 @@ mod rays;
 use std::fmt;
 
 use arrayvec::ArrayString;
+use protocol::Question;
 use serde::{Deserialize, Serialize};
 
 use crate::symptom::Symptom;
@@ -167,19 +168,32 @@ impl Assignment {
 }
 
 impl TaskInfo {
-    /// Returns the names of the methods as a list for use in a sentence, such as `` `evaluate`, `pdf`
-    /// and `scatter` ``, with `and` as the conjunction.
+    /// Returns the names of the methods as a list for use in a sentence, such as `` `Lights::sample`
+    /// and `Lights::pdf` ``, with `and` as the conjunction.
     pub fn method_names(&self, conjunction: &str) -> String {
-        let names = self.methods.iter().map(|path| {
-            let (_, name) = path.rsplit_once("::").unwrap_or(("", path));
-            format!("`{name}`")
-        });
+        let names = self.methods.iter().map(|path| self.method_name(path));
         let names: Vec<String> = names.collect();
         match names.split_last() {
             Some((last, [])) => last.clone(),
             Some((last, others)) => format!("{} {conjunction} {last}", others.join(", ")),
             None => String::new(),
         }
+    }
+
+    /// Returns the name of one of the methods for use in a sentence. If the task has only one method,
+    /// its type is left out.
+    pub fn method_name(&self, path: &str) -> String {
+        match (self.methods, path.rsplit_once("::")) {
+            ([_], Some((_, name))) => format!("`{name}`"),
+            _ => format!("`{path}`"),
+        }
+    }
+
+    /// Returns the method that a question calls, if it is one of the task's.
+    pub fn called_by(&self, question: &Question) -> Option<&'static str> {
+        let table = question.table()?;
+        let mut methods = self.methods.iter().copied();
+        methods.find(|method| *method == table.name())
     }
 
     /// Returns the task's id.

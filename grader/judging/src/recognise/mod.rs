@@ -43,9 +43,13 @@ pub struct Observations {
 }
 
 impl Observations {
-    /// Records the answers to an item, or the reason that they are missing.
+    /// Records the answers to an item, or the reason that they are missing. Answers of code that
+    /// isn't written yet say nothing about the code that is, so the item is left out.
     pub fn record(&mut self, item: &Item, answers: Result<&[Answer], NoAnswerReason>) {
         if let Ok(answers) = answers {
+            if answers.iter().any(Answer::is_unwritten) {
+                return;
+            }
             self.items_to_hit += usize::from(can_be_hit(item));
             self.has_other_than_miss |= answers.iter().any(has_other_than_miss);
         }

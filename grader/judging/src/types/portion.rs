@@ -86,6 +86,10 @@ pub(super) fn in_tolerances(numbers: &[f32]) -> Vec<f32> {
     /// Anything smaller is treated as zero.
     const SMALLEST: f32 = 1e-30;
     let steps = |number: &f32| {
+        // `max` ignores NaN, which isn't zero.
+        if number.is_nan() {
+            return f32::NAN;
+        }
         let logarithm = (number.abs() / SMALLEST).max(1.0).ln();
         logarithm.copysign(*number) / TOLERANCE as f32
     };
@@ -115,6 +119,13 @@ mod tests {
         ] {
             assert_eq!(error(got, wanted), f64::INFINITY, "{got:?}, {wanted:?}");
         }
+    }
+
+    #[test]
+    fn nan_is_observed_as_itself() {
+        let observed = in_tolerances(&[f32::NAN, 0.0, f32::INFINITY]);
+        assert!(observed[0].is_nan());
+        assert_eq!(observed[1..], [0.0, f32::INFINITY]);
     }
 
     #[test]

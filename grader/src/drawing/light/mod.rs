@@ -1,13 +1,15 @@
 //! Draws the questions of part two: directions at a surface, samples and densities seen from above,
-//! directions in an environment map, and lights seen from a point.
+//! directions in an environment map, lights seen from a point, and paths.
 
 mod disk;
 mod lights;
 mod map;
+mod path;
 mod row;
 mod spread;
 mod surface;
 
+use judging::drawing_data::DrawingData;
 use judging::exam::{ExamQuestion, Key};
 use protocol::Answer;
 use protocol::light::LightQuestion;
@@ -15,8 +17,8 @@ use protocol::light::LightQuestion;
 use super::Drawing;
 use row::RowComparison;
 
-/// Draws one row of a question about part two. Returns `None` for questions about whole scenes,
-/// where the exam stores only the light that arrives.
+/// Draws one row of a question about part two. Returns `None` for direct light, where the exam
+/// stores only the light that arrives.
 pub(super) fn draw(
     table: &LightQuestion,
     question: &ExamQuestion,
@@ -46,6 +48,12 @@ pub(super) fn draw(
         LightQuestion::AreaLightPdf(table) => lights::draw(&table.subject.lights, &comparison()?),
         LightQuestion::LightsSample(table) => lights::draw(&table.subject.lights, &comparison()?),
         LightQuestion::LightsPdf(table) => lights::draw(&table.subject.lights, &comparison()?),
-        LightQuestion::Direct(_) | LightQuestion::Radiance(_) => None,
+        LightQuestion::Radiance(table) => {
+            let DrawingData::Paths(paths) = &question.drawing_data else {
+                return None;
+            };
+            path::draw(&table.rows.get(row)?.ray, paths.get(row)?, &comparison()?)
+        }
+        LightQuestion::Direct(_) => None,
     }
 }

@@ -8,17 +8,18 @@
 use std::collections::BTreeSet;
 
 use author::authoring;
-use author::exams::assemble;
+use author::exams::{assemble, load_practice};
 use author::items::shares_a_question;
 use author::seed::Seed;
 use glam::Vec3;
 use judging::assignment::{Assignment, LIGHT, RAYS};
+use judging::drawing_data::DrawingData;
 use judging::exam::{Exam, ExpectedRows, Item, Key, TreeCheck};
 use judging::scene::{self, QuestionScene};
 use judging::symptom::{Side, Symptom};
 use protocol::{Question, Ray, Shape};
 
-use crate::harness::{SEEDS, exam_of};
+use crate::harness::{SEEDS, exam_of, root};
 
 /// Returns an exam of each assignment.
 fn exam_of_each() -> [(&'static Assignment, Exam); 2] {
@@ -271,4 +272,29 @@ fn a_final_exam_shares_no_question_with_the_practice_exam() {
             assert!(is_picture || !shares_a_question(item, other), "{}", item.id);
         }
     }
+}
+
+#[test]
+fn the_light_along_a_drawn_path_adds_up_to_its_key() {
+    let exam = load_practice(&root(), &authoring::LIGHT).expect("the exam is committed");
+    let mut checked = 0;
+    for asked in exam.items.iter().flat_map(|item| &item.questions) {
+        let DrawingData::Paths(paths) = &asked.drawing_data else {
+            continue;
+        };
+        let Key::Table {
+            rows: ExpectedRows::Colors(rows),
+            ..
+        } = &asked.key
+        else {
+            panic!("radiance is a colour");
+        };
+        for (steps, row) in paths.iter().zip(rows) {
+            let sum: Vec3 = steps.iter().map(|step| step.light).sum();
+            let tolerance = 1e-4 * row.value.max_element();
+            assert!(sum.abs_diff_eq(row.value, tolerance), "{steps:?}, {row:?}");
+            checked += 1;
+        }
+    }
+    assert!(checked > 0, "there are no paths in the exam");
 }

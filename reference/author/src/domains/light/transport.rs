@@ -4,14 +4,12 @@
 use std::rc::Rc;
 
 use glam::DVec3;
-use protocol::light::transport as functions;
 use protocol::light::transport::{DirectSample, PathStart};
 use protocol::{LightQuestion, Question, Ray};
 
 use crate::domains::fields::{OCTANTS, class_up_to, octant};
 use crate::domains::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::Ray64;
-use crate::oracle::light::environment::Map64;
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
@@ -79,7 +77,7 @@ fn direct_calls(question: &Question) -> Vec<DirectCall> {
     let Question::Light(LightQuestion::Direct(table)) = question else {
         return Vec::new();
     };
-    let room = read_room(&table.subject);
+    let room = Rc::new(Room::in_question(&table.subject));
     let rows = table.rows.to_vec();
     let calls = rows.iter().map(|input| DirectCall {
         surface: room.hit(&Ray64::from(&input.ray), None).value,
@@ -93,7 +91,7 @@ fn path_calls(question: &Question) -> Vec<PathCall> {
     let Question::Light(LightQuestion::Radiance(table)) = question else {
         return Vec::new();
     };
-    let room = read_room(&table.subject);
+    let room = Rc::new(Room::in_question(&table.subject));
     let rows = table.rows.to_vec();
     let calls = rows.iter().map(|input| PathCall {
         surfaces: oracle::surfaces(&room, &Ray64::from(&input.ray), &numbers_of_path(input)),
@@ -101,14 +99,6 @@ fn path_calls(question: &Question) -> Vec<PathCall> {
         input: *input,
     });
     calls.collect()
-}
-
-/// Reads the room of a question.
-fn read_room(subject: &functions::Room) -> Rc<Room> {
-    let map = subject.map.as_ref();
-    let map = map.map(|map| Map64::new(map.size, &map.pixels));
-    let room = Room::from_text(&subject.scene, map);
-    Rc::new(room.expect("rooms in questions are written by `Room::text`"))
 }
 
 /// A call with a ray in a room.

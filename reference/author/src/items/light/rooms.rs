@@ -14,6 +14,9 @@ use crate::oracle::light::room::{Room, Surface64};
 use crate::oracle::light::{Numbers64, numbers_of_path, transport};
 use crate::seed::Rng;
 
+/// Half the size of most rooms.
+pub(super) const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
+
 /// A call of `direct` with its answer.
 pub(super) struct DirectCase {
     pub(super) call: DirectSample,
@@ -88,13 +91,23 @@ pub(super) fn tilted(rng: &mut Rng, center: DVec3, size: f64, material: Material
     Quad::new(center - 0.5 * (edges[0] + edges[1]), edges, material)
 }
 
+/// Returns a room that is open at +z, under a uniform sky. The ceiling is a light, so most directions
+/// soon find it or the sky.
+pub(super) fn with_shining_ceiling(rng: &mut Rng) -> Room {
+    let mut quads = walls(HALF, || matte(rng));
+    quads.pop();
+    let light = emitter(rng);
+    quads[3] = panel(HALF.y * DVec3::Y, 1, -1.0, HALF, light);
+    let sky = sky(rng);
+    Room::new(quads, sky)
+}
+
 /// Returns a room without a ceiling and without the wall at +z, under an environment map. `left` is
 /// the material of the wall at −x, whose frame isn't that of the world. `lights` is the number of
 /// lights above the floor, at most two.
 pub(super) fn under_a_map(rng: &mut Rng, left: Material64, lights: usize) -> Room {
-    let half = DVec3::new(2.5, 2.0, 3.0);
-    let all = walls(half, || matte(rng));
-    let left = panel(DVec3::new(-half.x, 0.0, 0.0), 0, 1.0, half, left);
+    let all = walls(HALF, || matte(rng));
+    let left = panel(DVec3::new(-HALF.x, 0.0, 0.0), 0, 1.0, HALF, left);
     let mut quads = vec![left, all[1], all[2], all[4]];
     let places = [DVec3::new(-0.5, 1.0, -0.4), DVec3::new(1.4, 0.2, -1.6)];
     for center in places.into_iter().take(lights) {
@@ -154,6 +167,11 @@ pub(super) fn subject(room: &Room) -> functions::Room {
         scene: room.text(),
         map,
     }
+}
+
+/// Returns whether light arrives.
+pub(super) fn is_lit(light: DVec3) -> bool {
+    light.max_element() > 1e-6
 }
 
 /// An environment without light.

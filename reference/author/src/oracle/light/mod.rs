@@ -15,6 +15,7 @@ pub mod frame;
 pub mod lambertian;
 pub mod light_sources;
 pub mod lights;
+pub mod path_steps;
 pub mod quad;
 pub mod room;
 mod scene_text;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+use protocol::light::transport;
 use serde::Deserialize;
 
 use super::environment::Map64;
@@ -54,9 +55,17 @@ impl Room {
         )
     }
 
+    /// Returns the room of a question.
+    pub fn in_question(subject: &transport::Room) -> Room {
+        let map = subject.map.as_ref();
+        let map = map.map(|map| Map64::new(map.size, &map.pixels));
+        let room = Room::from_text(&subject.scene, map);
+        room.expect("rooms in questions are written by `Room::text`")
+    }
+
     /// Reads a room from the text that [`Room::text`] returns. `map` is its environment map, if it
     /// has one.
-    pub fn from_text(text: &str, map: Option<Map64>) -> serde_json::Result<Room> {
+    fn from_text(text: &str, map: Option<Map64>) -> serde_json::Result<Room> {
         let scene: SceneText = serde_json::from_str(text)?;
         let quads = scene.shapes.iter().map(|shape| {
             let PolygonText { material, points } = &shape.polygon;

@@ -197,7 +197,11 @@ fn indirect(
 }
 
 /// Returns the probability with which a path survives a bounce, or `None` if it ends there.
-fn survival(throughput: DVec3, bounce: usize, numbers: &Numbers64) -> WithMargin<Option<f64>> {
+pub(super) fn survival(
+    throughput: DVec3,
+    bounce: usize,
+    numbers: &Numbers64,
+) -> WithMargin<Option<f64>> {
     if bounce < FIRST_ROULETTE {
         return WithMargin {
             value: Some(1.0),
@@ -212,7 +216,7 @@ fn survival(throughput: DVec3, bounce: usize, numbers: &Numbers64) -> WithMargin
 }
 
 /// Samples the continuation of a path at a surface. Returns `None` if the path ends there.
-fn scatter(surface: &Surface64, numbers: &Numbers64) -> Option<WithMargin<Scattered64>> {
+pub(super) fn scatter(surface: &Surface64, numbers: &Numbers64) -> Option<WithMargin<Scattered64>> {
     let out = surface.out;
     let (value, margin) = match surface.material {
         Material64::Lambertian { albedo } => {
@@ -254,7 +258,7 @@ pub fn next_surface(room: &Room, surface: &Surface64, numbers: &Numbers64) -> Op
 }
 
 /// Returns the ray from a point in a direction.
-fn ray(origin: DVec3, dir: DVec3) -> Ray64 {
+pub(super) fn ray(origin: DVec3, dir: DVec3) -> Ray64 {
     Ray64 {
         origin,
         dir,

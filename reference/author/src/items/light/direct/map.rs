@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::super::groups::{
     DIRECT_MAPS, LIGHT_DENSITIES, LIGHT_SAMPLES, MAPS, MATTE, MATTE_SAMPLES,
 };
-use super::super::rooms::{direct_case, matte, under_a_map};
-use super::{CALLS, LIT_AND_DARK, is_lit, rooms, scattered};
+use super::super::rooms::{direct_case, is_lit, matte, under_a_map};
+use super::{CALLS, LIT_AND_DARK, rooms, scattered};
 use crate::items::Declaration;
 use crate::oracle::Ray64;
 use crate::oracle::light::room::{Room, Surface64};

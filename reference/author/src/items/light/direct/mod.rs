@@ -9,7 +9,8 @@ use protocol::light::LightQuestion;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
 use super::rooms::{
-    DARK, DirectCase, direct_case, emitter, matte, panel, scaled, sky, subject, tilted, walls,
+    DARK, DirectCase, HALF, direct_case, emitter, is_lit, matte, panel, scaled, sky, subject,
+    tilted, walls, with_shining_ceiling,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
@@ -23,8 +24,6 @@ use crate::seed::Rng;
 const CALLS: usize = 10;
 /// The items of other tasks that direct light needs.
 const NEEDS: &[Group] = &[MATTE, MATTE_SAMPLES, LIGHT_SAMPLES, LIGHT_DENSITIES];
-/// Half the size of a closed room.
-const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
 
 /// The task `direct`.
 pub static TASK: AuthoredTask = AuthoredTask {
@@ -118,23 +117,11 @@ const BOTH: Declaration = Declaration {
          was sampled.",
     ],
     questions: |rng| {
-        rooms(
-            rng,
-            |rng| {
-                // The ceiling is a light, so most directions find it.
-                let mut quads = walls(HALF, || matte(rng));
-                quads.pop();
-                let light = emitter(rng);
-                quads[3] = panel(dvec3(0.0, HALF.y, 0.0), 1, -1.0, HALF, light);
-                let sky = sky(rng);
-                Room::new(quads, sky)
-            },
-            |rng, room| {
-                (0..2 * CALLS)
-                    .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
-                    .collect()
-            },
-        )
+        rooms(rng, with_shining_ceiling, |rng, room| {
+            (0..2 * CALLS)
+                .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
+                .collect()
+        })
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -372,10 +359,6 @@ fn is_blocked(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool {
         let is_above = surface.frame.to_local(direction).z > 0.0;
         is_above && !is_lit(oracle::emitted(room, surface, direction).value)
     })
-}
-
-fn is_lit(light: DVec3) -> bool {
-    light.max_element() > 1e-6
 }
 
 /// Cases that get light, and as many that get none if the room has any.

@@ -6,8 +6,8 @@ use super::super::color;
 use super::super::groups::{
     DIRECT, DIRECT_MAPS, LIGHT_DENSITIES, LIGHT_SAMPLES, MAPS, MATTE, MATTE_SAMPLES, SPECULAR,
 };
-use super::super::rooms::{PathCase, block, path_case, under_a_map};
-use super::{first_is_matte, is_glass, is_light_from_behind, is_lit, is_mirror, rooms};
+use super::super::rooms::{PathCase, block, is_lit, path_case, under_a_map};
+use super::{first_is_matte, is_glass, is_light_from_behind, is_mirror, rooms};
 use crate::items::Declaration;
 use crate::oracle::light::Numbers64;
 use crate::oracle::light::quad::Material64;

@@ -9,7 +9,8 @@ use protocol::light::LightQuestion;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
 use super::rooms::{
-    DARK, PathCase, block, emitter, matte, panel, path_case, path_case_along, sky, subject, walls,
+    DARK, HALF, PathCase, block, emitter, is_lit, matte, panel, path_case, path_case_along, sky,
+    subject, walls, with_shining_ceiling,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
@@ -31,8 +32,6 @@ const NEEDS: &[Group] = &[
     LIGHT_DENSITIES,
     DIRECT,
 ];
-/// Half the size of a closed room.
-const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
 
 /// The task `path`.
 pub static TASK: AuthoredTask = AuthoredTask {
@@ -165,23 +164,11 @@ const ONCE: Declaration = Declaration {
          than q, and its throughput is divided by q.",
     ],
     questions: |rng| {
-        rooms(
-            rng,
-            |rng| {
-                // Most paths soon hit the ceiling, which is a light, or the sky.
-                let mut quads = walls(HALF, || matte(rng));
-                quads.pop();
-                let light = emitter(rng);
-                quads[3] = panel(dvec3(0.0, HALF.y, 0.0), 1, -1.0, HALF, light);
-                let sky = sky(rng);
-                Room::new(quads, sky)
-            },
-            |rng, room| {
-                let mut cases = cases(rng, room, 2, first_is_matte);
-                cases.extend(self::cases(rng, room, 3, first_is_matte));
-                cases
-            },
-        )
+        rooms(rng, with_shining_ceiling, |rng, room| {
+            let mut cases = cases(rng, room, 2, first_is_matte);
+            cases.extend(self::cases(rng, room, 3, first_is_matte));
+            cases
+        })
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -478,10 +465,6 @@ const SIZES: Declaration = Declaration {
     needs: NEEDS,
     ..Declaration::ALONE
 };
-
-fn is_lit(light: DVec3) -> bool {
-    light.max_element() > 1e-6
-}
 
 fn lit(_: Option<&Surface64>, _: &[Numbers64], light: DVec3) -> bool {
     is_lit(light)

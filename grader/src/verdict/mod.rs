@@ -416,6 +416,7 @@ pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
         look: None,
         clue: None,
         symptom: None,
+        called: None,
         symptom_clue: None,
         section: None,
         clue_section: None,

@@ -1,7 +1,7 @@
 //! Draws a correct path in a room, with the throughput at each hit and the light that the path adds
 //! there. Students can print the same numbers in their own loop.
 
-use glam::{DVec2, DVec3, dvec2};
+use glam::{DVec2, DVec3, Vec3, dvec2};
 use judging::drawing_data::{PathHit, PathStep};
 use protocol::Ray;
 
@@ -43,7 +43,10 @@ pub(super) fn draw(ray: &Ray, steps: &[PathStep], row: &RowComparison) -> Option
             .text(label, Anchor::Start, Ink::Text, &number.to_string());
     }
     for (number, step) in (1..).zip(steps).take(MAX_DESCRIBED) {
-        sheet.add_legend(Symbol::None, &format!("{number}. {}", describe(step)));
+        let throughput = point(step.throughput.as_dvec3());
+        let text = format!("{number}. {}, throughput {throughput}", name(step.hit));
+        sheet.add_legend(Symbol::None, &text);
+        sheet.add_legend(Symbol::None, &format!("adds {}", light(step)));
     }
     if steps.len() > MAX_DESCRIBED {
         let count = steps.len() - MAX_DESCRIBED;
@@ -54,19 +57,20 @@ pub(super) fn draw(ray: &Ray, steps: &[PathStep], row: &RowComparison) -> Option
     Some(sheet.finish("A correct path, with its weights", row.caption()))
 }
 
-fn describe(step: &PathStep) -> String {
-    let hit = match step.hit {
-        PathHit::Nothing => "nothing",
+fn name(hit: PathHit) -> &'static str {
+    match hit {
+        PathHit::Nothing => "no hit",
         PathHit::Matte => "matte",
         PathHit::Mirror => "mirror",
         PathHit::Glass => "glass",
         PathHit::Light => "light",
-    };
-    let throughput = point(step.throughput.as_dvec3());
-    format!("{hit}: throughput {throughput}, adds {}", light(step))
+    }
 }
 
 fn light(step: &PathStep) -> String {
+    if step.light == Vec3::ZERO {
+        return "nothing".to_owned();
+    }
     point(step.light.as_dvec3())
 }
 

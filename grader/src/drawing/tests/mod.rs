@@ -239,12 +239,10 @@ fn draws_the_expected_result_without_an_answer() {
         drawing.iter().for_each(assert_well_formed);
         let is_expected = match &question.question {
             Question::SampleRay(_) | Question::Hit(_) | Question::BBoxHit(_) => true,
-            // Whole scenes aren't drawn, and how directions are spread is up to the submission.
+            // Direct light isn't drawn, and how directions are spread is up to the submission.
             Question::Light(table) => !matches!(
                 table,
-                LightQuestion::Direct(_)
-                    | LightQuestion::Radiance(_)
-                    | LightQuestion::UniformSphere(_)
+                LightQuestion::Direct(_) | LightQuestion::UniformSphere(_)
             ),
             Question::Build { .. } | Question::Radiance { .. } => false,
         };

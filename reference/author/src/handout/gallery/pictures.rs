@@ -13,6 +13,7 @@ use super::{Chapter, gallery};
 use crate::authoring::Authoring;
 use crate::bundle::{Bundle, BundleOptions, archive};
 use crate::generated_file::Mode;
+use crate::light::part_one;
 use crate::solutions::catalogue::mistakes;
 use crate::solutions::sources::Sources;
 
@@ -72,14 +73,23 @@ struct Workspace {
 }
 
 impl Workspace {
-    /// Unpacks an assignment's bundle. Compiled files stay in the folder and are reused the next
-    /// time.
+    /// Unpacks the bundle of part one, which contains part two's solution, and adds part one's.
+    /// Compiled files stay in the folder and are reused the next time.
     fn create(root: &Path, authoring: &'static Authoring) -> Result<Self> {
         let folder = root.join(FOLDER);
-        let bundle = Bundle::collect(root, authoring.handed_out, BundleOptions::default())?;
+        let part_one = part_one(authoring.handed_out);
+        let bundle = Bundle::collect(root, part_one, BundleOptions::default())?;
         archive::write_files(&bundle, &folder)?;
         let reference = Sources::reference(root, authoring.handed_out)?;
-        Ok(Workspace { folder, reference })
+        let workspace = Workspace { folder, reference };
+        workspace.write(&Sources::reference(root, part_one)?)?;
+        Ok(workspace)
+    }
+
+    /// Writes a solution to the folder of its assignment.
+    fn write(&self, sources: &Sources) -> Result<()> {
+        let folder = self.folder.join(sources.handed_out().student).join("src");
+        Ok(sources.write(&folder).at("write", &folder)?)
     }
 
     /// Draws a chapter's pictures side by side: the reference's picture, then the mistakes'
@@ -112,14 +122,12 @@ impl Workspace {
 
     /// Draws a chapter's picture with the code of a solution.
     fn picture(&self, sources: &Sources, chapter: &Chapter) -> Result<RgbImage> {
-        sources
-            .write(&self.folder.join("student/src"))
-            .at("write", &self.folder)?;
+        self.write(sources)?;
         let (out, size) = ("target/picture.png", format!("{}x{}", SIZE.0, SIZE.1));
         let output = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
             .current_dir(&self.folder)
-            .args(["render", &format!("scenes/{}.json", chapter.scene)])
-            .args(["--view", &chapter.view, "--size", &size, "--out", out])
+            .args(chapter.command().split_whitespace().skip(1))
+            .args(["--size", &size, "--out", out])
             .env("CARGO_TARGET_DIR", self.folder.join("target"))
             .output()?;
         if !output.status.success() {

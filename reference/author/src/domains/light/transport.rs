@@ -19,13 +19,21 @@ use crate::oracle::light::{Numbers64, lambertian, numbers_of_path};
 /// The domain of `direct`.
 pub static DIRECT: FunctionDomain<DirectCall> = FunctionDomain {
     function: "direct",
-    subject_aspects: &[Aspect::ROOM_SIZE, Aspect::LIGHTS, Aspect::ENVIRONMENT],
+    subject_aspects: &[
+        Aspect::ROOM_SIZE,
+        Aspect::ROOM_POSITION,
+        Aspect::LIGHTS,
+        Aspect::BRIGHTNESS,
+        Aspect::ENVIRONMENT,
+    ],
     aspects: &[
         Aspect::RAY_OCTANT,
         SURFACE,
         SIDE,
         LIGHT_SAMPLE,
         SCATTERED,
+        SCATTERED_HEIGHT,
+        LIGHT_PDF,
         LIGHT,
         ON_LIGHT_X,
         ON_LIGHT_Y,
@@ -48,8 +56,22 @@ pub static DIRECT: FunctionDomain<DirectCall> = FunctionDomain {
 /// The domain of `radiance`.
 pub static RADIANCE: FunctionDomain<PathCall> = FunctionDomain {
     function: "radiance",
-    subject_aspects: &[Aspect::ROOM_SIZE, Aspect::LIGHTS, Aspect::ENVIRONMENT],
-    aspects: &[Aspect::RAY_OCTANT, BOUNCES, FIRST, FIRST_TWO, LENGTH],
+    subject_aspects: &[
+        Aspect::ROOM_SIZE,
+        Aspect::ROOM_POSITION,
+        Aspect::LIGHTS,
+        Aspect::BRIGHTNESS,
+        Aspect::ENVIRONMENT,
+        INDEX,
+    ],
+    aspects: &[
+        Aspect::RAY_OCTANT,
+        BOUNCES,
+        FIRST,
+        FIRST_TWO,
+        LENGTH,
+        SPECULAR,
+    ],
     pairs: &[["environment", FIRST.name]],
     calls: path_calls,
     not_asked: &[],
@@ -131,15 +153,44 @@ impl InRoom for PathCall {
 }
 
 impl<C: InRoom> Aspect<C> {
-    /// The largest coordinate in the room.
+    /// Half of the room's longest side.
     pub const ROOM_SIZE: Self = Aspect {
         name: "size of the room",
-        classes: &["up to 1", "up to 10", "up to 1,000"],
+        classes: &["up to 0.1", "up to 10", "up to 1,000"],
         class: |call| {
-            let corners = call.room().quads().iter().flat_map(Quad::corners);
-            let sizes = corners.map(|corner| corner.abs().max_element());
-            let size = sizes.fold(0.0, f64::max);
-            Some([1.0, 10.0].iter().filter(|limit| size > **limit).count())
+            let (_, half) = call.room().extent();
+            Some([0.1, 10.0].iter().filter(|limit| half > **limit).count())
+        },
+    };
+
+    /// The distance between the room and the origin.
+    pub const ROOM_POSITION: Self = Aspect {
+        name: "position of the room",
+        classes: &["around the origin", "far away"],
+        class: |call| {
+            let (center, half) = call.room().extent();
+            Some(usize::from(center.length() > 50.0 * half))
+        },
+    };
+
+    /// The largest radiance of a light in the room, in any channel.
+    pub const BRIGHTNESS: Self = Aspect {
+        name: "radiance",
+        classes: &["none", "up to 0.05", "up to 500", "beyond"],
+        class: |call| {
+            let lights = call
+                .room()
+                .quads()
+                .iter()
+                .map(|quad| match quad.material() {
+                    Material64::Emitter { radiance } => radiance.max_element(),
+                    Material64::Lambertian { .. }
+                    | Material64::Mirror { .. }
+                    | Material64::Glass { .. } => 0.0,
+                });
+            let brightest = lights.fold(0.0, f64::max);
+            let limits = [0.0, 0.05, 500.0];
+            Some(limits.iter().filter(|limit| brightest > **limit).count())
         },
     };
 
@@ -207,11 +258,15 @@ const SURFACE: Aspect<DirectCall> = Aspect {
     class: |call| call.surface.as_ref().map(surface_class),
 };
 
-/// The angle at which the ray hits a matte surface.
+/// The cosine of the angle at which the ray hits a matte surface. If it is even smaller, rounding
+/// moves the hit along the surface.
 const SIDE: Aspect<DirectCall> = Aspect {
-    name: "angle of the ray",
-    classes: &["steep", "grazing"],
-    class: |call| Some(usize::from(matte(call)?.out.z < 0.2)),
+    name: "cosine of the ray",
+    classes: &["above 0.2", "above 0.02", "smaller"],
+    class: |call| {
+        let cosine = matte(call)?.out.z;
+        Some([0.2, 0.02].iter().filter(|limit| cosine < **limit).count())
+    },
 };
 
 /// The direction toward a light.
@@ -238,10 +293,39 @@ const SCATTERED: Aspect<DirectCall> = Aspect {
     classes: &["no light", "a light", "the environment"],
     class: |call| {
         let surface = matte(call)?;
-        let local = lambertian::sample_cosine_hemisphere(call.input.direct.as_dvec2());
-        Some(found(call, surface, surface.frame.to_world(local)))
+        let direction = surface.frame.to_world(scattered(call));
+        Some(found(call, surface, direction))
     },
 };
+
+/// The cosine of the scattered direction.
+const SCATTERED_HEIGHT: Aspect<DirectCall> = Aspect {
+    name: "scattered cosine",
+    classes: &["above 0.1", "above 1e-3", "smaller"],
+    class: |call| {
+        matte(call)?;
+        let cosine = scattered(call).z;
+        Some([0.1, 1e-3].iter().filter(|limit| cosine < **limit).count())
+    },
+};
+
+/// The density with which a light is sampled in the scattered direction.
+const LIGHT_PDF: Aspect<DirectCall> = Aspect {
+    name: "light pdf of the scattered direction",
+    classes: &["0", "up to 1", "up to 100", "beyond"],
+    class: |call| {
+        let surface = matte(call)?;
+        let direction = surface.frame.to_world(scattered(call));
+        let pdf = call.room.sources().pdf(surface.position, direction).value;
+        let limits = [0.0, 1.0, 100.0];
+        Some(limits.iter().filter(|limit| pdf > **limit).count())
+    },
+};
+
+/// Returns the scattered direction, in the surface's frame.
+fn scattered(call: &DirectCall) -> DVec3 {
+    lambertian::sample_cosine_hemisphere(call.input.direct.as_dvec2())
+}
 
 /// Returns 0 if no light arrives at a surface from a direction, 1 if it is the light of a shape,
 /// and 2 if it is that of the environment.
@@ -313,8 +397,13 @@ const DIRECT_Y: Aspect<DirectCall> = Aspect {
 /// The maximum number of bounces.
 const BOUNCES: Aspect<PathCall> = Aspect {
     name: "bounces",
-    classes: &["0", "1", "2", "3", "4 to 7", "more"],
-    class: |call| Some(class_up_to(&[0, 1, 2, 3, 7], call.input.bounces as usize)),
+    classes: &["0", "1", "2", "3", "4 to 7", "8 to 32", "more"],
+    class: |call| {
+        Some(class_up_to(
+            &[0, 1, 2, 3, 7, 32],
+            call.input.bounces as usize,
+        ))
+    },
 };
 
 /// The surface that the ray hits.
@@ -360,4 +449,32 @@ const LENGTH: Aspect<PathCall> = Aspect {
     name: "surfaces",
     classes: &["0", "1", "2", "3", "4 to 8", "more"],
     class: |call| Some(class_up_to(&[0, 1, 2, 3, 8], call.surfaces.len())),
+};
+
+/// The number of mirrors or surfaces of glass that a path hits in a row.
+const SPECULAR: Aspect<PathCall> = Aspect {
+    name: "specular surfaces in a row",
+    classes: &["0", "1", "2 to 8", "more"],
+    class: |call| {
+        let is_specular = |surface: &Surface64| matches!(surface_class(surface), 1 | 2);
+        let runs = call.surfaces.split(|surface| !is_specular(surface));
+        let longest = runs.map(<[Surface64]>::len).max();
+        Some(class_up_to(&[0, 1, 8], longest.unwrap_or(0)))
+    },
+};
+
+/// The largest index of refraction in the room.
+const INDEX: Aspect<PathCall> = Aspect {
+    name: "index of refraction",
+    classes: &["none", "up to 2", "beyond"],
+    class: |call| {
+        let indices = call.room.quads().iter().map(|quad| match quad.material() {
+            Material64::Glass { ior } => *ior,
+            Material64::Lambertian { .. }
+            | Material64::Mirror { .. }
+            | Material64::Emitter { .. } => 0.0,
+        });
+        let largest = indices.fold(0.0, f64::max);
+        Some([0.0, 2.0].iter().filter(|limit| largest > **limit).count())
+    },
 };

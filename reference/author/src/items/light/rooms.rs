@@ -1,6 +1,8 @@
 //! Random rooms of parallelograms, and cases in them whose answers don't depend on rounding.
 
-use glam::{DVec3, Vec3, uvec2};
+use std::f64::consts::TAU;
+
+use glam::{DVec3, Vec2, Vec3, dvec2, uvec2};
 use protocol::Ray;
 use protocol::light::environment::MapImage;
 use protocol::light::transport::{self as functions, DirectSample, PathStart};
@@ -43,10 +45,16 @@ pub(super) fn matte(rng: &mut Rng) -> Material64 {
     Material64::Lambertian { albedo: tint(rng) }
 }
 
-/// Returns a light with a random colour.
+/// Returns a light with a random colour. Some lights are very dim, and some are very bright.
 pub(super) fn emitter(rng: &mut Rng) -> Material64 {
-    let radiance = tint(rng) * rng.log_uniform(0.05, 500.0);
-    Material64::Emitter { radiance }
+    let brightness = match rng.index(4) {
+        0 => rng.log_uniform(1e-3, 0.05),
+        1 => rng.log_uniform(5e3, 2e5),
+        _ => rng.log_uniform(0.05, 500.0),
+    };
+    Material64::Emitter {
+        radiance: tint(rng) * brightness,
+    }
 }
 
 /// Returns the six walls of a box between −`half` and `half`. Their fronts face inward.
@@ -171,32 +179,77 @@ pub(super) fn subject(room: &Room) -> functions::Room {
 
 /// Returns whether light arrives.
 pub(super) fn is_lit(light: DVec3) -> bool {
-    light.max_element() > 1e-6
+    light.max_element() > 1e-12
 }
 
 /// An environment without light.
 pub(super) const DARK: Environment64 = Environment64::Constant(DVec3::ZERO);
 
 /// Returns a case in which `wanted` is true of the surface that a random ray hits, of the random
-/// numbers and of the surface's direct light.
+/// numbers and of the surface's direct light. In some calls, the scattered direction leads to a
+/// point on a light, since it would hardly ever find a small light by chance.
 pub(super) fn direct_case(
     rng: &mut Rng,
     room: &Room,
     wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
 ) -> DirectCase {
+    let direct = |rng: &mut Rng, surface: &Surface64| match rng.index(4) {
+        0 => toward_a_light(rng, room, surface),
+        _ => Some(random_pair(rng)),
+    };
+    direct_case_with(rng, room, margin(room), direct, wanted)
+}
+
+/// Like [`direct_case`], but the scattered direction is almost along the surface.
+pub(super) fn grazing_case(
+    rng: &mut Rng,
+    room: &Room,
+    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
+) -> DirectCase {
+    let direct = |rng: &mut Rng, _: &Surface64| {
+        let below_one = 1.0 - rng.log_uniform(6e-8, 9e-7) as f32;
+        Some(random_pair(rng).with_x(below_one))
+    };
+    direct_case_with(rng, room, 1e-4, direct, wanted)
+}
+
+/// Returns the random numbers for which a surface scatters toward a random point on a light. Returns
+/// `None` if that point is below the surface.
+fn toward_a_light(rng: &mut Rng, room: &Room, surface: &Surface64) -> Option<Vec2> {
+    let quads = room.quads().iter();
+    let is_light = |quad: &&Quad| matches!(quad.material(), Material64::Emitter { .. });
+    let lights: Vec<&Quad> = quads.filter(is_light).collect();
+    let light = lights.get(rng.index(lights.len().max(1)))?;
+    let to = light.shape().at(random_pair(rng).as_dvec2()) - surface.position;
+    let direction = surface.frame.to_local(to.normalize());
+    // The inverse of `sample_cosine_hemisphere`.
+    let turn = libm::atan2(direction.y, direction.x) / TAU;
+    let x = 1.0 - direction.z * direction.z;
+    (direction.z > 0.0).then(|| dvec2(x, turn - turn.floor()).as_vec2())
+}
+
+/// Returns a case with at least this margin. `direct` returns the random numbers for the scattered
+/// direction.
+fn direct_case_with(
+    rng: &mut Rng,
+    room: &Room,
+    margin: f64,
+    direct: impl Fn(&mut Rng, &Surface64) -> Option<Vec2>,
+    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
+) -> DirectCase {
     rng.retry(|rng| {
-        let ray = random_ray(rng, reach(room));
+        let ray = random_ray(rng, room);
         let hit = room.hit(&Ray64::from(&ray), None);
         let surface = hit.value?;
         let call = DirectSample {
             ray,
             light: random(rng),
             on_light: random_pair(rng),
-            direct: random_pair(rng),
+            direct: direct(rng, &surface)?,
         };
         let numbers = Numbers64::from(&call);
         let direct = transport::direct(room, &surface, &numbers);
-        let is_clear = hit.margin.min(direct.margin) > MARGIN;
+        let is_clear = hit.margin > self::margin(room) && direct.margin > margin;
         let light = direct.value;
         (is_clear && wanted(&surface, &numbers, light)).then_some(DirectCase { call, light })
     })
@@ -224,38 +277,40 @@ pub(super) fn path_case_along(
     wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
 ) -> PathCase {
     rng.retry(|rng| {
-        let ray = random_ray(rng, reach(room));
+        let ray = random_ray(rng, room);
         let ray64 = Ray64::from(&ray);
         let seed = rng.integer(0, 1 << 30);
         let call = PathStart { ray, seed, bounces };
         let numbers = numbers_of_path(&call);
         let radiance = transport::radiance(room, &ray64, &numbers);
         let hit = room.hit(&ray64, None);
-        let is_clear = radiance.margin.min(hit.margin) > MARGIN;
+        let is_clear = radiance.margin.min(hit.margin) > margin(room);
         let light = radiance.value;
         let is_wanted = is_clear && wanted(&ray64, &numbers, light);
         is_wanted.then_some(PathCase { call, light })
     })
 }
 
-/// Returns a room of another size.
-pub(super) fn scaled(room: &Room, factor: f64) -> Room {
+/// Returns a room of another size at another place.
+pub(super) fn moved(room: &Room, factor: f64, shift: DVec3) -> Room {
     let quads = room.quads().iter().map(|quad| {
         let shape = quad.shape();
         let edges = shape.edges.map(|edge| factor * edge);
-        Quad::new(factor * shape.corner, edges, *quad.material())
+        Quad::new(factor * shape.corner + shift, edges, *quad.material())
     });
     Room::new(quads.collect(), room.sources().environment.clone())
 }
 
-/// Returns how far from the middle of a room rays start, along each axis.
-fn reach(room: &Room) -> f64 {
-    let corners = room.quads().iter().flat_map(Quad::corners);
-    let coordinates = corners.map(|corner| corner.abs().max_element());
-    0.5 * coordinates.fold(0.0, f64::max)
+/// Returns the margin that calls in a room must have. Margins are relative to the largest coordinate,
+/// so in a room that is far from the origin, all are small.
+fn margin(room: &Room) -> f64 {
+    let (center, half) = room.extent();
+    MARGIN * half / (center.length() + half)
 }
 
 /// Returns a ray from a random point near the middle of a room in a random direction.
-fn random_ray(rng: &mut Rng, half: f64) -> Ray {
-    Ray::new(rng.point(half).as_vec3(), rng.direction().as_vec3())
+fn random_ray(rng: &mut Rng, room: &Room) -> Ray {
+    let (center, half) = room.extent();
+    let origin = center + rng.point(0.5 * half);
+    Ray::new(origin.as_vec3(), rng.direction().as_vec3())
 }

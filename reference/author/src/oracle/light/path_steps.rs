@@ -4,7 +4,7 @@ use glam::DVec3;
 use judging::drawing_data::{PathHit, PathStep};
 
 use super::Numbers64;
-use super::quad::{Material64, Quad};
+use super::quad::Material64;
 use super::room::{Room, Surface64};
 use super::transport::{direct, ray, scatter, survival};
 use crate::oracle::Ray64;
@@ -29,7 +29,7 @@ pub fn path_steps(room: &Room, start: &Ray64, numbers: &[Numbers64]) -> Vec<Path
         let Some(surface) = room.hit(&ray_here, from.as_ref()).value else {
             let environment = room.sources().environment.radiance(ray_here.dir).value;
             let light = if is_counted { DVec3::ZERO } else { environment };
-            step(PathHit::Nothing, ray_here.at(reach(room)), light);
+            step(PathHit::Nothing, ray_here.at(room.extent().1), light);
             break;
         };
         let emitted = if is_counted {
@@ -68,10 +68,4 @@ fn kind(surface: &Surface64) -> PathHit {
         Material64::Glass { .. } => PathHit::Glass,
         Material64::Emitter { .. } => PathHit::Light,
     }
-}
-
-/// Returns the length of a ray that leaves the room, for drawings.
-fn reach(room: &Room) -> f64 {
-    let corners = room.quads().iter().flat_map(Quad::corners);
-    corners.fold(0.0, |most, corner| corner.abs().max_element().max(most))
 }

@@ -43,10 +43,13 @@ impl Quad {
     /// and `[a, b]` are the `edges`.
     ///
     /// All numbers are rounded, so that they and their sums are exact in single precision:
-    /// coordinates to multiples of 1/256, and all others to single precision. Coordinates must be
-    /// less than 10,000.
+    /// coordinates to multiples of a power of two, and all others to single precision.
     pub fn new(corner: DVec3, edges: [DVec3; 2], material: Material64) -> Quad {
-        let round = |v: DVec3| (v * 256.0).round() / 256.0;
+        let far_corner = corner + edges[0] + edges[1];
+        let extent = corner.abs().max(far_corner.abs()).max_element();
+        // Single precision has 24 bits.
+        let step = libm::exp2(libm::ceil(libm::log2(extent)) - 22.0);
+        let round = |v: DVec3| (v / step).round() * step;
         Quad {
             shape: FlatShape {
                 corner: round(corner),

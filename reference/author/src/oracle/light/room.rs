@@ -62,6 +62,14 @@ impl Room {
         &self.quads
     }
 
+    /// Returns the middle of the room and half of its longest side.
+    pub fn extent(&self) -> (DVec3, f64) {
+        let corners = || self.quads.iter().flat_map(Quad::corners);
+        let (min, max) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max));
+        let (min, max) = (min.unwrap_or_default(), max.unwrap_or_default());
+        (0.5 * (min + max), 0.5 * (max - min).max_element())
+    }
+
     /// Returns everything that emits light.
     pub fn sources(&self) -> &LightSources64 {
         &self.sources

@@ -9,11 +9,12 @@ use protocol::light::LightQuestion;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
 use super::rooms::{
-    DARK, DirectCase, HALF, direct_case, emitter, is_lit, matte, panel, scaled, sky, subject,
-    tilted, walls, with_shining_ceiling,
+    DARK, DirectCase, HALF, direct_case, emitter, grazing_case, is_lit, matte, moved, panel, sky,
+    subject, tilted, walls, with_shining_ceiling,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
+use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
 use crate::oracle::light::specular::reflect;
@@ -85,7 +86,7 @@ const SKY: Declaration = Declaration {
          environment.",
     ],
     questions: |rng| {
-        rooms(
+        let mut questions = rooms(
             rng,
             |rng| {
                 let mut quads = open(rng);
@@ -96,7 +97,14 @@ const SKY: Declaration = Declaration {
                 Room::new(quads, sky)
             },
             LIT_AND_DARK,
-        )
+        );
+        // Almost along a floor, evaluate and the pdf are tiny, but their quotient isn't.
+        let floor = open(rng).swap_remove(0);
+        let sky = Environment64::Constant(color(rng) * rng.log_uniform(1e-3, 1e4));
+        let floor = Room::new(vec![floor], sky);
+        let case = |_| grazing_case(rng, &floor, |_, _, light| is_lit(light));
+        questions.push(question(&floor, (0..CALLS / 2).map(case).collect()));
+        questions
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -195,7 +203,7 @@ const TURNED: Declaration = Declaration {
                 let mut cases = LIT_AND_DARK(rng, room);
                 cases.extend((0..CALLS / 2).map(|_| {
                     direct_case(rng, room, |surface, _, light| {
-                        is_lit(light) && surface.out.z < 0.15
+                        is_lit(light) && surface.out.z < 0.019
                     })
                 }));
                 // The light that was picked is below the surface, but scattering finds the other.
@@ -376,25 +384,34 @@ fn open(rng: &mut Rng) -> Vec<Quad> {
     vec![all[2], all[0], all[4]]
 }
 
-/// Returns one question for each of two rooms. The first is small or of an ordinary size, and the
-/// second is large.
+/// Returns one question for each of two rooms. The first is tiny or far from the origin, and the
+/// second is large or of an ordinary size.
 fn rooms(
     rng: &mut Rng,
     room: impl Fn(&mut Rng) -> Room,
     cases: impl Fn(&mut Rng, &Room) -> Vec<DirectCase>,
 ) -> Vec<ExamQuestion> {
-    let small = if rng.coin() { 0.2 } else { 1.0 };
-    let question = |scale| {
-        let room = scaled(&room(rng), scale);
-        let cases = cases(rng, &room);
-        let cases = rng.shuffled(cases);
-        let rows = colors(cases.iter().map(|case| case.light));
-        let calls = cases.iter().map(|case| case.call).collect();
-        table(
-            LightQuestion::Direct(Table::of_list(subject(&room), calls)),
-            &["value"],
-            rows,
-        )
+    let direction = rng.direction();
+    let first = if rng.coin() {
+        (0.01, DVec3::ZERO)
+    } else {
+        (0.3, 54.0 * direction)
     };
-    [small, 100.0].map(question).into()
+    let second = if rng.coin() { 1.0 } else { 100.0 };
+    let of_room = |(scale, shift)| {
+        let room = moved(&room(rng), scale, shift);
+        let cases = cases(rng, &room);
+        question(&room, rng.shuffled(cases))
+    };
+    [first, (second, DVec3::ZERO)].map(of_room).into()
+}
+
+fn question(room: &Room, cases: Vec<DirectCase>) -> ExamQuestion {
+    let rows = colors(cases.iter().map(|case| case.light));
+    let calls = cases.iter().map(|case| case.call).collect();
+    table(
+        LightQuestion::Direct(Table::of_list(subject(room), calls)),
+        &["value"],
+        rows,
+    )
 }

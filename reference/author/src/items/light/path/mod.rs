@@ -9,8 +9,8 @@ use protocol::light::LightQuestion;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
 use super::rooms::{
-    DARK, HALF, PathCase, block, emitter, is_lit, matte, panel, path_case, path_case_along, sky,
-    subject, walls, with_shining_ceiling,
+    DARK, HALF, PathCase, block, emitter, is_lit, matte, moved, panel, path_case, path_case_along,
+    sky, subject, walls, with_shining_ceiling,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
@@ -143,6 +143,18 @@ const BOUNCES: Declaration = Declaration {
             };
             question(&white, (0..CALLS / 2).map(case).collect())
         }));
+        // Between two mirrors, paths are even longer.
+        let corridor = corridor(rng);
+        let cases = [40, 40, 80].map(|bounces| {
+            path_case_along(rng, &corridor, bounces, |ray, numbers, light| {
+                let radiance =
+                    |numbers: &[Numbers64]| oracle::radiance(&corridor, ray, numbers).value;
+                let (first, rest) = numbers.split_at(32);
+                let repeated = [first, &first[..rest.len().min(32)]].concat();
+                is_lit(light) && radiance(first) != light && radiance(&repeated) != light
+            })
+        });
+        questions.push(question(&corridor, cases.into()));
         questions
     },
     needs: NEEDS,
@@ -323,6 +335,7 @@ const GLASS: Declaration = Declaration {
     ],
     questions: |rng| {
         let mut environments = [sky(rng), DARK].into_iter();
+        let mut iors = [rng.uniform(3.3, 4.0), rng.uniform(1.3, 1.8)].into_iter();
         rooms(
             rng,
             |rng| {
@@ -330,7 +343,7 @@ const GLASS: Declaration = Declaration {
                 // Without one of the walls, glass shows the environment.
                 let mut quads = walls(HALF, || matte(rng));
                 quads.pop();
-                let ior = rng.uniform(1.3, 1.8);
+                let ior = iors.next().unwrap_or(1.5);
                 let center = rng.point(0.5);
                 quads.extend(block(
                     center,
@@ -394,9 +407,13 @@ const ROULETTE: Declaration = Declaration {
         questions.extend(rooms(rng, shiny, |rng, room| {
             let kinds: [fn(&Surface64) -> bool; 2] = [|it| is_mirror(Some(it)), is_glass];
             let mut cases = Vec::new();
-            for (is_kind, survives) in kinds.into_iter().flat_map(|it| [(it, true), (it, false)]) {
-                cases.extend((0..CALLS / 2).map(|_| {
-                    path_case_along(rng, room, 7, |ray, numbers, light| {
+            let outcomes = [(7, true), (7, false), (4, true), (4, false)];
+            let all = kinds
+                .into_iter()
+                .flat_map(|kind| outcomes.map(|it| (kind, it)));
+            for (is_kind, (bounces, survives)) in all {
+                cases.extend((0..CALLS / 4).map(|_| {
+                    path_case_along(rng, room, bounces, |ray, numbers, light| {
                         let surfaces = oracle::surfaces(room, ray, &numbers[..3]);
                         surfaces.get(3).is_some_and(is_kind)
                             && decides(room, ray, numbers, light, survives)
@@ -454,9 +471,11 @@ const SIZES: Declaration = Declaration {
         "At each bounce, the path adds [`direct`] light and continues in the direction that …",
     ],
     questions: |rng| {
-        let questions = [0.1, 1.0, 300.0].map(|scale| {
+        let sizes = [(0.01, 0.0), (1.0, 0.0), (1.0, 180.0), (300.0, 0.0)];
+        let questions = sizes.map(|(scale, distance)| {
             let albedo = color(rng);
-            let room = room_of_size(rng, scale, || Material64::Lambertian { albedo });
+            let room = room_with(rng, || Material64::Lambertian { albedo });
+            let room = moved(&room, scale, distance * rng.direction());
             let cases = cases(rng, &room, 3, lit);
             question(&room, cases)
         });
@@ -599,11 +618,23 @@ fn with_backs_of_lights(rng: &mut Rng) -> Room {
     Room::new(quads, DARK)
 }
 
+/// Returns two large mirrors that face each other, under a sky.
+fn corridor(rng: &mut Rng) -> Room {
+    let mirrors = [-1.0, 1.0].map(|side| {
+        let reflectance = color(rng).lerp(DVec3::ONE, 0.9);
+        let mirror = Material64::Mirror { reflectance };
+        panel(side * DVec3::X, 0, -side, DVec3::splat(200.0), mirror)
+    });
+    let sky = sky(rng);
+    Room::new(mirrors.into(), sky)
+}
+
 /// Returns a closed room with very dark walls. Its light only shines on the floor and the lowest
 /// part of the walls.
 fn dim(rng: &mut Rng) -> Room {
+    let darkness = if rng.coin() { 0.04 } else { 0.004 };
     let mut quads = walls(HALF, || Material64::Lambertian {
-        albedo: 0.04 * color(rng),
+        albedo: darkness * color(rng),
     });
     let light = emitter(rng);
     let half = dvec3(1.0, 0.0, 1.0);
@@ -612,19 +643,10 @@ fn dim(rng: &mut Rng) -> Room {
 }
 
 fn room_with(rng: &mut Rng, material: impl FnMut() -> Material64) -> Room {
-    room_of_size(rng, 1.0, material)
-}
-
-fn room_of_size(rng: &mut Rng, scale: f64, material: impl FnMut() -> Material64) -> Room {
-    let mut quads = walls(scale * HALF, material);
+    let mut quads = walls(HALF, material);
     let light = emitter(rng);
-    quads.push(panel(
-        scale * dvec3(0.0, 1.8, 0.0),
-        1,
-        -1.0,
-        scale * dvec3(1.0, 0.0, 1.0),
-        light,
-    ));
+    let half = dvec3(1.0, 0.0, 1.0);
+    quads.push(panel(dvec3(0.0, 1.8, 0.0), 1, -1.0, half, light));
     Room::new(quads, DARK)
 }
 

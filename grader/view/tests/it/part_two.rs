@@ -60,7 +60,7 @@ fn each_kind_of_bad_value_has_its_message_in_the_picture_and_at_its_bounce() {
             "material.rs",
             "pdf: Some(self.pdf(out, direction)),",
             "pdf: Some(-1.0),",
-            "At bounce 0 of the first path through pixel (0, 0), a pdf is negative",
+            "At bounce 0 of the first path through pixel (8, 8), a pdf is negative",
             "a pdf is negative, at bounce 0",
         ),
         (
@@ -85,8 +85,8 @@ fn each_kind_of_bad_value_has_its_message_in_the_picture_and_at_its_bounce() {
             notes.iter().any(|note| note.contains(in_picture))
         });
         assert_eq!(state["has_stopped"], false);
-        // A pixel on the floor, which the light reaches.
-        let explanation = viewer.explain([8, 1], Some(0));
+        // A pixel of the back wall, which the light reaches.
+        let explanation = viewer.explain([8, 8], Some(0));
         let problems = explanation["history"][0]["problems"].as_array().unwrap();
         assert!(problems.contains(&json!(at_sample)), "{to}: {problems:?}");
         submission.write(file, &correct);

@@ -284,10 +284,11 @@ impl<'a> SceneProbe<'a> {
             max_tests: 0,
             max_rays,
         });
-        match self.ask(work, &request, limit)? {
-            Response::Followed(followed) => Ok(followed),
-            other => Err(unexpected(&other)),
-        }
+        let response = self.ask(work, &request, limit)?;
+        let Response::Followed(followed) = response else {
+            return Err(unexpected(&response));
+        };
+        Ok(followed)
     }
 
     /// Draws some pixels of a tile.
@@ -409,10 +410,11 @@ impl<'a> SceneProbe<'a> {
     fn history(&mut self, work: &ScheduledJob, pixel: UVec2) -> Result<Vec<SampleRow>, Stop> {
         let count = work.listed_samples;
         let request = Request::Samples(SampleRange { pixel, count });
-        match self.ask(work, &request, work.call_limit)? {
-            Response::Samples(samples) => Ok(history(&samples)),
-            other => Err(unexpected(&other)),
-        }
+        let response = self.ask(work, &request, work.call_limit)?;
+        let Response::Samples(samples) = response else {
+            return Err(unexpected(&response));
+        };
+        Ok(history(&samples))
     }
 
     /// Returns, for each node needed to explain a ray, the part of the ray inside the node's box.

@@ -121,13 +121,13 @@ impl Response {
             Response::Followed(followed) => followed.panic.iter().collect(),
             Response::Samples(samples) => {
                 let outcomes = samples.iter().map(|sample| &sample.outcome);
-                let panic = |outcome| match outcome {
-                    &SampleOutcome::Panicked(ref panic) => Some(panic),
+                let panics = outcomes.filter_map(|outcome| match outcome {
+                    SampleOutcome::Panicked(panic) => Some(panic),
                     SampleOutcome::Radiance(_)
                     | SampleOutcome::InvalidHit
                     | SampleOutcome::InvalidRadiance => None,
-                };
-                outcomes.filter_map(panic).collect()
+                });
+                panics.collect()
             }
             Response::Received
             | Response::Tried

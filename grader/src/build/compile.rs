@@ -1,4 +1,4 @@
-//! Compiles a submission's task files and the given files into a probe.
+//! Compiles a submission's task files and the given files into a probe or a library.
 
 use std::fs;
 use std::io;
@@ -11,7 +11,7 @@ use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
 use crate::handed_out::HandedOut;
 
 /// File name of the crate's root, which contains the given root and a `main` function.
-const ROOT: &str = "probe.rs";
+pub(super) const ROOT: &str = "probe.rs";
 
 /// Compiles the task files and the given files in `folder`. Each task file is passed as a pair of
 /// its name and its text.
@@ -57,5 +57,9 @@ fn compile_uncached(
     }
     let root = handed_out.given[0].text;
     fs::write(folder.join(ROOT), format!("{root}{}", handed_out.entry))?;
-    rustc.compile(&Crate::new("probe", CrateKind::Program, folder, ROOT))
+    let (name, kind) = match handed_out.entry {
+        "" => (handed_out.assignment.id, CrateKind::Library),
+        _ => ("probe", CrateKind::Program),
+    };
+    rustc.compile(&Crate::new(name, kind, folder, ROOT))
 }

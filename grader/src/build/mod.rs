@@ -33,23 +33,23 @@ use crate::build::blame::{
     because_of, blame, blame_all, explain, incomplete_files, unreadable_files,
 };
 use crate::build::build_dir::{BuildDir, remove_abandoned};
-use crate::build::compile::{compile, compile_starter};
+use crate::build::compile::{ROOT, compile, compile_starter};
 use crate::build::dependencies::Dependencies;
 use crate::build::diagnostics::Diagnostic;
 use crate::build::rustc::Rustc;
-use crate::build::source_crate::CompileOutcome;
+use crate::build::source_crate::{CompileOutcome, Crate, CrateKind};
 use crate::build::substitution::{ReferenceParts, Substitution};
 use crate::build::toolchain::Toolchain;
 use crate::error::Error;
 use crate::handed_out::{HandedOut, TaskFile, TaskMethods};
 use crate::machine::files::{self, AtPath};
-use crate::probe::Interrupt;
+use crate::probe::{Interrupt, Launcher};
 use crate::sandbox::{Isolation, Sandbox};
 use crate::submission::{Submission, TaskFileError};
 use crate::workspace::Workspace;
 
 pub use crate::build::blame::{NotCompiled, RESTORE_LABEL};
-pub use crate::build::programs::{Build, SubstitutedProgram};
+pub use crate::build::programs::{Build, LinkedProgram, SubstitutedProgram};
 pub use crate::build::self_test::SelfTestError;
 pub use crate::build::toolchain::file_fingerprint;
 
@@ -264,6 +264,33 @@ impl Builder {
             unstartable: Mutex::default(),
             rustc: self.rustc.clone(),
             build_dir,
+        })
+    }
+
+    /// Compiles a program that imports these submissions, which were built as libraries. `main` is
+    /// the course's own code, so every failure is the machine's.
+    pub fn link(&self, main: &str, libraries: &[&Build]) -> Result<LinkedProgram, Error> {
+        let build_dir = BuildDir::new_in(&self.folder)?;
+        let folder = build_dir.path();
+        files::write(folder.join(ROOT), main)?;
+        let links = libraries.iter().filter_map(|library| {
+            let path = library.probe.as_deref()?;
+            Some((library.handed_out.assignment.id, path))
+        });
+        let links: Vec<(&str, &Path)> = links.collect();
+        let rustc = self.rustc.for_own_code();
+        let compiled = rustc.compile(&Crate {
+            links: &links,
+            ..Crate::new("probe", CrateKind::Program, folder, ROOT)
+        });
+        let compiled = compiled.at("build in", &self.folder)?;
+        Ok(LinkedProgram {
+            launcher: Launcher {
+                program: compiled.into_result().map_err(Error::Machine)?,
+                sandbox: rustc.sandbox,
+                interrupt: Interrupt::default(),
+            },
+            _build_dir: build_dir,
         })
     }
 

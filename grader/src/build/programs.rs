@@ -46,6 +46,15 @@ pub struct Build {
     pub(super) build_dir: BuildDir,
 }
 
+/// A program made of several submissions.
+#[derive(Debug)]
+pub struct LinkedProgram {
+    /// Starts the program.
+    pub launcher: Launcher,
+    /// The directory that contains the program. It is removed when this value is dropped.
+    pub(super) _build_dir: BuildDir,
+}
+
 /// The result of compiling a submission's file with the reference's parts in place of the
 /// submission's other files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -42,7 +42,8 @@ pub struct HandedOut {
     pub given: &'static [GivenFile],
     /// The given file that renders pictures. The grader doesn't use it.
     pub main: GivenFile,
-    /// Source of a probe's `main` function, which is appended to the crate's root.
+    /// Source of a probe's `main` function, which is appended to the crate's root. If it is empty,
+    /// the files are compiled as a library named like the assignment.
     pub entry: &'static str,
     /// The folder where students do their own work, relative to the workspace.
     pub student: &'static str,

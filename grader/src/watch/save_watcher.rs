@@ -11,48 +11,44 @@ use crate::submission::Submission;
 /// Time between two reads of the files.
 pub const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Watches a submission that may be saved at any time.
-pub struct SaveWatcher<'a> {
-    collect: Box<dyn Fn() -> Option<Submission> + 'a>,
+/// Watches files that may be saved at any time, such as a submission.
+pub struct SaveWatcher<'a, Files = Submission> {
+    collect: Box<dyn Fn() -> Option<Files> + 'a>,
     pause: Box<dyn Fn() + 'a>,
 }
 
-impl<'a> SaveWatcher<'a> {
-    /// Creates a watcher for the submission that `collect` reads. `collect` returns `None` while
-    /// there is no submission.
-    pub fn new(collect: impl Fn() -> Option<Submission> + 'a) -> Self {
+impl<'a, Files: PartialEq> SaveWatcher<'a, Files> {
+    /// Creates a watcher for the files that `collect` reads. `collect` returns `None` while there are
+    /// none.
+    pub fn new(collect: impl Fn() -> Option<Files> + 'a) -> Self {
         SaveWatcher {
             collect: Box::new(collect),
             pause: Box::new(|| thread::sleep(POLL_INTERVAL)),
         }
     }
 
-    /// Returns whether the submission now differs from `last`.
-    pub fn has_changed_since(&self, last: &Submission) -> bool {
+    /// Returns whether the files now differ from `last`.
+    pub fn has_changed_since(&self, last: &Files) -> bool {
         (self.collect)().is_some_and(|now| now != *last)
     }
 
     /// Waits for the next version and returns it. Two reads in a row must give the same version,
     /// because editors write a file in several steps and some delete it first.
-    pub fn wait_for_change(&self, last: &Submission) -> Submission {
+    pub fn wait_for_change(&self, last: &Files) -> Files {
         self.wait_for_change_while(last, || ())
     }
 
     /// Waits for the next version. Calls `meanwhile` between reads.
-    pub fn wait_for_change_while(&self, last: &Submission, meanwhile: impl FnMut()) -> Submission {
+    pub fn wait_for_change_while(&self, last: &Files, meanwhile: impl FnMut()) -> Files {
         self.wait_for(|now| now != last, meanwhile)
     }
 
     /// Waits until two reads in a row give the same version, even if it isn't a new one.
-    pub fn wait_for_version(&self) -> Submission {
+    pub fn wait_for_version(&self) -> Files {
         self.wait_for(|_| true, || ())
     }
 
-    fn wait_for(
-        &self,
-        is_wanted: impl Fn(&Submission) -> bool,
-        mut meanwhile: impl FnMut(),
-    ) -> Submission {
+    fn wait_for(&self, is_wanted: impl Fn(&Files) -> bool, mut meanwhile: impl FnMut()) -> Files {
         let mut before = None;
         loop {
             let now = (self.collect)().filter(&is_wanted);

@@ -30,7 +30,7 @@ const WORST: usize = 12;
 const NARROWEST: f32 = 1.0 / 600.0;
 
 /// The page's files, each with its path, media type and text.
-const FILES: [(&str, &str, &str); 13] = [
+const FILES: [(&str, &str, &str); 15] = [
     ("/", HTML, include_str!("page/index.html")),
     ("/style.css", CSS, include_str!("page/style.css")),
     ("/icon.svg", "image/svg+xml", ICON),
@@ -44,6 +44,8 @@ const FILES: [(&str, &str, &str); 13] = [
     ("/legend.js", SCRIPT, include_str!("page/legend.js")),
     ("/overlay.js", SCRIPT, include_str!("page/overlay.js")),
     ("/pixel.js", SCRIPT, include_str!("page/pixel.js")),
+    ("/history.js", SCRIPT, include_str!("page/history.js")),
+    ("/path.js", SCRIPT, include_str!("page/path.js")),
     ("/tree.js", SCRIPT, include_str!("page/tree.js")),
 ];
 const ICON: &str = include_str!("page/icon.svg");

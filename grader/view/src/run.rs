@@ -1,16 +1,14 @@
 //! Starts the server, the threads and the browser.
 
 use std::net::{Ipv4Addr, TcpListener};
-use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 use std::{fs, io, thread};
 
 use grader::files::{AtPath, PathError};
-use grader::handed_out::HandedOut;
+use grader::handed_out::{HandedOut, LIGHT, RAYS};
 use grader::printing::print_line;
 use grader::select_isolation::IsolationRequest;
-use grader::submission::Submission;
 use grader::system::available_memory;
 use grader::workspace::Workspace;
 use judging::sanitize::sanitize_line;
@@ -24,7 +22,7 @@ use crate::composer;
 use crate::error::ViewError;
 use crate::exam_question::subject_of_question;
 use crate::http;
-use crate::program::{LIGHT, Programs, REFERENCE_LIGHT};
+use crate::program::{Files, Programs, Source};
 use crate::routes::Routes;
 use crate::session::{Resources, Session, Worker};
 use crate::shared_session::SharedSession;
@@ -33,7 +31,8 @@ use crate::subject::{SceneList, Subject};
 use crate::watcher;
 use crate::workers;
 
-const NO_REFERENCE: &str = "the reference is not available here: leave out --reference";
+const NO_REFERENCE: &str =
+    "the reference is not available here: leave out --reference and --reference-light";
 
 /// Serves the page until the process ends.
 pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
@@ -54,8 +53,8 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     let listener = listen(arguments.port)?;
     let port = listener.local_addr().map_err(cannot_listen)?.port();
     let programs = programs(arguments, &workspace, handed_out)?;
-    // Report a missing submission before starting the server.
-    let submission = programs.collect().map_err(ViewError::usage)?;
+    // Report missing files before starting the server.
+    let files = programs.collect().map_err(ViewError::usage)?;
 
     let cores = arguments.threads.map_or_else(available_cores, usize::from);
     // Leave half of the memory for other programs, such as the browser.
@@ -72,15 +71,19 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
     if let Some(view) = arguments.view {
         session.show_view(view, Instant::now());
     }
-    session.shown.sources = SourceLinks::find(programs.folder(), &workspace, handed_out);
+    let sources = programs.sources();
+    let links = sources.map(|(of, path)| SourceLinks::find(path, &workspace, of));
+    session.shown.sources = links.into_iter().flatten().collect();
+    let shown = sources.into_iter().find(|(of, _)| *of == handed_out);
+    let folder = shown.map_or_else(String::new, |(_, path)| path.display().to_string());
+    let folder = sanitize_line(&folder, usize::MAX);
     let session = Arc::new(SharedSession::new(session));
 
     let access = Access::new(port, &arguments.allow_host).map_err(|error| {
         ViewError::Machine(format!("the system provides no random numbers: {error}"))
     })?;
     let url = format!("http://127.0.0.1:{port}{}", access.first_path());
-    let folder = sanitize_line(&programs.folder().display().to_string(), usize::MAX);
-    start_threads(&session, programs, submission, cores).map_err(cannot_listen)?;
+    start_threads(&session, programs, files, cores).map_err(cannot_listen)?;
     print_line(format_args!("{folder}: open {url}"));
     if let Some(forwarded) = access.forwarded() {
         let path = access.first_path();
@@ -112,12 +115,13 @@ fn open_browser(workspace: &Workspace, url: &str, port: u16) -> Result<NamedTemp
 fn start_threads(
     session: &Arc<SharedSession>,
     programs: Programs,
-    submission: Submission,
+    files: Files,
     cores: usize,
 ) -> io::Result<()> {
-    let of_watcher = programs.clone();
+    let programs = Arc::new(programs);
+    let of_watcher = Arc::clone(&programs);
     session.spawn("watcher", move |shared| {
-        watcher::watch(shared, &of_watcher, submission)
+        watcher::watch(shared, &of_watcher, files)
     })?;
     session.spawn("recordings", move |shared| {
         watcher::build_recordings(shared, &programs)
@@ -164,26 +168,28 @@ fn programs(
     } else {
         IsolationRequest::OwnWork
     };
-    let (folder, is_package): (PathBuf, bool) = match &arguments.submission {
-        Some(path) => (workspace.resolve(path), false),
-        None if arguments.reference => match workspace.reference(handed_out) {
-            Some(reference) => (reference, false),
-            None => return Err(ViewError::usage(NO_REFERENCE)),
-        },
-        None => (workspace.root().join(handed_out.student), true),
+    let source = |part: &'static HandedOut, is_reference: bool| match &arguments.submission {
+        Some(path) if part == handed_out => Ok(Source {
+            path: workspace.resolve(path),
+            is_package: false,
+        }),
+        Some(_) | None if is_reference => {
+            let path = workspace.reference(part);
+            let path = path.ok_or_else(|| ViewError::usage(NO_REFERENCE))?;
+            let is_package = false;
+            Ok(Source { path, is_package })
+        }
+        Some(_) | None => Ok(Source {
+            path: workspace.root().join(part.student),
+            is_package: true,
+        }),
     };
-    let light = if arguments.reference || arguments.reference_light {
-        REFERENCE_LIGHT
-    } else {
-        LIGHT
-    };
-    let (_, light_folder) = light;
-    if !workspace.root().join(light_folder).is_dir() {
-        return Err(ViewError::Usage(format!(
-            "the folder {light_folder} is missing"
-        )));
-    }
-    Programs::prepare(workspace, handed_out, folder, is_package, light, isolation)
+    // A submission for part two needs a part one that works.
+    let is_of_light = arguments.submission.is_some() && handed_out == &LIGHT;
+    let has_reference = workspace.reference(&RAYS).is_some();
+    let rays = source(&RAYS, arguments.reference || is_of_light && has_reference)?;
+    let light = source(&LIGHT, arguments.reference || arguments.reference_light)?;
+    Programs::prepare(workspace, rays, light, isolation)
 }
 
 fn available_cores() -> usize {

@@ -6,10 +6,9 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
-use grader::submission::Submission;
 use grader::watch::save_watcher::SaveWatcher;
 
-use crate::program::{BuildState, FileError, Programs};
+use crate::program::{BuildState, FileError, Files, Programs};
 use crate::shared_session::SharedSession;
 
 /// The folders that usually contain a submission's files.
@@ -23,8 +22,8 @@ const READ_INTERVAL: Duration = Duration::from_secs(1);
 /// millisecond, which is too slow to do fifty times a second while nothing happens.
 struct Stamps<'a> {
     programs: &'a Programs,
-    /// The usual folders that contain files of the submission.
-    folders: Vec<PathBuf>,
+    /// The files in the usual folders.
+    files: Vec<PathBuf>,
     last: Vec<Option<(SystemTime, u64)>>,
     at: Instant,
 }
@@ -33,7 +32,7 @@ impl<'a> Stamps<'a> {
     fn new(programs: &'a Programs) -> Self {
         let mut stamps = Stamps {
             programs,
-            folders: Vec::new(),
+            files: Vec::new(),
             last: Vec::new(),
             at: Instant::now(),
         };
@@ -43,14 +42,16 @@ impl<'a> Stamps<'a> {
 
     /// Records the current times and sizes.
     fn renew(&mut self) {
-        let all = USUAL_FOLDERS
-            .iter()
-            .map(|folder| self.programs.folder().join(folder));
-        let has_file = |folder: &PathBuf| {
-            let mut names = self.programs.handed_out().file_names();
-            names.any(|file| folder.join(file).is_file())
-        };
-        self.folders = all.filter(has_file).collect();
+        self.files = Vec::new();
+        for (handed_out, path) in self.programs.sources() {
+            for folder in USUAL_FOLDERS.map(|folder| path.join(folder)) {
+                let files = handed_out.file_names().map(|file| folder.join(file));
+                let files: Vec<PathBuf> = files.collect();
+                if files.iter().any(|file| file.is_file()) {
+                    self.files.extend(files);
+                }
+            }
+        }
         self.last = self.read();
         self.at = Instant::now();
     }
@@ -65,44 +66,40 @@ impl<'a> Stamps<'a> {
     }
 
     fn read(&self) -> Vec<Option<(SystemTime, u64)>> {
-        let stamp = |path| {
+        let stamp = |path: &PathBuf| {
             let metadata = fs::metadata(path).ok()?;
             Some((metadata.modified().ok()?, metadata.len()))
         };
-        let handed_out = self.programs.handed_out();
-        let folders = self.folders.iter();
-        let files =
-            folders.flat_map(|folder| handed_out.file_names().map(|file| folder.join(file)));
-        files.map(stamp).collect()
+        self.files.iter().map(stamp).collect()
     }
 }
 
-/// Builds the submission and rebuilds it after each save, until the process ends.
-pub fn watch(shared: &SharedSession, programs: &Programs, first: Submission) {
+/// Builds the program that draws and rebuilds it after each save, until the process ends.
+pub fn watch(shared: &SharedSession, programs: &Programs, first: Files) {
     let watcher = SaveWatcher::new(|| programs.collect().ok());
     let mut stamps = Stamps::new(programs);
-    let mut submission = first;
+    let mut files = first;
     loop {
-        shared.update(|session, _| session.compiling(submission.clone()));
+        shared.update(|session, _| session.compiling(files.clone()));
         let report = |errors: Vec<FileError>| {
             // Show the errors immediately. The compiler may find more in other files.
             shared.update(|session, now| session.built(BuildState::Failed(errors), now));
         };
-        let state = programs.build(&submission, report);
+        let state = programs.build(&files, report);
         shared.update(|session, now| session.built(state, now));
         // A file may have been saved since it was read.
-        while !watcher.has_changed_since(&submission) {
+        while !watcher.has_changed_since(&files) {
             stamps.wait();
         }
-        submission = watcher.wait_for_change(&submission);
+        files = watcher.wait_for_change(&files);
     }
 }
 
 /// Builds the recording program whenever it is needed, until the process ends.
 pub fn build_recordings(shared: &SharedSession, programs: &Programs) {
     loop {
-        let (version, submission) = shared.wait_for(|session, _| session.wanted_recording());
-        let state = programs.build_recording(&submission);
+        let (version, files) = shared.wait_for(|session, _| session.wanted_recording());
+        let state = programs.build_recording(&files);
         shared.update(|session, _| session.built_recording(state, version));
     }
 }

@@ -3,6 +3,7 @@
 
 use framework::render::frame::Frame;
 use framework::render::path_log::log;
+use framework::render::path_steps::Step;
 use framework::render::sampler::RandomNumbers;
 use framework::render::sphere_light::SphereLight;
 use framework::render::tracer::{self, Intersect};
@@ -71,16 +72,12 @@ impl<'a> World<'a> {
     pub fn hit(&self, ray: &Ray) -> Option<Surface<'_>> {
         let surface = self.hits.intersect(ray).map(Surface::of);
         log(|| match &surface {
-            Some(surface) => {
-                let Surface {
-                    position, emitted, ..
-                } = surface;
-                format!(
-                    "hit: {} at {position:.4}, which emits {emitted:.4}",
-                    surface.material.name()
-                )
-            }
-            None => "no hit".to_owned(),
+            Some(surface) => Step::Hit {
+                surface: surface.material.name(),
+                position: surface.position,
+                emitted: surface.emitted,
+            },
+            None => Step::Miss,
         });
         surface
     }
@@ -88,7 +85,10 @@ impl<'a> World<'a> {
     /// Returns the radiance that arrives from far away in a direction, which must be a unit vector.
     pub fn environment(&self, direction: Vec3) -> Vec3 {
         let radiance = self.sources.sky.radiance(direction);
-        log(|| format!("environment: {radiance:.4} from {direction:.4}"));
+        log(|| Step::Environment {
+            radiance,
+            direction,
+        });
         radiance
     }
 
@@ -99,8 +99,19 @@ impl<'a> World<'a> {
     /// this direction, since nothing behind that light is visible.
     pub fn emitted(&self, at: &Surface, direction: Vec3) -> Vec3 {
         let radiance = self.unblocked(at, direction);
-        log(|| format!("light: {radiance:.4} from {direction:.4}"));
+        log(|| Step::Light {
+            radiance,
+            direction,
+            is_sampled: self.is_sampled(at, direction),
+        });
         radiance
+    }
+
+    /// Returns whether [`World::sample_light`] can choose this direction. A constant environment is
+    /// never sampled.
+    fn is_sampled(&self, at: &Surface, direction: Vec3) -> bool {
+        let LightSources { lights, sky } = self.sources;
+        matches!(sky, Sky::Map(_)) || lights.nearest(at.position, direction).is_some()
     }
 
     /// Computes [`World::emitted`].
@@ -149,7 +160,7 @@ impl<'a> World<'a> {
             Sky::Map(map) if lights.is_empty() => map.pdf(direction),
             Sky::Map(map) => 0.5 * (lights.pdf(from, direction) + map.pdf(direction)),
         };
-        log(|| format!("light pdf: {pdf:.4} toward {direction:.4}"));
+        log(|| Step::LightPdf { pdf, direction });
         pdf
     }
 }
@@ -229,13 +240,12 @@ impl Material {
                 direction,
                 attenuation,
                 pdf,
-            }) => {
-                let pdf = pdf.map_or("no pdf".to_owned(), |pdf| format!("pdf {pdf:.4}"));
-                format!(
-                    "scatter: {direction:.4} in the surface's frame, attenuation {attenuation:.4}, {pdf}"
-                )
-            }
-            None => "scatter: nothing".to_owned(),
+            }) => Step::Scatter {
+                direction,
+                attenuation,
+                pdf,
+            },
+            None => Step::Absorbed,
         });
         scattered
     }

@@ -7,13 +7,14 @@ use framework::harness::attempt::attempt;
 use framework::harness::lighting::written_path_tracer;
 use framework::render::clay::Clay;
 use framework::render::path_log;
-use framework::render::renderer::{Lighting, PathSettings, RenderStats, Renderer};
+use framework::render::path_steps::{FirstBadValues, Step, bounces};
+use framework::render::renderer::{InvalidSample, Lighting, PathSettings, RenderStats, Renderer};
 use glam::{UVec2, Vec2};
 use protocol::{Panic, Trace};
 
 use crate::messages::{
-    Draw, DrawnPixels, Follow, MAX_PANICS, MAX_STEP_BYTES, MAX_STEPS, MarkedTests, Quantity,
-    RecordedRays, Target, Values,
+    Draw, DrawnPixels, Follow, MAX_PANICS, MAX_STEP_BYTES, MarkedTests, PathSample, Quantity,
+    RecordedRays, SampleOutcome, SampleRange, Target, Values,
 };
 use crate::open_scene::OpenScene;
 use crate::record;
@@ -104,6 +105,8 @@ pub(crate) fn draw(stage: &OpenScene, renderers: &Renderers, request: &Draw) -> 
         panics: pixels.panics,
         rays: stats.rays,
         invalid_paths: stats.invalid_paths,
+        invalid_radiances: stats.invalid_radiances,
+        bad_values: stats.bad_values.paths().collect(),
         no_light: renderers.no_light(),
     }
 }
@@ -222,6 +225,11 @@ impl OpenScene<'_> {
 pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow) -> RecordedRays {
     let mut stats = RenderStats::default();
     record::start(request.max_tests, request.max_rays);
+    if let Target::Path { .. } = request.target {
+        // Creating the path tracer traces a path. Only the rays of the requested path are recorded.
+        renderers.light();
+        record::start(request.max_tests, request.max_rays);
+    }
     let trace = || match request.target {
         Target::Centre(pixel) => {
             stage.first_hit(pixel);
@@ -238,11 +246,12 @@ pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow)
             None
         }
     };
-    let (outcome, mut steps) = path_log::follow(|| attempt(trace));
-    steps.truncate(MAX_STEPS);
-    for step in &mut steps {
-        step.truncate(step.floor_char_boundary(MAX_STEP_BYTES));
-    }
+    let (outcome, steps) = path_log::follow(|| attempt(trace));
+    let shown = |step: &Step| {
+        let mut text = step.to_string();
+        text.truncate(text.floor_char_boundary(MAX_STEP_BYTES));
+        text
+    };
     let rays = record::finish();
     let (radiance, panic) = match outcome {
         Ok(radiance) => (radiance, None),
@@ -251,7 +260,34 @@ pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow)
     RecordedRays {
         rays,
         radiance,
-        steps,
+        bounces: bounces(&steps),
+        steps: steps.iter().map(shown).collect(),
         panic,
     }
+}
+
+/// Computes the first samples of a pixel, one by one. Returns none if part two isn't written yet.
+pub(crate) fn samples(renderers: &Renderers, range: SampleRange) -> Vec<PathSample> {
+    let renderer = renderers.light();
+    if renderers.no_light().is_some() {
+        return Vec::new();
+    }
+    let pixel = range.pixel;
+    let sample = |sample| {
+        let mut stats = RenderStats::default();
+        let trace = || renderer.trace_sample(pixel, sample, &mut stats);
+        let (outcome, steps) = path_log::follow(|| attempt(trace));
+        let mut bad_values = FirstBadValues::default();
+        bad_values.add_path(pixel, &steps);
+        PathSample {
+            outcome: match outcome {
+                Ok(Ok(radiance)) => SampleOutcome::Radiance(radiance),
+                Ok(Err(InvalidSample::Hit)) => SampleOutcome::InvalidHit,
+                Ok(Err(InvalidSample::Radiance)) => SampleOutcome::InvalidRadiance,
+                Err(panic) => SampleOutcome::Panicked(panic),
+            },
+            bad_values: bad_values.paths().collect(),
+        }
+    };
+    (0..range.count).map(sample).collect()
 }

@@ -67,7 +67,7 @@ impl Opening {
             SubmissionPart::BBox => {
                 submission.intersect_box(Vec3::NEG_ONE, Vec3::ONE, ray, Interval::AHEAD);
             }
-            SubmissionPart::Build | SubmissionPart::Traversal => {}
+            SubmissionPart::Build | SubmissionPart::Traversal | SubmissionPart::Light => {}
         });
         if let Err(panic) = outcome
             && panic.is_unimplemented()
@@ -161,7 +161,7 @@ impl OpenScene<'_> {
             SubmissionPart::Traversal => {
                 let _ = attempt(|| self.world.bvh.closest_hit(ray));
             }
-            SubmissionPart::Camera | SubmissionPart::Build => {}
+            SubmissionPart::Camera | SubmissionPart::Build | SubmissionPart::Light => {}
         }
     }
 

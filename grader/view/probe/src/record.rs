@@ -112,7 +112,7 @@ impl Aggregate for RecordingTree {
             let Some(List { rays, max_rays, .. }) = list else {
                 return true;
             };
-            rays.push(RecordedRay::new(*ray, path_log::line_count()));
+            rays.push(RecordedRay::new(*ray, path_log::step_count()));
             rays.len() <= *max_rays as usize
         });
         if !is_traced {

@@ -10,7 +10,7 @@ use framework::render::renderer::Lighting;
 use framework::submission::Submission;
 use protocol::wire::{self, WireError};
 
-use crate::draw::{Renderers, draw, follow};
+use crate::draw::{Renderers, draw, follow, samples};
 use crate::messages::{Request, Response, TreeData};
 use crate::open_scene::{OpenScene, Opening};
 
@@ -102,6 +102,7 @@ fn serve_aimed(
             Request::Draw(request) => Response::Drawn(draw(stage, &renderers, request)),
             Request::Tree(_) => Response::Tree(attempt(|| TreeData(stage.world.bvh.tree())).into()),
             Request::Follow(request) => Response::Followed(follow(stage, &renderers, request)),
+            Request::Samples(range) => Response::Samples(samples(&renderers, *range)),
             Request::Boxes(queries) => {
                 let boxes = queries.boxes.iter();
                 let spans = boxes.map(|corners| stage.intersect_box(*corners, &queries.ray));

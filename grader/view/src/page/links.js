@@ -1,8 +1,8 @@
 // Turns file names in texts into links that open the editor at the right line.
 
-let sources = null;
+let sources = [];
 
-/** Sets where the submission's files are, or null if they cannot be opened. */
+/** Sets where the files of both parts are. Files that cannot be opened are left out. */
 export function setSources(found) {
   sources = found;
 }
@@ -20,8 +20,9 @@ export function linked(text) {
 
 /** Converts a text to nodes with links, but without code. */
 export function withLinks(text) {
-  if (!sources) return [text];
-  const names = sources.files.map((name) => name.replaceAll(".", "\\.")).join("|");
+  if (sources.length === 0) return [text];
+  const files = sources.flatMap((source) => source.files);
+  const names = files.map((name) => name.replaceAll(".", "\\.")).join("|");
   // A name that is part of a longer path refers to a different file.
   const mention = new RegExp(`(?<![\\w./\\\\-])(${names}):(\\d+)(?::(\\d+))?`, "g");
   const nodes = [];
@@ -34,9 +35,10 @@ export function withLinks(text) {
 }
 
 function link([mention, file, line, column]) {
-  const path = encodeURI(sources.folder + file).replaceAll("#", "%23").replaceAll("?", "%3F");
+  const source = sources.find(({ files }) => files.includes(file));
+  const path = encodeURI(source.folder + file).replaceAll("#", "%23").replaceAll("?", "%3F");
   const made = document.createElement("a");
-  made.href = `${sources.editor}${path}:${line}:${column ?? 1}`;
-  made.textContent = sources.shown + mention;
+  made.href = `${source.editor}${path}:${line}:${column ?? 1}`;
+  made.textContent = source.shown + mention;
   return made;
 }

@@ -26,6 +26,9 @@ export function number(x, digits = 5) {
   return String(Number(x.toPrecision(digits)));
 }
 
+/** The maximum number of samples in the history of a pixel. */
+const LISTED_SAMPLES = 64;
+
 let last = null;
 
 function show(state) {
@@ -173,6 +176,7 @@ function showNotes(state) {
 }
 
 function listen() {
+  get("pick-sample").append(...Array.from({ length: LISTED_SAMPLES }, (_, i) => element("option", { value: i }, `path ${i + 1}`)));
   const sample = () => get("pick-sample").value === "" ? null : Number(get("pick-sample").value);
   stage.listen(sample);
   stage.listenToHovering(get("hovered"));

@@ -1,7 +1,9 @@
 // Explains one pixel: shows the tests of its rays as a table, and step by step in the picture.
 import { load } from "./server.js";
 import { boxLines, COLOURS, setLines } from "./overlay.js";
+import { showHistory } from "./history.js";
 import { element, number, prose } from "./main.js";
+import { pathParts } from "./path.js";
 
 const content = document.getElementById("explanation");
 const FIRST_ROWS = 400;
@@ -63,6 +65,7 @@ export async function showExplanation(state) {
 function clear() {
   shown = null;
   content.replaceChildren();
+  showHistory(null);
   delete content.dataset.version;
   setLines("steps", []);
   setLines("path", []);
@@ -71,17 +74,14 @@ function clear() {
 function show(explanation, state) {
   content.replaceChildren();
   content.dataset.version = shown;
-  const { pixel, sample, rays, panic, radiance, steps } = explanation;
+  const { pixel, sample, rays, panic, radiance } = explanation;
   const title = pixel ? `Pixel (${pixel.join(", ")})` : "The exam's ray";
   const path = sample === null ? "" : `, path ${sample + 1}`;
   content.append(element("h3", {}, title + path));
   if (radiance) content.append(element("p", {}, `Radiance of the path: ${radiance.map((x) => number(x)).join(", ")}`));
   if (panic) content.append(element("p", { class: "rule" }, ...prose(`Panicked: ${panic[0]} (${panic[1]})`)));
-  if (steps.length > 0) {
-    const items = steps.map((step) => element("li", {}, step));
-    content.append(element("details", { class: "bounces" }, element("summary", {}, "The path, step by step"),
-      element("ol", {}, ...items)));
-  }
+  content.append(...pathParts(explanation));
+  showHistory(explanation);
   // All rays of a path are drawn, no matter which of them is being stepped through.
   setLines("path", rays.length > 1 ? rays.map((ray) => rayLine(ray, 1.5)) : []);
   if (rays.length === 0) content.append(element("p", {}, ...prose("No ray was passed to `Bvh::hit`.")));

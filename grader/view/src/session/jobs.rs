@@ -3,13 +3,12 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use grader::submission::Submission;
-use view_probe::messages::Draw;
+use view_probe::messages::{Draw, MAX_SAMPLES};
 use view_probe::scene_data::Aim;
 
 use super::{Key, PinnedTarget, Session};
 use crate::model::tiles::LayerKind;
-use crate::program::{BuildState, Program};
+use crate::program::{BuildState, Files, Program};
 use crate::subject::Subject;
 
 /// The time after which a program returns the pixels it has drawn.
@@ -57,6 +56,8 @@ pub struct ScheduledJob {
     pub call_limit: Duration,
     /// The program's memory limit, in bytes.
     pub memory: u64,
+    /// The number of samples of an explained pixel to list.
+    pub listed_samples: u32,
     /// The job.
     pub job: Job,
 }
@@ -82,9 +83,9 @@ pub enum Job {
 /// The builds.
 impl Session {
     /// Records that the files have been saved and are being compiled.
-    pub fn compiling(&mut self, submission: Submission) {
+    pub fn compiling(&mut self, files: Files) {
         self.version_of_files += 1;
-        self.submission = Some(Arc::new(submission));
+        self.files = Some(Arc::new(files));
         self.drawing = BuildState::Compiling;
         self.shown.is_picture_complete = false;
         self.recording = None;
@@ -110,11 +111,11 @@ impl Session {
     }
 
     /// Returns the files and their version if a recording program is needed for them.
-    pub fn wanted_recording(&self) -> Option<(u64, Arc<Submission>)> {
+    pub fn wanted_recording(&self) -> Option<(u64, Arc<Files>)> {
         let is_ready = matches!(self.drawing, BuildState::Ready(_));
         let is_wanted = is_ready && self.is_recording_wanted && self.recording.is_none();
-        let submission = self.submission.as_ref().filter(|_| is_wanted)?;
-        Some((self.version_of_files, Arc::clone(submission)))
+        let files = self.files.as_ref().filter(|_| is_wanted)?;
+        Some((self.version_of_files, Arc::clone(files)))
     }
 
     /// Records the result of building the recording program from this version of the files.
@@ -197,6 +198,7 @@ impl Session {
             memory: share.clamp(PROGRAM[0], PROGRAM[1]),
             open_limit: self.limit(OPEN_LIMIT).max(10 * self.last_opening),
             call_limit: self.limit(CALL_LIMIT),
+            listed_samples: self.shown.samples.min(MAX_SAMPLES as u32),
             job,
         }
     }

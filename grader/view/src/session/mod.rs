@@ -14,9 +14,9 @@ mod values;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use framework::render::renderer::RenderStats;
 use framework::scene::Camera;
 use glam::{UVec2, Vec3};
-use grader::submission::Submission;
 use protocol::{ElementOutcome, Panic, Trace};
 use view_probe::messages::{MarkedTests, OpenOutcome, TreeSize};
 use view_probe::scene_data::{Aim, PathSettings};
@@ -26,7 +26,7 @@ use crate::model::layer::Layer;
 use crate::model::tiles::{LayerKind, Tiles};
 use crate::model::tree::TreeModel;
 use crate::model::viewpoint::Viewpoint;
-use crate::program::BuildState;
+use crate::program::{BuildState, Files};
 use crate::subject::Subject;
 
 pub use commands::Command;
@@ -57,8 +57,8 @@ pub struct Session {
     numbers: Key,
     /// Counts the compiled versions of the submission.
     version_of_files: u64,
-    /// The submission's files, as last compiled.
-    submission: Option<Arc<Submission>>,
+    /// The files, as last compiled.
+    files: Option<Arc<Files>>,
     opened: Option<OpenOutcome>,
     /// How long the scene took to open last time.
     last_opening: Duration,
@@ -70,7 +70,8 @@ pub struct Session {
     faults: u32,
     /// Whether each request draws a single pixel, in order to find the one that ends the program.
     is_careful: bool,
-    invalid_paths: u64,
+    /// The problems in the picture so far.
+    problems: RenderStats,
     /// Why the shaded view is drawn in clay.
     no_light: Option<Panic>,
     pub(crate) light: Layer<Vec3>,
@@ -128,14 +129,14 @@ impl Session {
             is_recording_wanted: false,
             numbers: Key::default(),
             version_of_files: 0,
-            submission: None,
+            files: None,
             opened: None,
             last_opening: Duration::ZERO,
             is_build_slow: false,
             fault: None,
             faults: 0,
             is_careful: false,
-            invalid_paths: 0,
+            problems: RenderStats::default(),
             no_light: None,
             light: Layer::new(film, samples),
             clay: Layer::new(film, samples),
@@ -245,7 +246,7 @@ impl Session {
         self.faults = 0;
         self.is_careful = false;
         self.shown.panics.clear();
-        self.invalid_paths = 0;
+        self.problems = RenderStats::default();
         self.no_light = None;
         self.started_at = now;
         self.timings = Default::default();

@@ -5,14 +5,13 @@ use std::fmt;
 use glam::UVec2;
 use grader::handed_out::TaskMethods;
 use grader::probe::Fault;
-use grader::submission::Submission;
 use judging::assignment::TaskInfo;
 use protocol::{ElementOutcome, Panic};
 use serde::Serialize;
 use view_probe::messages::{SubmissionPart, TreeSize};
 
 use super::{Session, View};
-use crate::program::{BuildState, FileError};
+use crate::program::{BuildState, FileError, Files};
 
 /// The maximum number of panics to list.
 const MAX_PANICS: usize = 20;
@@ -87,10 +86,10 @@ impl Session {
                 location: Some(panic.location.clone()),
             });
         }
-        let (Some(opened), Some(submission)) = (&self.opened, &self.submission) else {
+        let (Some(opened), Some(files)) = (&self.opened, &self.files) else {
             return notes;
         };
-        let task = |id| task(submission, id);
+        let task = |id| task(files, id);
         let mut add = |text: String, location: Option<String>| notes.push(Note { text, location });
         for (part, panic) in &opened.missing {
             let (id, method) = task_and_method(*part);
@@ -99,7 +98,9 @@ impl Session {
                 SubmissionPart::Triangle => "triangles are left out",
                 SubmissionPart::Sphere => "spheres are left out",
                 SubmissionPart::BBox => "boxes cannot be tested",
-                SubmissionPart::Build | SubmissionPart::Traversal => "the tree cannot be used",
+                SubmissionPart::Build | SubmissionPart::Traversal | SubmissionPart::Light => {
+                    "the tree cannot be used"
+                }
             };
             let title = task(id).map_or(method, |task| task.title);
             let text = format!("{title}: not written yet, so {effect}.");
@@ -125,17 +126,9 @@ impl Session {
             let text = format!("The tree cannot be shown: {why}");
             add(text, self.line_of(build));
         }
-        if self.invalid_paths > 0 {
-            let paths = match self.invalid_paths {
-                1 => "path is",
-                _ => "paths are",
-            };
-            let text = format!(
-                "{} {paths} black because a hit contains NaN or infinity, a normal of length \
-                 zero, or an unknown shape.",
-                self.invalid_paths
-            );
-            add(text, None);
+        for text in self.problems.notes() {
+            let (first, rest) = text.split_at(1);
+            add(format!("{}{rest}.", first.to_uppercase()), None);
         }
         notes
     }
@@ -161,7 +154,7 @@ impl Session {
     /// Returns the file and line where a part's method is declared.
     pub(super) fn line_of_part(&self, part: SubmissionPart) -> Option<String> {
         let (id, _) = task_and_method(part);
-        self.line_of(task(self.submission.as_deref()?, id))
+        self.line_of(task(self.files.as_deref()?, id))
     }
 
     fn add_notes_about_tree(
@@ -207,7 +200,9 @@ impl Session {
 
     /// Returns a task's method in the submission, if it is found.
     fn method(&self, task: &TaskInfo) -> Option<TaskMethods> {
-        self.submission.as_ref()?.task_methods(task)
+        let Files { rays, light } = self.files.as_deref()?;
+        let mut parts = [rays, light].into_iter();
+        parts.find_map(|part| part.task_methods(task))
     }
 
     /// Returns the file and line where a task's method is declared.
@@ -244,8 +239,9 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
 
 /// Returns the task with this id, or `None` if the assignment doesn't include it because the part's
 /// code is given to the students.
-fn task(submission: &Submission, id: &str) -> Option<&'static TaskInfo> {
-    submission.handed_out.assignment.find(id)
+fn task(files: &Files, id: &str) -> Option<&'static TaskInfo> {
+    let mut parts = [&files.rays, &files.light].into_iter();
+    parts.find_map(|part| part.handed_out.assignment.find(id))
 }
 
 /// Returns a part's task id and method name.
@@ -257,6 +253,7 @@ fn task_and_method(part: SubmissionPart) -> (&'static str, &'static str) {
         SubmissionPart::BBox => ("bbox", "BBox::hit"),
         SubmissionPart::Build => ("build", "Bvh::build"),
         SubmissionPart::Traversal => ("traverse", "Bvh::hit"),
+        SubmissionPart::Light => ("path", "radiance"),
     }
 }
 

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use framework::render::path_steps::FirstBadValues;
+use framework::render::renderer::RenderStats;
 use glam::UVec2;
 use grader::probe::Fault;
 use protocol::{ElementOutcome, Panic};
@@ -80,7 +82,17 @@ impl Session {
             let pixel = first.map_or(UVec2::ZERO, |(_, pixel)| pixel);
             self.add_panic(panic, pixel, indices.len() as u64);
         }
-        self.invalid_paths += drawn.invalid_paths;
+        let mut bad_values = FirstBadValues::default();
+        drawn
+            .bad_values
+            .iter()
+            .for_each(|path| bad_values.add(*path));
+        self.problems.add(&RenderStats {
+            invalid_paths: drawn.invalid_paths,
+            invalid_radiances: drawn.invalid_radiances,
+            bad_values,
+            ..RenderStats::default()
+        });
         if drawn.no_light.is_some() {
             self.no_light.clone_from(&drawn.no_light);
         }

@@ -88,8 +88,8 @@ pub struct PinnedTarget {
 pub struct PageFields {
     /// Changes whenever anything that the page shows changes.
     pub version: u64,
-    /// The folder of the submission's files, for links.
-    pub(crate) sources: Option<SourceLinks>,
+    /// The folders of the files of both parts, for links.
+    pub(crate) sources: Vec<SourceLinks>,
     /// The names of the scenes that the page may choose.
     pub(super) scenes: Vec<String>,
     /// The scene that is being loaded.

@@ -3,18 +3,19 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use glam::Vec3;
+use glam::{UVec2, Vec3};
 use grader::probe::Fault;
 use protocol::{ElementOutcome, Panic, Ray};
 use view_probe::indexed_tree::IndexedTree;
 use view_probe::messages::{
-    BoxQueries, Draw, DrawnPixels, Follow, OpenOutcome, Quantity, RecordedRay, Request, Response,
-    SubmissionPart, Target, TreeData, TreeSize, Trial,
+    BoxQueries, Draw, DrawnPixels, Follow, OpenOutcome, Quantity, RecordedRay, RecordedRays,
+    Request, Response, SampleRange, SubmissionPart, Target, TreeData, TreeSize, Trial,
 };
 use view_probe::rules::{NodeAddresses, NodeSpan, corners_with_margin, judged_nodes, rows};
 use view_probe::scene_data::{Aim, SceneData, TreeSource, written_shapes};
 
 use crate::model::explanation::{Context, Explanation, explain};
+use crate::model::history::{SampleRow, history};
 use crate::model::tree::TreeModel;
 use crate::probe::{Probe, Stop};
 use crate::session::{Key, PinnedTarget, ScheduledJob};
@@ -246,17 +247,21 @@ impl<'a> SceneProbe<'a> {
 
     fn search_rays(&mut self, work: &ScheduledJob, target: Target) -> Result<(), Stop> {
         let limit = work.call_limit / 4;
+        // Only the camera is called. Without any hits, a path also calls part two.
+        let before_hits = match target {
+            Target::Path { pixel, .. } => Target::Centre(pixel),
+            Target::Centre(_) | Target::Clay { .. } | Target::Ray(_) => target,
+        };
+        self.follow(work, before_hits, 0, limit)
+            .map_err(|stop| in_part(SubmissionPart::Camera, stop))?;
         for max_rays in 0..MAX_SEARCHED_RAYS {
-            let follow = Follow {
-                target,
-                max_tests: 0,
-                max_rays,
-            };
-            let followed = match self.ask(work, &Request::Follow(follow), limit) {
-                Ok(Response::Followed(followed)) => followed,
-                Ok(other) => return Err(unexpected(&other)),
-                Err(stop) if max_rays == 0 => return Err(in_part(SubmissionPart::Camera, stop)),
-                Err(stop) => return Err(stop),
+            let followed = self.follow(work, target, max_rays, limit);
+            let followed = match target {
+                // All methods of part one return for the rays so far.
+                Target::Path { .. } => {
+                    followed.map_err(|stop| in_part(SubmissionPart::Light, stop))?
+                }
+                Target::Centre(_) | Target::Clay { .. } | Target::Ray(_) => followed?,
             };
             let Some(next) = followed.rays.get(max_rays as usize) else {
                 return Ok(());
@@ -264,6 +269,26 @@ impl<'a> SceneProbe<'a> {
             self.try_ray(work, next.ray, limit)?;
         }
         Ok(())
+    }
+
+    /// Traces a target without listing its tests.
+    fn follow(
+        &mut self,
+        work: &ScheduledJob,
+        target: Target,
+        max_rays: u32,
+        limit: Duration,
+    ) -> Result<RecordedRays, Stop> {
+        let request = Request::Follow(Follow {
+            target,
+            max_tests: 0,
+            max_rays,
+        });
+        let response = self.ask(work, &request, limit)?;
+        let Response::Followed(followed) = response else {
+            return Err(unexpected(&response));
+        };
+        Ok(followed)
     }
 
     /// Draws some pixels of a tile.
@@ -363,7 +388,33 @@ impl<'a> SceneProbe<'a> {
         let spans = rays.map(|ray| self.spans(work, ray, &context));
         let spans: Vec<BTreeMap<u32, NodeSpan>> = spans.collect::<Result<_, _>>()?;
         let (pixel, sample) = (pinned.pixel, pinned.sample);
-        Ok(explain(pixel, sample, &followed, &spans, &context))
+        let explanation = explain(pixel, sample, &followed, &spans, &context);
+        let Some(pixel) = pixel else {
+            return Ok(explanation);
+        };
+        match self.history(work, pixel) {
+            Ok(history) => Ok(Explanation {
+                history,
+                ..explanation
+            }),
+            Err(Stop::Unwanted) => Err(Stop::Unwanted),
+            // The rays of the explained path are worth showing even if another path fails.
+            Err(stop) => Ok(Explanation {
+                history_problem: Some(stop.to_string()),
+                ..explanation
+            }),
+        }
+    }
+
+    /// Returns the first samples of a pixel.
+    fn history(&mut self, work: &ScheduledJob, pixel: UVec2) -> Result<Vec<SampleRow>, Stop> {
+        let count = work.listed_samples;
+        let request = Request::Samples(SampleRange { pixel, count });
+        let response = self.ask(work, &request, work.call_limit)?;
+        let Response::Samples(samples) = response else {
+            return Err(unexpected(&response));
+        };
+        Ok(history(&samples))
     }
 
     /// Returns, for each node needed to explain a ray, the part of the ray inside the node's box.

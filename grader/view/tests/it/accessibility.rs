@@ -123,6 +123,7 @@ fn keys_alone_move_the_camera_in_every_way() {
 fn check(viewer: &Viewer, chromium: &Chromium, reader: Reader, is_shown: &str) {
     let mut tab = open(viewer, chromium, reader);
     wait(&mut tab, is_shown);
+    tab.eval("document.getElementById('history').open = true; 0");
     let name = format!("width {}, dark: {}", reader.width, reader.dark);
     assert_eq!(violations(&mut tab), [""; 0], "{name}");
     let width = tab.eval("document.documentElement.scrollWidth");

@@ -315,3 +315,36 @@ fn the_secret_leaves_the_address_and_stays_in_this_browser() {
         &format!("{TEXT}.includes('printed in the terminal')"),
     );
 }
+
+#[test]
+fn a_sample_in_the_history_of_a_pixel_leads_to_its_path() {
+    let submission = Submission::reference();
+    let arguments = "--size 32x32 --samples 5";
+    let Some((_chromium, viewer, mut tab)) = start(&submission, arguments) else {
+        return;
+    };
+    explain(&mut tab, &viewer, uvec2(16, 8));
+    wait(&mut tab, "!document.getElementById('history').hidden");
+    let summary = text(&mut tab, "#history summary");
+    let start = "Samples: mean of the first 5 samples 0.";
+    assert!(summary.starts_with(start), "{summary}");
+    tab.eval("document.querySelector('#history summary').click(); 0");
+    let dots = tab.eval("document.querySelectorAll('#history svg circle').length");
+    assert_eq!(dots, 5);
+    tab.eval("document.querySelector('[aria-label=\"Show path 3\"]').focus(); 0");
+    tab.eval("document.activeElement.click(); 0");
+    let is_shown =
+        "document.querySelector('#explanation h3')?.innerText === 'Pixel (16, 8), path 3'";
+    wait(&mut tab, is_shown);
+    let explanation = viewer.explanation();
+    assert_eq!(explanation["sample"], 2);
+    let marked = tab.eval("document.querySelector('#history [aria-current]').dataset.sample");
+    assert_eq!(marked, "2");
+    let focused = tab.eval("document.activeElement.ariaLabel");
+    assert_eq!(focused, "Show path 3", "the focus has moved");
+    let bounces = "[aria-label=\"The bounces of the path\"] tbody tr";
+    let count = tab.eval(&format!("document.querySelectorAll('{bounces}').length"));
+    assert_eq!(count, explanation["bounces"].as_array().unwrap().len());
+    let first = text(&mut tab, bounces);
+    assert!(first.starts_with("0\ta matte surface\t1\t"), "{first}");
+}

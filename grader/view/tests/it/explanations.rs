@@ -108,3 +108,74 @@ fn a_correct_traversal_has_no_marks_and_the_slides_pseudo_code_has() {
         ["beyond_closest_hit", "missed_box"]
     );
 }
+
+/// Returns the numbers in a list.
+fn numbers(list: &Value) -> Vec<f64> {
+    let list = list.as_array().unwrap().iter();
+    list.map(|number| number.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn the_history_of_a_pixel_has_each_path_and_its_mean_is_the_pictures_value() {
+    let arguments = "--size 32x32 --samples 6";
+    let viewer = Viewer::start(&Submission::reference(), arguments);
+    viewer.wait_for_picture();
+    let explanation = viewer.explain([16, 8], Some(4));
+    let history = explanation["history"].as_array().unwrap();
+    assert_eq!(history.len(), 6);
+    // The history and the explained path are computed separately.
+    assert_eq!(history[4]["radiance"], explanation["radiance"]);
+    let first = viewer.explain([16, 8], Some(0));
+    assert_eq!(history[0]["radiance"], first["radiance"]);
+    assert_eq!(first["history"], explanation["history"]);
+
+    let last = &history[5];
+    let mean = numbers(&last["mean"]);
+    let value: Value = serde_json::from_slice(&viewer.get("/value?x=16&y=8").body).unwrap();
+    let [r, g, b] = mean[..].try_into().unwrap();
+    let expected: String = format!("radiance ({r:.2}, {g:.2}, {b:.2})");
+    assert_eq!(value, expected);
+    let luminances = history.iter().map(|row| row["luminance"].as_f64().unwrap());
+    let mean = luminances.clone().sum::<f64>() / 6.0;
+    let variance = luminances.map(|x| (x - mean).powi(2)).sum::<f64>() / 5.0;
+    let near = |name: &str, expected: f64| {
+        let got = last[name].as_f64().unwrap();
+        assert!((got - expected).abs() < 1e-6, "{name}: {got}, {expected}");
+    };
+    near("mean_luminance", mean);
+    near("variance", variance);
+    near("standard_error", (variance / 6.0).sqrt());
+    assert_eq!(history[0]["variance"], Value::Null);
+}
+
+#[test]
+fn each_bounce_has_the_product_of_the_attenuations_before_it() {
+    let viewer = Viewer::start(&Submission::reference(), "--size 32x32 --samples 1");
+    let explanation = viewer.explain([16, 8], Some(0));
+    let bounces = explanation["bounces"].as_array().unwrap();
+    assert!(bounces.len() >= 3, "{bounces:?}");
+    let steps = explanation["steps"].as_array().unwrap();
+    let mut expected = vec![1.0; 3];
+    for (number, bounce) in (0..).zip(bounces) {
+        assert_eq!(bounce["number"], number);
+        let throughput = numbers(&bounce["throughput"]);
+        let pairs = throughput.iter().zip(&expected);
+        let is_product = pairs
+            .clone()
+            .all(|(got, expected)| (got - expected).abs() < 1e-5);
+        assert!(is_product, "{number}: {throughput:?}, {expected:?}");
+        let first = bounce["first_step"].as_u64().unwrap();
+        let first = steps[usize::try_from(first).unwrap()].as_str().unwrap();
+        assert!(first.starts_with("hit: ") || first == "no hit", "{first}");
+        assert_eq!(bounce["problems"], serde_json::json!([]));
+        if bounce["attenuation"] != Value::Null {
+            let attenuation = numbers(&bounce["attenuation"]);
+            expected = expected
+                .iter()
+                .zip(attenuation)
+                .map(|(x, y)| x * y)
+                .collect();
+        }
+    }
+    assert!(expected[0] < 1.0, "nothing is attenuated");
+}

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStderr, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use grader::handed_out::RAYS;
+use grader::handed_out::{HandedOut, LIGHT, RAYS};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -70,17 +70,22 @@ pub struct Submission {
 impl Submission {
     /// Copies the reference's files.
     pub fn reference() -> Self {
-        Submission::copy_of("reference/src")
+        Submission::copy_of("reference/src", &RAYS)
+    }
+
+    /// Copies the reference's files for part two.
+    pub fn reference_light() -> Self {
+        Submission::copy_of("reference/light/src", &LIGHT)
     }
 
     /// Copies the starter's files.
     pub fn starter() -> Self {
-        Submission::copy_of("grader/starter")
+        Submission::copy_of("grader/starter", &RAYS)
     }
 
-    fn copy_of(source: &str) -> Self {
+    fn copy_of(source: &str, handed_out: &HandedOut) -> Self {
         let folder = TempDir::new().unwrap();
-        for file in RAYS.file_names() {
+        for file in handed_out.file_names() {
             let from = workspace().join(source).join(file);
             fs::copy(from, folder.path().join(file)).unwrap();
         }
@@ -168,8 +173,16 @@ impl Viewer {
 
     /// Starts the viewer like [`Viewer::start`], or returns its error message.
     pub fn try_start(submission: &Submission, arguments: &str) -> Result<Self, String> {
+        Viewer::try_start_with(submission, &format!("--reference-light {arguments}"))
+    }
+
+    /// Starts the viewer on a submission without choosing the code for the other part.
+    pub fn start_with(submission: &Submission, arguments: &str) -> Self {
+        Viewer::try_start_with(submission, arguments).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn try_start_with(submission: &Submission, arguments: &str) -> Result<Self, String> {
         let mut command = view();
-        command.arg("--reference-light");
         command.arg("--submission").arg(submission.path());
         Viewer::run(command.args(arguments.split_whitespace()))
     }

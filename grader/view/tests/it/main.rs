@@ -12,6 +12,7 @@ mod harness;
 mod hostile;
 mod layout;
 mod mistakes;
+mod part_two;
 mod pictures;
 mod questions;
 mod tree_checkup;

@@ -11,6 +11,10 @@ use crate::render::renderer::{InvalidSample, RenderStats};
 use crate::scene::{Material, Scene};
 use crate::submission::World;
 
+/// The maximum number of rays of a path. It is several times the number that a path needs with the
+/// highest number of bounces, 10,000.
+const MAX_RAYS: u32 = 1 << 17;
+
 /// A scene, both as data and in a submission's own types.
 #[derive(Clone, Copy)]
 pub struct Tracer<'a> {
@@ -59,7 +63,7 @@ impl<'a> Tracer<'a> {
     ) -> Result<Option<Surface<'a>>, InvalidSample> {
         stats.rays += 1;
         if !ray.origin.is_finite() || !ray.dir.is_finite() {
-            return Err(InvalidSample);
+            return Err(InvalidSample::Hit);
         }
         let started = stats.time_in_hit.map(|_| Instant::now());
         let hit = self.world.bvh.closest_hit(ray);
@@ -82,10 +86,10 @@ impl<'a> Surface<'a> {
         let material = scene.material_of(trace.shape);
         let normal = trace.normal.try_normalize();
         let (Some(shape), Some(material), Some(normal)) = (shape, material, normal) else {
-            return Err(InvalidSample);
+            return Err(InvalidSample::Hit);
         };
         if !trace.position.is_finite() || !trace.uv.is_finite() {
-            return Err(InvalidSample);
+            return Err(InvalidSample::Hit);
         }
         let outside = ray.dir.dot(normal) < 0.0;
         Ok(Surface {
@@ -124,6 +128,8 @@ pub struct SampleTracer<'a> {
     tracer: &'a Tracer<'a>,
     stats: RefCell<&'a mut RenderStats>,
     is_invalid: Cell<bool>,
+    /// The number of rays so far.
+    rays: Cell<u32>,
     /// The last ray and its hit. Direct light and the path itself often ask for the same ray, one
     /// after the other.
     last: RefCell<Option<(Ray, Option<Surface<'a>>)>>,
@@ -136,6 +142,7 @@ impl<'a> SampleTracer<'a> {
             tracer,
             stats: RefCell::new(stats),
             is_invalid: Cell::new(false),
+            rays: Cell::new(0),
             last: RefCell::new(None),
         }
     }
@@ -145,16 +152,27 @@ impl<'a> SampleTracer<'a> {
     /// # Errors
     /// Fails if a ray had an unusable hit, or if the radiance isn't finite.
     pub fn finish(self, radiance: Vec3) -> Result<Vec3, InvalidSample> {
-        if self.is_invalid.get() || !radiance.is_finite() {
-            return Err(InvalidSample);
+        if self.is_invalid.get() {
+            Err(InvalidSample::Hit)
+        } else if radiance.is_finite() {
+            Ok(radiance)
+        } else {
+            Err(InvalidSample::Radiance)
         }
-        Ok(radiance)
     }
 }
 
 impl Intersect for SampleTracer<'_> {
     /// Returns `None` from the first unusable hit on, so that the path soon ends.
+    ///
+    /// # Panics
+    /// If the path has far more rays than any path needs.
     fn intersect(&self, ray: &Ray) -> Option<Surface<'_>> {
+        self.rays.set(self.rays.get() + 1);
+        assert!(
+            self.rays.get() <= MAX_RAYS,
+            "the path never ends: it is still going on after {MAX_RAYS} rays"
+        );
         if self.is_invalid.get() {
             return None;
         }
@@ -164,7 +182,7 @@ impl Intersect for SampleTracer<'_> {
             return *hit;
         }
         let hit = self.tracer.intersect(ray, &mut self.stats.borrow_mut());
-        let hit = hit.unwrap_or_else(|InvalidSample| {
+        let hit = hit.unwrap_or_else(|_| {
             self.is_invalid.set(true);
             None
         });
@@ -190,10 +208,10 @@ mod tests {
             ..CORRECT
         };
         let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
-        for (submission, radiance, is_valid) in [
-            (CORRECT, Vec3::ONE, true),
-            (CORRECT, Vec3::NAN, false),
-            (nowhere, Vec3::ONE, false),
+        for (submission, radiance, invalid) in [
+            (CORRECT, Vec3::ONE, None),
+            (CORRECT, Vec3::NAN, Some(InvalidSample::Radiance)),
+            (nowhere, Vec3::ONE, Some(InvalidSample::Hit)),
         ] {
             let world = World::new(&submission, &scene);
             let tracer = Tracer {
@@ -205,7 +223,23 @@ mod tests {
             let hits = [sample.intersect(&ray), sample.intersect(&ray)].map(|hit| hit.is_some());
             let is_usable = (submission.alter as usize) == (CORRECT.alter as usize);
             assert_eq!(hits, [is_usable; 2]);
-            assert_eq!(sample.finish(radiance).is_ok(), is_valid);
+            assert_eq!(sample.finish(radiance).err(), invalid);
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "the path never ends")]
+    fn an_endless_path_panics() {
+        let scene = scene(0.0, "", "");
+        let world = World::new(&CORRECT, &scene);
+        let tracer = Tracer {
+            scene: &scene,
+            world: &world,
+        };
+        let mut stats = RenderStats::default();
+        let sample = SampleTracer::new(&tracer, &mut stats);
+        loop {
+            sample.intersect(&Ray::new(Vec3::ZERO, Vec3::NEG_Z));
         }
     }
 }

@@ -4,10 +4,12 @@
 use std::fmt;
 use std::marker::PhantomData;
 
+use framework::render::path_log::MAX_STEPS;
+use framework::render::path_steps::BadValue;
 use protocol::{ElementOutcome, Panic};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
-use super::{DrawnPixels, Quantity, Request, Response, TreeData, Values};
+use super::{DrawnPixels, Quantity, Request, Response, SampleOutcome, TreeData, Values};
 
 /// The maximum number of values in a response: 16 samples of 64 × 64 pixels.
 pub const MAX_VALUES: usize = 1 << 16;
@@ -16,10 +18,10 @@ pub const MAX_PANICS: usize = 64;
 /// The maximum number of rays in a recording. It is more than twice the maximum number of bounces.
 pub(super) const MAX_RAYS: usize = 1 << 15;
 
-/// The maximum number of steps in a recording of a path, and of bytes in each step. Longer
-/// recordings are cut off.
-pub(crate) const MAX_STEPS: usize = 1 << 12;
+/// The maximum number of bytes in a step of a path. Longer steps are cut off.
 pub(crate) const MAX_STEP_BYTES: usize = 256;
+/// The maximum number of samples in a response.
+pub const MAX_SAMPLES: usize = 64;
 
 /// The maximum sizes on the wire, in bytes. A 32-bit integer takes up to 5 bytes, and a float takes
 /// 4.
@@ -29,6 +31,11 @@ const NODE_BYTES: usize = 6 * 4 + 4 * 5;
 const RAY_BYTES: usize = 8 * 4 + 1 + TRACE_BYTES + 3 * 5;
 const TEST_BYTES: usize = 1 + 9 * 4 + 10;
 const SPAN_BYTES: usize = 1 + 2 * 4;
+/// The bytes of a bounce, apart from the arriving light. The name of the surface is short.
+const BOUNCE_BYTES: usize = 4 * 5 + 9 * 4 + 64 + BadValue::COUNT;
+const ARRIVING_LIGHT_BYTES: usize = 4 * 4 + 1;
+const BAD_PATH_BYTES: usize = 4 * 5;
+const SAMPLE_BYTES: usize = 5 + PANIC_BYTES + BadValue::COUNT * BAD_PATH_BYTES;
 
 impl Request {
     /// Returns the maximum size of the response on the wire, in bytes.
@@ -39,13 +46,17 @@ impl Request {
             Request::Draw(draw) => draw.pixels().count() * (1 + TRACE_BYTES + 5),
             Request::Tree(size) => size.nodes as usize * NODE_BYTES + size.primitives as usize * 4,
             Request::Follow(follow) => {
-                let steps = MAX_STEPS * (MAX_STEP_BYTES + 2);
+                // Each step can be a bounce or belong to arriving light.
+                let of_step = MAX_STEP_BYTES + 2 + BOUNCE_BYTES.max(ARRIVING_LIGHT_BYTES);
+                let steps = MAX_STEPS * of_step;
                 MAX_RAYS * RAY_BYTES + follow.max_tests as usize * TEST_BYTES + steps
             }
+            Request::Samples(range) => range.count as usize * SAMPLE_BYTES,
             Request::Boxes(queries) => queries.boxes.len() * SPAN_BYTES,
         };
         // The lists of all panics, plus a few numbers.
-        of_lists + (MAX_PANICS + 1) * (PANIC_BYTES + 5) + 64
+        let bad_values = BadValue::COUNT * BAD_PATH_BYTES;
+        of_lists + bad_values + (MAX_PANICS + 1) * (PANIC_BYTES + 5) + 64
     }
 }
 
@@ -85,6 +96,9 @@ impl Response {
                 let tests = followed.rays.iter().map(|ray| ray.tests.len());
                 tests.sum::<usize>() <= follow.max_tests as usize
             }
+            (Request::Samples(range), Response::Samples(samples)) => {
+                samples.is_empty() || samples.len() == range.count as usize
+            }
             (Request::Boxes(queries), Response::Spans(spans)) => spans.len() == queries.boxes.len(),
             _ => false,
         };
@@ -105,6 +119,16 @@ impl Response {
             }
             Response::Tree(tree) => of_outcome(tree).into_iter().collect(),
             Response::Followed(followed) => followed.panic.iter().collect(),
+            Response::Samples(samples) => {
+                let outcomes = samples.iter().map(|sample| &sample.outcome);
+                let panics = outcomes.filter_map(|outcome| match outcome {
+                    SampleOutcome::Panicked(panic) => Some(panic),
+                    SampleOutcome::Radiance(_)
+                    | SampleOutcome::InvalidHit
+                    | SampleOutcome::InvalidRadiance => None,
+                });
+                panics.collect()
+            }
             Response::Received
             | Response::Tried
             | Response::Aimed
@@ -127,7 +151,9 @@ fn has_possible_numbers(drawn: &DrawnPixels) -> bool {
     let mut indices = drawn.panics.iter().flat_map(|(_, indices)| indices);
     let count = drawn.values.len();
     indices.all(|index| (*index as usize) < count)
-        && drawn.rays.max(drawn.invalid_paths) <= u32::MAX.into()
+        && [drawn.rays, drawn.invalid_paths, drawn.invalid_radiances]
+            .iter()
+            .all(|count| *count <= u32::MAX.into())
 }
 
 /// Deserialises a list of at most `N` elements. A value can take a single byte on the wire and 56

@@ -4,6 +4,7 @@
 mod limits;
 mod recorded;
 
+use framework::render::path_steps::{BadPath, BadValue};
 use glam::{UVec2, Vec3};
 use protocol::{ElementOutcome, Interval, Panic, Ray, Trace, Tree, TreeNode};
 use serde::{Deserialize, Serialize};
@@ -13,8 +14,8 @@ use crate::scene_data::{Aim, SceneData};
 
 use limits::{at_most, fixed_width};
 
-pub use limits::{MAX_PANICS, MAX_VALUES};
-pub(crate) use limits::{MAX_STEP_BYTES, MAX_STEPS};
+pub(crate) use limits::MAX_STEP_BYTES;
+pub use limits::{MAX_PANICS, MAX_SAMPLES, MAX_VALUES};
 pub use recorded::{RecordedRay, RecordedRays, Test};
 
 /// A request from the viewer.
@@ -35,6 +36,8 @@ pub enum Request {
     Tree(TreeSize),
     /// Records the tests made for a ray or a path.
     Follow(Follow),
+    /// Computes the samples of a pixel in the shaded view, one by one.
+    Samples(SampleRange),
     /// Calls `BBox::hit` on boxes.
     Boxes(BoxQueries),
 }
@@ -136,6 +139,15 @@ pub struct Follow {
     pub max_rays: u32,
 }
 
+/// The first samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SampleRange {
+    /// The pixel.
+    pub pixel: UVec2,
+    /// The number of samples.
+    pub count: u32,
+}
+
 /// A ray or a path to record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Target {
@@ -185,6 +197,8 @@ pub enum Response {
     Tree(ElementOutcome<TreeData>),
     /// The response to `Follow`.
     Followed(RecordedRays),
+    /// The response to `Samples`. There are none if part two isn't written yet.
+    Samples(#[serde(deserialize_with = "at_most::<_, _, MAX_SAMPLES>")] Vec<PathSample>),
     /// The response to `Boxes`: the part of the ray's range inside each box, or `None`.
     Spans(Vec<Option<Interval>>),
     /// There is no scene, or its tree could not be built.
@@ -216,6 +230,8 @@ pub enum SubmissionPart {
     Build,
     /// `Bvh::hit`.
     Traversal,
+    /// `radiance`, with everything else in part two. It isn't called separately.
+    Light,
 }
 
 impl SubmissionPart {
@@ -272,8 +288,36 @@ pub struct DrawnPixels {
     pub rays: u64,
     /// The number of paths that are black because a hit was unusable.
     pub invalid_paths: u64,
+    /// The number of paths that are black because their radiance wasn't finite.
+    pub invalid_radiances: u64,
+    /// The first bad values in the paths that were checked.
+    #[serde(deserialize_with = "at_most::<_, _, { BadValue::COUNT }>")]
+    pub bad_values: Vec<BadPath>,
     /// Why the shaded view is drawn in clay: part two isn't written yet.
     pub no_light: Option<Panic>,
+}
+
+/// One sample of a pixel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathSample {
+    /// The radiance.
+    pub outcome: SampleOutcome,
+    /// The values on its path that no correct code returns.
+    #[serde(deserialize_with = "at_most::<_, _, { BadValue::COUNT }>")]
+    pub bad_values: Vec<BadPath>,
+}
+
+/// The radiance of a sample, or why there is none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum SampleOutcome {
+    /// The radiance.
+    Radiance(Vec3),
+    /// The sample is black because a hit was unusable.
+    InvalidHit,
+    /// The sample is black because its radiance wasn't finite.
+    InvalidRadiance,
+    /// The code panicked.
+    Panicked(Panic),
 }
 
 /// The values of pixels. The value of a pixel with a panic is meaningless.

@@ -1,11 +1,13 @@
 //! Recorded tests.
 
+use framework::render::path_log::MAX_STEPS;
+use framework::render::path_steps::Bounce;
 use glam::Vec3;
 use protocol::{Interval, Panic, Ray, Trace};
 use serde::{Deserialize, Serialize};
 
 use super::TestCounts;
-use super::limits::{MAX_RAYS, MAX_STEPS, at_most};
+use super::limits::{MAX_RAYS, at_most};
 
 /// The tests recorded for a ray, or for all rays in a path.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -18,6 +20,9 @@ pub struct RecordedRays {
     /// The steps of the path, as logged by the path tracer.
     #[serde(deserialize_with = "at_most::<_, _, MAX_STEPS>")]
     pub steps: Vec<String>,
+    /// The bounces of the path.
+    #[serde(deserialize_with = "at_most::<_, _, MAX_STEPS>")]
+    pub bounces: Vec<Bounce>,
     /// The panic that ended the recording.
     pub panic: Option<Panic>,
 }

@@ -11,6 +11,7 @@ use view_probe::indexed_tree::IndexedTree;
 use view_probe::messages::{RecordedRay, RecordedRays, Test};
 use view_probe::rules::{self, NodeAddresses, NodeSpan, Row};
 
+use types::BounceRow;
 pub use types::{ExplainedHit, ExplainedRay, ExplainedTest, Explanation, TestOutcome};
 
 /// The scene that the rays are traced in.
@@ -62,6 +63,9 @@ pub fn explain(
         rays: explained.collect(),
         radiance: followed.radiance,
         steps: followed.steps.clone(),
+        bounces: followed.bounces.iter().map(BounceRow::from).collect(),
+        history: Vec::new(),
+        history_problem: None,
         panic: followed
             .panic
             .clone()

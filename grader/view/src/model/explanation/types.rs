@@ -1,8 +1,11 @@
 //! An explanation as sent to the page.
 
+use framework::render::path_steps::Bounce;
 use glam::{UVec2, Vec3};
 use serde::Serialize;
 use view_probe::rules::Rule;
+
+use crate::model::history::SampleRow;
 
 /// An explained pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -17,8 +20,36 @@ pub struct Explanation {
     pub radiance: Option<Vec3>,
     /// The steps of the path, as logged by the path tracer.
     pub steps: Vec<String>,
+    /// The bounces of the path, each with the index of its first step.
+    pub bounces: Vec<BounceRow>,
+    /// The first samples of the pixel. There are none for a ray from the exam, or if part two isn't
+    /// written yet.
+    pub history: Vec<SampleRow>,
+    /// The reason the samples cannot be listed.
+    pub history_problem: Option<String>,
     /// The panic that ended the recording: its message and its location.
     pub panic: Option<[String; 2]>,
+}
+
+/// A bounce of a path, with its bad values as text.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BounceRow {
+    #[serde(flatten)]
+    bounce: Bounce,
+    /// Whether the scattered direction has a density. In JSON, NaN looks like no density.
+    has_pdf: bool,
+    problems: Vec<String>,
+}
+
+impl From<&Bounce> for BounceRow {
+    fn from(bounce: &Bounce) -> Self {
+        let problems = bounce.bad_values.iter().map(ToString::to_string).collect();
+        BounceRow {
+            bounce: bounce.clone(),
+            has_pdf: bounce.pdf.is_some(),
+            problems,
+        }
+    }
 }
 
 /// An explained ray.

@@ -168,16 +168,8 @@ fn run(
     let time = started.elapsed();
     image_file::write(&film, picture.tone(options), out)?;
     println!("{}", progress::summary(out, film.size, stats, time));
-    if stats.invalid_paths > 0 {
-        let paths = match stats.invalid_paths {
-            1 => "path is",
-            _ => "paths are",
-        };
-        eprintln!(
-            "note: {} {paths} black because a hit contains NaN or infinity, a normal of length \
-             zero, or an unknown shape",
-            stats.invalid_paths
-        );
+    for note in stats.notes() {
+        eprintln!("note: {note}");
     }
     Ok(())
 }

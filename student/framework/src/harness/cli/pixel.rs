@@ -10,6 +10,7 @@ use super::error::{RenderError, call};
 use super::first_hit;
 use super::options::Options;
 use crate::render::path_log::follow;
+use crate::render::path_steps::{Step, bounces};
 use crate::render::renderer::{RenderStats, Renderer};
 use crate::scene::{Material, Scene};
 use crate::submission::World;
@@ -54,13 +55,24 @@ pub(super) fn print(
 }
 
 /// Returns the lines that describe the path of a pixel's first sample. Clay has no paths.
-fn description_of_path(radiance: Vec3, steps: &[String]) -> String {
+fn description_of_path(radiance: Vec3, steps: &[Step]) -> String {
     if steps.is_empty() {
         return String::new();
     }
-    let steps = steps.iter().map(|step| format!("  {step}\n"));
-    let steps: String = steps.collect();
-    format!("path of the first sample, whose radiance is {radiance}:\n{steps}")
+    let mut text = format!("path of the first sample, whose radiance is {radiance}:\n");
+    let bounces = bounces(steps);
+    let ends = bounces.iter().skip(1).map(|next| next.first_step as usize);
+    for (bounce, end) in bounces.iter().zip(ends.chain([steps.len()])) {
+        let throughput = bounce.throughput;
+        text += &format!("  bounce {}, throughput {throughput:.4}:\n", bounce.number);
+        for step in &steps[bounce.first_step as usize..end] {
+            text += &format!("    {step}\n");
+        }
+        for bad in &bounce.bad_values {
+            text += &format!("    wrong: {bad}\n");
+        }
+    }
+    text
 }
 
 /// Returns the lines that describe the hit at a pixel's centre.

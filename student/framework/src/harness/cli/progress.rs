@@ -2,8 +2,8 @@
 //! long time.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -19,8 +19,7 @@ const LONG: Duration = Duration::from_secs(10);
 /// error is a terminal.
 pub(super) struct Progress {
     bar: ProgressBar,
-    rays: AtomicU64,
-    invalid_paths: AtomicU64,
+    stats: Mutex<RenderStats>,
     started: Instant,
     /// If there is no bar, says that rendering is still running.
     _notice: Option<Notice>,
@@ -37,28 +36,28 @@ impl Progress {
         Progress {
             _notice: bar.is_hidden().then(|| Notice::after(LONG, message)),
             bar,
-            rays: AtomicU64::new(0),
-            invalid_paths: AtomicU64::new(0),
+            stats: Mutex::default(),
             started: Instant::now(),
         }
     }
 
     /// Records that this many samples have been added to one more row.
     pub(super) fn finish_row(&self, stats: RenderStats, samples: u64) {
-        let rays = self.rays.fetch_add(stats.rays, Ordering::Relaxed) + stats.rays;
-        self.invalid_paths
-            .fetch_add(stats.invalid_paths, Ordering::Relaxed);
+        let mut all = self.lock();
+        all.add(&stats);
+        let rays = all.rays;
+        drop(all);
         self.bar.set_message(rate(rays, self.started.elapsed()));
         self.bar.inc(samples);
     }
 
     /// Returns the statistics for all rows finished so far.
     pub(super) fn stats(&self) -> RenderStats {
-        RenderStats {
-            rays: self.rays.load(Ordering::Relaxed),
-            invalid_paths: self.invalid_paths.load(Ordering::Relaxed),
-            ..RenderStats::default()
-        }
+        *self.lock()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, RenderStats> {
+        self.stats.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

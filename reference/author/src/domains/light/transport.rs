@@ -262,10 +262,10 @@ const SURFACE: Aspect<DirectCall> = Aspect {
 /// moves the hit along the surface.
 const SIDE: Aspect<DirectCall> = Aspect {
     name: "cosine of the ray",
-    classes: &["above 0.2", "above 0.02", "smaller"],
+    classes: &["above 0.2", "above 0.05", "smaller"],
     class: |call| {
         let cosine = matte(call)?.out.z;
-        Some([0.2, 0.02].iter().filter(|limit| cosine < **limit).count())
+        Some([0.2, 0.05].iter().filter(|limit| cosine < **limit).count())
     },
 };
 

@@ -203,7 +203,7 @@ const TURNED: Declaration = Declaration {
                 let mut cases = LIT_AND_DARK(rng, room);
                 cases.extend((0..CALLS / 2).map(|_| {
                     direct_case(rng, room, |surface, _, light| {
-                        is_lit(light) && surface.out.z < 0.019
+                        is_lit(light) && surface.out.z < 0.049
                     })
                 }));
                 // The light that was picked is below the surface, but scattering finds the other.

@@ -159,7 +159,12 @@ impl<C: InRoom> Aspect<C> {
         classes: &["up to 0.1", "up to 10", "up to 1,000"],
         class: |call| {
             let (_, half) = call.room().extent();
-            Some([0.1, 10.0].iter().filter(|limit| half > **limit).count())
+            Some(
+                [0.1, 10.0]
+                    .iter()
+                    .filter(|limit| half.max_element() > **limit)
+                    .count(),
+            )
         },
     };
 
@@ -169,7 +174,7 @@ impl<C: InRoom> Aspect<C> {
         classes: &["around the origin", "far away"],
         class: |call| {
             let (center, half) = call.room().extent();
-            Some(usize::from(center.length() > 50.0 * half))
+            Some(usize::from(center.length() > 50.0 * half.max_element()))
         },
     };
 

@@ -188,6 +188,7 @@ pub(super) const DARK: Environment64 = Environment64::Constant(DVec3::ZERO);
 /// Returns a case in which `wanted` is true of the surface that a random ray hits, of the random
 /// numbers and of the surface's direct light. In some calls, the scattered direction leads to a
 /// point on a light, since it would hardly ever find a small light by chance.
+#[track_caller]
 pub(super) fn direct_case(
     rng: &mut Rng,
     room: &Room,
@@ -201,6 +202,7 @@ pub(super) fn direct_case(
 }
 
 /// Like [`direct_case`], but the scattered direction is almost along the surface.
+#[track_caller]
 pub(super) fn grazing_case(
     rng: &mut Rng,
     room: &Room,
@@ -230,6 +232,7 @@ fn toward_a_light(rng: &mut Rng, room: &Room, surface: &Surface64) -> Option<Vec
 
 /// Returns a case with at least this margin. `direct` returns the random numbers for the scattered
 /// direction.
+#[track_caller]
 fn direct_case_with(
     rng: &mut Rng,
     room: &Room,
@@ -249,7 +252,9 @@ fn direct_case_with(
         };
         let numbers = Numbers64::from(&call);
         let direct = transport::direct(room, &surface, &numbers);
-        let is_clear = hit.margin > self::margin(room) && direct.margin > margin;
+        let is_clear = hit.margin > self::margin(room)
+            && direct.margin > margin
+            && surface.out.z.abs() > least_cosine(room);
         let light = direct.value;
         (is_clear && wanted(&surface, &numbers, light)).then_some(DirectCase { call, light })
     })
@@ -257,6 +262,7 @@ fn direct_case_with(
 
 /// Returns a case in which `wanted` is true of the surface that a random ray hits first, if any, and
 /// of the radiance along the ray.
+#[track_caller]
 pub(super) fn path_case(
     rng: &mut Rng,
     room: &Room,
@@ -270,6 +276,7 @@ pub(super) fn path_case(
 
 /// Returns a case in which `wanted` is true of a random ray, of the random numbers and of the
 /// radiance along the ray.
+#[track_caller]
 pub(super) fn path_case_along(
     rng: &mut Rng,
     room: &Room,
@@ -304,13 +311,25 @@ pub(super) fn moved(room: &Room, factor: f64, shift: DVec3) -> Room {
 /// Returns the margin that calls in a room must have. Margins are relative to the largest coordinate,
 /// so in a room that is far from the origin, all are small.
 fn margin(room: &Room) -> f64 {
+    MARGIN / remoteness(room)
+}
+
+/// Returns the smallest cosine of the angle at which a ray in a call of `direct` may hit its surface.
+/// At smaller angles, rounding moves the hit along the surface.
+pub(super) fn least_cosine(room: &Room) -> f64 {
+    1e-3 * remoteness(room)
+}
+
+/// Returns how far from the origin a room extends, relative to its size. Rounding errors are
+/// proportional to this number, which is about 1 for rooms around the origin.
+fn remoteness(room: &Room) -> f64 {
     let (center, half) = room.extent();
-    MARGIN * half / (center.length() + half)
+    1.0 + center.length() / half.max_element()
 }
 
 /// Returns a ray from a random point near the middle of a room in a random direction.
 fn random_ray(rng: &mut Rng, room: &Room) -> Ray {
     let (center, half) = room.extent();
-    let origin = center + rng.point(0.5 * half);
+    let origin = center + half * rng.point(0.5);
     Ray::new(origin.as_vec3(), rng.direction().as_vec3())
 }

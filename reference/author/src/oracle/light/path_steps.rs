@@ -29,7 +29,11 @@ pub fn path_steps(room: &Room, start: &Ray64, numbers: &[Numbers64]) -> Vec<Path
         let Some(surface) = room.hit(&ray_here, from.as_ref()).value else {
             let environment = room.sources().environment.radiance(ray_here.dir).value;
             let light = if is_counted { DVec3::ZERO } else { environment };
-            step(PathHit::Nothing, ray_here.at(room.extent().1), light);
+            step(
+                PathHit::Nothing,
+                ray_here.at(room.extent().1.max_element()),
+                light,
+            );
             break;
         };
         let emitted = if is_counted {

@@ -62,12 +62,12 @@ impl Room {
         &self.quads
     }
 
-    /// Returns the middle of the room and half of its longest side.
-    pub fn extent(&self) -> (DVec3, f64) {
+    /// Returns the middle of the room and half of its size along each axis.
+    pub fn extent(&self) -> (DVec3, DVec3) {
         let corners = || self.quads.iter().flat_map(Quad::corners);
         let (min, max) = (corners().reduce(DVec3::min), corners().reduce(DVec3::max));
         let (min, max) = (min.unwrap_or_default(), max.unwrap_or_default());
-        (0.5 * (min + max), 0.5 * (max - min).max_element())
+        (0.5 * (min + max), 0.5 * (max - min))
     }
 
     /// Returns everything that emits light.

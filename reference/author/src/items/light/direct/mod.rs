@@ -9,8 +9,8 @@ use protocol::light::LightQuestion;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
 use super::rooms::{
-    DARK, DirectCase, HALF, direct_case, emitter, grazing_case, is_lit, matte, moved, panel, sky,
-    subject, tilted, walls, with_shining_ceiling,
+    DARK, DirectCase, HALF, direct_case, emitter, grazing_case, is_lit, least_cosine, matte, moved,
+    panel, sky, subject, tilted, walls, with_shining_ceiling,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
@@ -100,8 +100,10 @@ const SKY: Declaration = Declaration {
         );
         // Almost along a floor, evaluate and the pdf are tiny, but their quotient isn't.
         let floor = open(rng).swap_remove(0);
+        let material = matte(rng);
+        let above = tilted(rng, 1.5 * DVec3::Y, 0.3, material);
         let sky = Environment64::Constant(color(rng) * rng.log_uniform(1e-3, 1e4));
-        let floor = Room::new(vec![floor], sky);
+        let floor = Room::new(vec![floor, above], sky);
         let case = |_| grazing_case(rng, &floor, |_, _, light| is_lit(light));
         questions.push(question(&floor, (0..CALLS / 2).map(case).collect()));
         questions
@@ -203,7 +205,8 @@ const TURNED: Declaration = Declaration {
                 let mut cases = LIT_AND_DARK(rng, room);
                 cases.extend((0..CALLS / 2).map(|_| {
                     direct_case(rng, room, |surface, _, light| {
-                        is_lit(light) && surface.out.z < 0.049
+                        let most = (2.0 * least_cosine(room)).max(0.049);
+                        is_lit(light) && surface.out.z < most
                     })
                 }));
                 // The light that was picked is below the surface, but scattering finds the other.

@@ -233,8 +233,8 @@ const THROUGHPUT: Declaration = Declaration {
             },
         );
         // In a dark room, the first light that a path finds can be very dim.
-        questions.extend([3, 4].map(|bounces| {
-            let room = dim(rng);
+        questions.extend([(3, 0.04), (4, 0.004)].map(|(bounces, albedo)| {
+            let room = dim(rng, albedo);
             let case = |_| {
                 path_case_along(rng, &room, bounces, |ray, numbers, light| {
                     let shorter = without_the_last(&room, ray, numbers);
@@ -403,24 +403,24 @@ const ROULETTE: Declaration = Declaration {
             cases.extend(self::cases(rng, room, 20, lit));
             cases
         });
-        // Mirrors and glass play roulette, too.
-        questions.extend(rooms(rng, shiny, |rng, room| {
+        // Mirrors and glass play roulette, too, also at the last bounce, after which only the sky can
+        // add light.
+        let closed = [shiny(rng), shiny(rng)].map(|room| (room, 7));
+        let open = Room::new(shiny(rng).quads()[1..].to_vec(), sky(rng));
+        let rooms = closed.into_iter().chain([(open, 4)]);
+        questions.extend(rooms.map(|(room, bounces)| {
             let kinds: [fn(&Surface64) -> bool; 2] = [|it| is_mirror(Some(it)), is_glass];
             let mut cases = Vec::new();
-            let outcomes = [(7, true), (7, false), (4, true), (4, false)];
-            let all = kinds
-                .into_iter()
-                .flat_map(|kind| outcomes.map(|it| (kind, it)));
-            for (is_kind, (bounces, survives)) in all {
-                cases.extend((0..CALLS / 4).map(|_| {
-                    path_case_along(rng, room, bounces, |ray, numbers, light| {
-                        let surfaces = oracle::surfaces(room, ray, &numbers[..3]);
+            for (is_kind, survives) in kinds.into_iter().flat_map(|it| [(it, true), (it, false)]) {
+                cases.extend((0..CALLS / 2).map(|_| {
+                    path_case_along(rng, &room, bounces, |ray, numbers, light| {
+                        let surfaces = oracle::surfaces(&room, ray, &numbers[..3]);
                         surfaces.get(3).is_some_and(is_kind)
-                            && decides(room, ray, numbers, light, survives)
+                            && decides(&room, ray, numbers, light, survives)
                     })
                 }));
             }
-            cases
+            question(&room, rng.shuffled(cases))
         }));
         questions
     },
@@ -476,8 +476,12 @@ const SIZES: Declaration = Declaration {
             let albedo = color(rng);
             let room = room_with(rng, || Material64::Lambertian { albedo });
             let room = moved(&room, scale, distance * rng.direction());
-            let cases = cases(rng, &room, 3, lit);
-            question(&room, cases)
+            let case = |_| {
+                path_case_along(rng, &room, 3, |ray, numbers, light| {
+                    is_lit(light) && is_stable(&room, ray, numbers, light)
+                })
+            };
+            question(&room, (0..CALLS).map(case).collect())
         });
         questions.into()
     },
@@ -526,13 +530,15 @@ fn is_glass(surface: &Surface64) -> bool {
 /// Returns whether the radiance hardly changes if the ray starts slightly beside its origin. In
 /// long paths, rounding errors can grow at each bounce.
 fn is_stable(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3) -> bool {
-    /// Rounding to single precision moves a point by about 2e-7.
-    const SHIFT: f64 = 1e-5;
+    /// Rounding to single precision moves a point by about 1e-7, relative to its coordinates.
+    const SHIFT: f64 = 3e-6;
     /// Half the tolerance.
     const CHANGE: f64 = 5e-4;
+    let (center, half) = room.extent();
+    let shift = SHIFT * (center.length() + half.max_element());
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().all(|axis| {
         let shifted = Ray64 {
-            origin: ray.origin + SHIFT * axis,
+            origin: ray.origin + shift * axis,
             ..*ray
         };
         let change = oracle::radiance(room, &shifted, numbers).value - light;
@@ -631,10 +637,9 @@ fn corridor(rng: &mut Rng) -> Room {
 
 /// Returns a closed room with very dark walls. Its light only shines on the floor and the lowest
 /// part of the walls.
-fn dim(rng: &mut Rng) -> Room {
-    let darkness = if rng.coin() { 0.04 } else { 0.004 };
+fn dim(rng: &mut Rng, albedo: f64) -> Room {
     let mut quads = walls(HALF, || Material64::Lambertian {
-        albedo: darkness * color(rng),
+        albedo: albedo * color(rng),
     });
     let light = emitter(rng);
     let half = dvec3(1.0, 0.0, 1.0);

@@ -5,11 +5,15 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-/// The name of the quantity that says whether there is an answer at all, such as a hit.
+/// The name of the quantity that says whether a ray hits anything.
 pub const PRESENCE: &str = "hit or miss";
+/// The name of the quantity that says whether a function that isn't about hits returns a value.
+pub const SOME_OR_NONE: &str = "`Some` or `None`";
+/// The name of the quantity that says how evenly directions are spread.
+pub const SPREAD: &str = "spread";
 
 /// A wrong quantity, and the side on which it is wrong. In the data of an assignment or an item, a
-/// symptom without a side stands for any answer that isn't reversed.
+/// symptom without a side stands for any answer that is neither reversed nor NaN.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Symptom {
@@ -20,7 +24,7 @@ pub struct Symptom {
     pub side: Option<Side>,
 }
 
-/// Whether a quantity is too small, too large or reversed.
+/// Whether a quantity is too small, too large, reversed or not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
@@ -30,6 +34,8 @@ pub enum Side {
     More,
     /// The answer is the opposite direction.
     Reversed,
+    /// The answer is NaN, or a vector that contains NaN.
+    NotANumber,
 }
 
 impl Symptom {
@@ -75,7 +81,7 @@ impl Symptom {
     pub fn includes(&self, observed: &Symptom) -> bool {
         let is_side = match self.side {
             Some(_) => self.side == observed.side,
-            None => observed.side != Some(Side::Reversed),
+            None => !matches!(observed.side, Some(Side::Reversed | Side::NotANumber)),
         };
         self.what == observed.what && is_side
     }
@@ -88,10 +94,11 @@ impl Side {
         if is_there { Side::More } else { Side::Less }
     }
 
-    /// Returns the side on which a value is wrong, or `None` if it equals the expected value or if
-    /// either is NaN.
+    /// Returns the side on which a value is wrong, or `None` if it equals the expected value.
     pub fn of(got: f32, wanted: f32) -> Option<Self> {
-        if got < wanted {
+        if got.is_nan() {
+            Some(Side::NotANumber)
+        } else if got < wanted {
             Some(Side::Less)
         } else if got > wanted {
             Some(Side::More)

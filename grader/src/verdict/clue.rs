@@ -15,6 +15,11 @@ pub const KEPT_STATE: &str = "Your code answers the same question correctly in i
 pub const UNKNOWN_PANIC: &str = "What does that line require? For the question shown, work out \
                                  which value doesn't meet the requirement.";
 
+/// The clue for an answer that is NaN or contains NaN.
+pub const NOT_A_NUMBER: &str = "Your answer is NaN, which comes from 0 / 0, from ∞ − ∞, or from the square root \
+                                of a negative number. Print the numbers that you divide or take the root of: \
+                                which of them is 0 or negative?";
+
 /// Returns the clue for an item without an answer. `called` is the method that gave none, if it is
 /// known.
 pub fn of_fault(fault: &Fault, called: Option<&str>, task: &TaskInfo) -> String {

@@ -5,11 +5,11 @@ use judging::assignment::{TaskClues, TaskInfo};
 use judging::exam::{Exam, Item};
 use judging::recognise::Observations;
 use judging::section::Section;
-use judging::symptom::Symptom;
+use judging::symptom::{Side, Symptom};
 
 use crate::handed_out::HandedOut;
 use crate::score::{ItemScore, Verdict, VerdictKind};
-use crate::verdict::{add_hints, chapter};
+use crate::verdict::{add_hints, chapter, clue};
 
 /// Adds the hints for the mistakes that explain a task's answers, which come from the submission's
 /// own program or from the program with substituted parts. If no mistake explains the answers, adds
@@ -80,6 +80,7 @@ fn add_symptom_clue(
         // this item.
         let is_unexplained = line.verdict.kind() == VerdictKind::NoAnswer
             && line.hints.is_empty()
+            && line.section == item.section
             && line.clue_section.is_none();
         if is_unexplained && earlier.iter().all(|other| other.verdict != Verdict::Pass) {
             line.clue_section = chapter(item, handed_out);
@@ -93,20 +94,36 @@ fn add_symptom_clue(
         // The item has a clue with a section of its own.
         return;
     }
-    let clues = &handed_out.assignment.info(item.task).clues;
-    let of_symptom = clues.of_symptom(symptom);
-    let of_symptom = of_symptom.filter(|_| !item.has_look_for(symptom));
+    let of_symptom = clue_on_symptom(item, symptom, handed_out);
     let first = earlier.iter().find(is_alike).filter(|_| line.has_no_clue());
     line.symptom_clue = match first {
         Some(first) => Some(fix_first(&first.id)),
-        None => of_symptom.map(|clue| clue.clue.to_owned()),
+        None => of_symptom.as_ref().map(|(clue, _)| (*clue).to_owned()),
     };
     line.clue_section = match first {
         Some(first) => first.where_to_read().cloned(),
         // A recognised mistake has its own section.
         None if line.section != item.section => None,
-        None => of_symptom.map(|clue| Section::new(clue.section)),
+        None => of_symptom.and_then(|(_, section)| section),
     };
+}
+
+/// Returns the clue for an item with this symptom and the section to read, unless the item's own
+/// advice is about that symptom.
+fn clue_on_symptom(
+    item: &Item,
+    symptom: &Symptom,
+    handed_out: &HandedOut,
+) -> Option<(&'static str, Option<Section>)> {
+    if item.has_look_for(symptom) {
+        return None;
+    }
+    if symptom.side == Some(Side::NotANumber) {
+        return Some((clue::NOT_A_NUMBER, chapter(item, handed_out)));
+    }
+    let clues = &handed_out.assignment.info(item.task).clues;
+    let clue = clues.of_symptom(symptom)?;
+    Some((clue.clue, Some(Section::new(clue.section))))
 }
 
 /// Returns whether these are all the items of a task. After a save, the items that failed before
@@ -307,6 +324,16 @@ mod tests {
         assert_eq!(lines[2].symptom_clue.as_deref(), Some(hit.clue));
         let first = "sphere.near_side fails in the same way: fix that first.";
         assert_eq!(lines[3].symptom_clue.as_deref(), Some(first));
+        // No item's own advice is about NaN.
+        let nan = |what| Symptom {
+            side: Some(Side::NotANumber),
+            ..Symptom::of(what)
+        };
+        let lines = wrong([nan("distance"), nan("uv"), nan("normal"), Symptom::MISS]);
+        for line in &lines[..3] {
+            assert_eq!(line.symptom_clue.as_deref(), Some(clue::NOT_A_NUMBER));
+            assert_eq!(line.clue_section, Some(Section::new("sphere.md")));
+        }
     }
 
     #[test]

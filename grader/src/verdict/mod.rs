@@ -12,8 +12,8 @@ use judging::judge::{Credit, Failure, FailureKind, Judgement};
 use judging::sanitize::sanitize;
 use judging::scene;
 use judging::section::Section;
-use judging::signatures::KnownMistake;
-use judging::symptom::Symptom;
+use judging::signatures::{KnownMistake, PanicKind};
+use judging::symptom::{SPREAD, Symptom};
 
 use crate::build::NotCompiled;
 use crate::handed_out::HandedOut;
@@ -99,13 +99,20 @@ pub fn item_score(item: &Item, outcome: &ItemOutcome, handed_out: &HandedOut) ->
             let info = handed_out.assignment.info(item.task);
             score.called = called_by_all(item, *culprit, info);
             score.clue = Some(clue::of_fault(fault, score.called, info));
-            score.section = item.section.clone();
+            // The item's advice is about wrong answers.
+            score.section = if explains_crashes(item, info) {
+                item.section.clone()
+            } else {
+                chapter(item, handed_out)
+            };
             if matches!(fault, Fault::Crashed(Crash::StackOverflow)) {
                 let section = info.clues.section_if_stack_overflows.map(Section::new);
                 score.clue_section = section.filter(|_| !explains_crashes(item, info));
             }
             score.evidence = culprit.map(|culprit| {
-                evidence(item, culprit, ["no answer", "an answer"].map(str::to_owned))
+                let (question, element) = culprit;
+                let wanted = describe::answer::judged(&item.questions[question], element);
+                evidence(item, culprit, ["no answer".to_owned(), wanted])
             });
         }
         ItemOutcome::NotRun(why) => {
@@ -147,6 +154,14 @@ fn explains_crashes(item: &Item, info: &TaskInfo) -> bool {
     let sections = info.clues.sections_on_crashes.iter();
     let mut sections = sections.map(|section| Section::new(*section));
     sections.any(|section| item.section.as_ref() == Some(&section))
+}
+
+/// Returns the section about panics with this message in the task's code, if there is one.
+fn section_on_panic(message: &str, info: &TaskInfo) -> Option<Section> {
+    let kind = PanicKind::of(message)?;
+    let mut sections = info.clues.sections_on_panics.iter();
+    let (_, section) = sections.find(|(about, _)| *about == kind)?;
+    Some(Section::new(*section))
 }
 
 fn not_run_message(why: &NotRunReason) -> String {
@@ -250,8 +265,8 @@ fn score_answers(
             (partial(Verdict::Wrong), got.clone(), wanted.clone())
         }
         FailureKind::Uneven { got, wanted } => {
-            score.symptom = Some(Symptom::of("spread"));
-            score.message = "wrong: spread".to_owned();
+            score.symptom = Some(Symptom::of(SPREAD));
+            score.message = "wrong: the directions aren't spread evenly".to_owned();
             (partial(Verdict::Wrong), got.clone(), wanted.clone())
         }
         FailureKind::Panicked(panic) if panic.is_unimplemented() => {
@@ -285,10 +300,11 @@ fn score_answers(
             score.clue = clue::of_panic(message).or(unknown).map(str::to_owned);
             if score.clue.is_some() && !explains_crashes(item, info) {
                 // The item's advice is about wrong answers.
-                score.section = chapter(item, handed_out);
+                score.section =
+                    section_on_panic(message, info).or_else(|| chapter(item, handed_out));
             }
-            let panicked = partial(Verdict::Panicked);
-            (panicked, "a panic".to_owned(), "an answer".to_owned())
+            let wanted = describe::answer::judged(&item.questions[question], failure.element);
+            (partial(Verdict::Panicked), "a panic".to_owned(), wanted)
         }
         FailureKind::Protocol(why) => {
             score.verdict = Verdict::Protocol;

@@ -1,4 +1,4 @@
-//! Part two, step 5: light from an environment map, a picture of all directions.
+//! Part two, step 6: light from an environment map, a picture of all directions.
 //!
 //! ```text
 //!    φ = 0          columns         φ = 2π    θ is the angle from +y, and φ the angle around the

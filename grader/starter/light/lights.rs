@@ -1,4 +1,4 @@
-//! Part two, step 2: sampling the lights.
+//! Part two, step 3: sampling the lights.
 //!
 //! ```text
 //!       ┌─────────────────┐  an area light, which emits on one side

@@ -1,4 +1,4 @@
-//! Part two, step 3: direct light, which reaches a surface without being scattered on the way.
+//! Part two, step 4: direct light, which reaches a surface without being scattered on the way.
 //!
 //! ```text
 //!             light                  Two directions are sampled: one toward a light, and one that

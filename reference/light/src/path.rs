@@ -1,4 +1,4 @@
-//! Part two, step 4: following a path of light from the camera.
+//! Part two, step 5: following a path of light from the camera.
 //!
 //! ```text
 //!      camera o                 light     At each matte surface, `direct` finds the direct light.

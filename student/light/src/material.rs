@@ -1,4 +1,4 @@
-//! Part two, step 1: how surfaces scatter light.
+//! Part two, steps 1 and 2: how surfaces scatter light.
 //!
 //! ```text
 //!        out   normal, +z                All directions have length one, point away from the

@@ -10,6 +10,7 @@ use arrayvec::ArrayString;
 use protocol::Question;
 use serde::{Deserialize, Serialize};
 
+use crate::signatures::PanicKind;
 use crate::symptom::Symptom;
 
 pub use light::{LIGHT, LIGHT_FILES};
@@ -83,6 +84,9 @@ pub struct TaskClues {
     pub section_if_stack_overflows: Option<&'static str>,
     /// The sections that also explain a panic or a stack overflow in the items that refer to them.
     pub sections_on_crashes: &'static [&'static str],
+    /// The sections about panics in the task's code, by the kind of panic. The chapter is about all
+    /// other kinds.
+    pub sections_on_panics: &'static [(PanicKind, &'static str)],
     /// The section of the handout about code that keeps state from one call to the next. `None` if
     /// the chapter doesn't discuss it.
     pub section_on_kept_state: Option<&'static str>,
@@ -111,6 +115,7 @@ impl TaskClues {
         if_stack_overflows: None,
         section_if_stack_overflows: None,
         sections_on_crashes: &[],
+        sections_on_panics: &[],
         section_on_kept_state: None,
         by_symptom: &[],
     };

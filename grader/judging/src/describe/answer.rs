@@ -4,6 +4,7 @@ use protocol::{Answer, AnyTable, ElementOutcome, Record, ResultText, Tree};
 
 use crate::describe::{fill, number, point, uv};
 use crate::exam::{ExamQuestion, Key, Surface};
+use crate::judge::table::ExpectedTable;
 use crate::sanitize::sanitize;
 
 /// Maximum length of a panic message, in characters.
@@ -79,6 +80,25 @@ pub fn wanted(question: &ExamQuestion, element: usize) -> Vec<String> {
         Key::Radiance { pixels, .. } => vec![point(pixels[element])],
         Key::SpreadEvenly { .. } => vec!["directions that are spread evenly".to_owned()],
     }
+}
+
+/// Formats the quantities of the correct answer that are compared, for an element without an answer
+/// to compare them with.
+pub fn judged(question: &ExamQuestion, element: usize) -> String {
+    let row = ExpectedTable::new(question).and_then(|table| {
+        let (record, _) = table.rows.get(element)?;
+        let record = record.as_deref()?;
+        let quantities = table.judged.iter().map(|quantity| quantity.text(record));
+        let quantities: Vec<(String, String)> = quantities.collect();
+        Some(match &quantities[..] {
+            [(_, value)] => value.clone(),
+            all => {
+                let all = all.iter().map(|(name, value)| format!("{name} {value}"));
+                all.collect::<Vec<_>>().join(", ")
+            }
+        })
+    });
+    row.unwrap_or_else(|| wanted(question, element).join(", or "))
 }
 
 fn outcome<T>(outcome: Option<&ElementOutcome<T>>, show: impl Fn(&T) -> String) -> String {

@@ -13,7 +13,7 @@ use crate::assignment::{Assignment, Task};
 use crate::drawing_data::DrawingData;
 use crate::section::Section;
 use crate::signatures::{KnownMistake, MistakeSignatures};
-use crate::symptom::Symptom;
+use crate::symptom::{Side, Symptom};
 
 pub use key::{Aggregate, ExpectedRows, Key, Surface, TreeCheck};
 pub use subset::question_subset;
@@ -135,10 +135,13 @@ impl Item {
         }
     }
 
-    /// Returns whether `look` and `section` are about this symptom.
+    /// Returns whether `look` and `section` are about this symptom. They assume that the answer is
+    /// a number, unless `look_fits` says otherwise.
     pub fn has_look_for(&self, symptom: &Symptom) -> bool {
         let mut fits = self.look_fits.iter();
-        self.look_fits.is_empty() || fits.any(|fitting| fitting.includes(symptom))
+        let is_about_numbers = self.look_fits.is_empty();
+        is_about_numbers && symptom.side != Some(Side::NotANumber)
+            || fits.any(|fitting| fitting.includes(symptom))
     }
 
     /// Returns the number of elements in all questions of the item.

@@ -72,16 +72,24 @@ impl Quantity {
 
     /// Returns the failure to report if the quantity is wrong.
     pub(super) fn failure(self, got: &dyn Record, wanted: &dyn Record) -> FailureKind {
-        let what = if self.is_unit_length {
-            format!("length of the {}", self.name)
-        } else {
-            self.name.to_owned()
-        };
         FailureKind::Wrong {
-            what,
+            what: self.label(),
             side: self.with(got, |value| value.side(&wanted.value(self.field))),
             got: self.with(got, |value| value.text()),
             wanted: self.with(wanted, |value| value.text()),
+        }
+    }
+
+    /// Returns the name of the quantity and its value in a record.
+    pub(crate) fn text(self, record: &dyn Record) -> (String, String) {
+        (self.label(), self.with(record, |value| value.text()))
+    }
+
+    fn label(self) -> String {
+        if self.is_unit_length {
+            format!("length of the {}", self.name)
+        } else {
+            self.name.to_owned()
         }
     }
 

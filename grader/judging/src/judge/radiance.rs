@@ -12,6 +12,7 @@ use crate::judge::{
     Aspect, Comparison, Credit, Deviation, Failure, FailureKind, Judgement, Measurement, Position,
     Threshold, deviation,
 };
+use crate::symptom::Side;
 use crate::types::in_units_of;
 
 /// A pixel is wrong if a channel differs by more than this fraction of the brightest channel of the
@@ -88,7 +89,7 @@ fn judge(pixels: &[Vec3], allowed: u32, answer: &ElementOutcome<Vec<Vec3>>) -> J
     }
     let kind = FailureKind::Wrong {
         what: "radiance".to_owned(),
-        side: None,
+        side: got[off[0]].is_nan().then_some(Side::NotANumber),
         got: describe::point(got[off[0]]),
         wanted: describe::point(pixels[off[0]]),
     };

@@ -8,6 +8,7 @@ use protocol::{ElementOutcome, LocalDirection};
 
 use super::deviation::worst_by_threshold;
 use super::{Comparison, Deviation, Failure, FailureKind, Judgement, Measurement, Threshold};
+use crate::symptom::Side;
 use crate::types::{FieldType, UnitLength, in_units_of, number};
 
 /// The numbers of bands and sectors that the sphere is divided into. Bands of equal height have
@@ -50,12 +51,45 @@ impl Spread<'_> {
     fn chi_squared_of_parts(&self, parts: usize) -> f64 {
         let counts = counts_of_parts(self.answer, parts);
         let counts = counts.as_flattened();
-        let expected = self.answer.len() as f64 / counts.len() as f64;
+        let expected = self.expected();
         let terms = counts
             .iter()
             .map(|count| (f64::from(*count) - expected).powi(2) / expected);
         let sum: f64 = terms.sum();
         if sum.is_nan() { f64::INFINITY } else { sum }
+    }
+
+    /// Returns the number of directions in each cell if they are spread evenly.
+    fn expected(&self) -> f64 {
+        let [bands, sectors] = CELLS;
+        self.answer.len() as f64 / (bands * sectors) as f64
+    }
+
+    /// Returns the failure to report if the directions are spread unevenly. It names what a student
+    /// can count, and then χ².
+    fn uneven(&self) -> FailureKind {
+        let [chi_squared, limit] =
+            [self.chi_squared(), self.max_chi_squared].map(|value| number(value as f32));
+        let counts = cell_counts(self.answer);
+        let counts = counts.as_flattened();
+        let empty = counts.iter().filter(|count| **count == 0).count();
+        let cells = format!("{} cells of equal area", counts.len());
+        let got = if empty > 0 {
+            format!("{empty} of {cells} are empty")
+        } else if self.chi_squared_of_parts(1) > self.max_chi_squared {
+            let ends = [counts.iter().min(), counts.iter().max()];
+            let [fewest, most] = ends.map(|count| count.copied().unwrap_or(0));
+            format!("{cells} have from {fewest} to {most} directions each")
+        } else {
+            format!("{cells} get equal shares, but the directions are uneven within the cells")
+        };
+        FailureKind::Uneven {
+            got: format!("{got} (χ² = {chi_squared})"),
+            wanted: format!(
+                "about {:.0} directions in each cell (χ² of at most {limit})",
+                self.expected()
+            ),
+        }
     }
 
     fn spread(&self) -> Deviation {
@@ -76,24 +110,15 @@ impl Comparison for Spread<'_> {
             }
             Some((element, ElementOutcome::Value(LocalDirection { direction }))) => {
                 let kind = FailureKind::Wrong {
-                    what: "length of direction".to_owned(),
-                    side: None,
+                    what: "length of the direction".to_owned(),
+                    side: direction.is_nan().then_some(Side::NotANumber),
                     got: UnitLength(*direction).text(),
                     wanted: "1".to_owned(),
                 };
                 (element, kind)
             }
             None if self.spread().is_right() => return Judgement::RIGHT,
-            None => {
-                let [got, limit] = [self.chi_squared(), self.max_chi_squared];
-                let [got, limit] = [got, limit].map(|value| number(value as f32));
-                let [bands, sectors] = CELLS;
-                let kind = FailureKind::Uneven {
-                    got: format!("a χ² of {got} over {bands} × {sectors} cells of equal area"),
-                    wanted: format!("at most {limit}"),
-                };
-                (0, kind)
-            }
+            None => (0, self.uneven()),
         };
         Judgement::wrong(Failure {
             element,
@@ -175,7 +200,7 @@ mod tests {
         assert_eq!(failure.is_none(), is_right);
         match failure?.kind {
             FailureKind::Wrong { what, .. } => Some(what),
-            FailureKind::Uneven { .. } => Some("spread".to_owned()),
+            FailureKind::Uneven { got, .. } => Some(got),
             FailureKind::Panicked(_) | FailureKind::Protocol(_) => None,
         }
     }
@@ -190,19 +215,20 @@ mod tests {
         });
         assert_eq!(judged(&turned), None);
         let crowded = spread_by(|x, y| on_sphere((std::f32::consts::PI * x).cos(), y));
-        assert_eq!(judged(&crowded).as_deref(), Some("spread"));
+        let got = |answer: &[_]| judged(answer).expect("the directions are uneven");
+        assert!(got(&crowded).starts_with("64 cells of equal area have from "));
         let half = spread_by(on_sphere);
-        assert_eq!(judged(&half).as_deref(), Some("spread"));
+        assert!(got(&half).starts_with("32 of 64 cells of equal area are empty "));
         // Even from afar, but with only 16 different heights.
         let steps = spread_by(|x, y| on_sphere(((16.0 * x).floor() - 7.5) / 8.0, y));
-        assert_eq!(judged(&steps).as_deref(), Some("spread"));
+        assert!(got(&steps).contains("uneven within the cells"));
     }
 
     #[test]
     fn directions_without_length_one_are_named() {
         for factor in [0.5, 0.0, f32::NAN] {
             let scaled = spread_by(|x, y| factor * on_sphere(1.0 - 2.0 * x, y));
-            assert_eq!(judged(&scaled).as_deref(), Some("length of direction"));
+            assert_eq!(judged(&scaled).as_deref(), Some("length of the direction"));
         }
     }
 }

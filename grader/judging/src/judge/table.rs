@@ -13,7 +13,7 @@ use super::{
 };
 use crate::describe;
 use crate::exam::{Aggregate, ExamQuestion, ExpectedRows, Key};
-use crate::symptom::{PRESENCE, Side};
+use crate::symptom::{PRESENCE, SOME_OR_NONE, Side};
 
 /// The rows of an answer and their key. Every row must be right, except in a picture, where a few
 /// may be wrong.
@@ -116,12 +116,21 @@ impl<'a> TableAnswer<'a> {
         Some(match (row.got, row.wanted.as_deref()) {
             (Some(got), Some(wanted)) => self.judged[wrong].failure(got, wanted),
             (got, wanted) => FailureKind::Wrong {
-                what: PRESENCE.to_owned(),
+                what: self.presence().to_owned(),
                 side: Some(Side::of_presence(got.is_some())),
                 got: describe::answer::presence(self.table, got),
                 wanted: describe::answer::presence(self.table, wanted),
             },
         })
+    }
+
+    /// Returns the name of the quantity that says whether there is a record.
+    fn presence(&self) -> &'static str {
+        if matches!(self.expected, ExpectedRows::OptionalDirections(_)) {
+            SOME_OR_NONE
+        } else {
+            PRESENCE
+        }
     }
 
     fn is_whole(&self) -> bool {

@@ -5,6 +5,7 @@ use protocol::{Interval, Value};
 
 use super::length;
 use super::{FieldType, Tolerance, number};
+use crate::symptom::Side;
 
 /// A part of a ray.
 pub(super) struct Times(pub(super) Interval);
@@ -24,6 +25,13 @@ impl FieldType for Times {
         };
         let error = |got, wanted| length::error(got, wanted, scale, length::TOLERANCE);
         error(self.0.min, wanted.min).max(error(self.0.max, wanted.max))
+    }
+
+    fn side(&self, _: &Value) -> Option<Side> {
+        let ends = [self.0.min, self.0.max];
+        ends.iter()
+            .any(|end| end.is_nan())
+            .then_some(Side::NotANumber)
     }
 
     fn in_tolerances(&self, scale: f32) -> Vec<f32> {

@@ -1,5 +1,6 @@
 //! Lists of lights and rooms as text.
 
+use glam::Vec3;
 use protocol::light::environment::MapImage;
 use protocol::light::lights::{FlatLight, ListedLight, SphericalLight};
 use protocol::light::transport::Room;
@@ -15,9 +16,11 @@ pub(super) fn text(lights: &[ListedLight]) -> String {
     }
 }
 
-/// Describes a map by its size.
+/// Describes a map by its size, and says whether it is black.
 pub(super) fn map_text(map: &MapImage) -> String {
-    format!("a map of {}×{} pixels", map.size.x, map.size.y)
+    let is_black = map.pixels.iter().all(|pixel| *pixel == Vec3::ZERO);
+    let kind = if is_black { "a black map" } else { "a map" };
+    format!("{kind} of {}×{} pixels", map.size.x, map.size.y)
 }
 
 /// Describes a room by its environment.

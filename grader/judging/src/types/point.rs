@@ -4,6 +4,7 @@ use glam::Vec3;
 use protocol::Value;
 
 use super::{FieldType, Tolerance, in_units_of, length, number};
+use crate::symptom::Side;
 
 pub(super) struct Point(pub(super) Vec3);
 
@@ -25,6 +26,10 @@ impl FieldType for Point {
             return f64::INFINITY;
         };
         error(self.0, *wanted, scale)
+    }
+
+    fn side(&self, _: &Value) -> Option<Side> {
+        self.0.is_nan().then_some(Side::NotANumber)
     }
 
     fn in_tolerances(&self, scale: f32) -> Vec<f32> {

@@ -4,6 +4,7 @@ use glam::Vec2;
 use protocol::Value;
 
 use super::{FieldType, Tolerance, in_units_of, number};
+use crate::symptom::Side;
 
 /// Tolerance for texture coordinates.
 pub(crate) const TOLERANCE: f32 = 2e-3;
@@ -24,6 +25,10 @@ impl FieldType for Uv {
             return f64::INFINITY;
         };
         error(self.0, *wanted)
+    }
+
+    fn side(&self, _: &Value) -> Option<Side> {
+        self.0.is_nan().then_some(Side::NotANumber)
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {

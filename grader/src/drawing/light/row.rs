@@ -4,7 +4,7 @@ use glam::DVec3;
 use judging::describe;
 use judging::exam::{ExamQuestion, Key};
 use judging::judge::{FailureKind, judge};
-use judging::symptom::PRESENCE;
+use judging::symptom::SOME_OR_NONE;
 use protocol::{Answer, ElementOutcome, Record, Value};
 
 use crate::drawing::numbers::{direction_difference, short};
@@ -105,7 +105,7 @@ impl<'a> RowComparison<'a> {
         };
         let Difference { what, got, wanted } = difference;
         let name = match what.as_str() {
-            PRESENCE | DIRECTION => String::new(),
+            SOME_OR_NONE | DIRECTION => String::new(),
             _ if difference.is_of_direction() => "length ".to_owned(),
             _ => format!("{what} "),
         };
@@ -139,7 +139,7 @@ impl<'a> RowComparison<'a> {
             (_, Some((wanted, got))) => {
                 direction_difference(DIRECTION, wanted.as_vec3(), got.as_vec3())
             }
-            (Some(Difference { what, got, wanted }), None) if what == PRESENCE => {
+            (Some(Difference { what, got, wanted }), None) if what == SOME_OR_NONE => {
                 format!("Your code returns {got}; the correct result is {wanted}.")
             }
             (Some(Difference { what, got, wanted }), None) => {
@@ -152,7 +152,7 @@ impl<'a> RowComparison<'a> {
 impl Difference {
     /// Returns whether the direction or its length is wrong, or whether there should be one.
     fn is_of_direction(&self) -> bool {
-        self.what == PRESENCE || self.what.ends_with(DIRECTION)
+        self.what == SOME_OR_NONE || self.what.ends_with(DIRECTION)
     }
 }
 

@@ -74,15 +74,20 @@ pub(super) fn write_command(out: &mut String, label: &str, command: &str) -> fmt
     writeln!(out, "    {FAINT}{label:<7} {command}{FAINT:#}")
 }
 
-/// Writes the number of failing items that aren't shown, followed by `how`, which says how to see
-/// them.
-pub(super) fn write_hidden_count(out: &mut String, count: usize, how: &str) -> fmt::Result {
+/// Writes the number of failing items that aren't shown, after the word `intro` and followed by
+/// `how`, which says how to see them.
+pub(super) fn write_hidden_count(
+    out: &mut String,
+    intro: &str,
+    count: usize,
+    how: &str,
+) -> fmt::Result {
     if count == 0 {
         return Ok(());
     }
     let items = counted(count, "more item");
     let how = sanitize_line(how, usize::MAX);
-    writeln!(out, "    {FAINT}and {items} in this task{how}{FAINT:#}")
+    writeln!(out, "    {FAINT}{intro} {items} in this task{how}{FAINT:#}")
 }
 
 /// The maximum number of compiler warnings shown for a task.

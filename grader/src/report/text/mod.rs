@@ -245,7 +245,7 @@ fn write_failing_items(
     let how = format!("{}{}", waiting(hidden.copied()), others.how);
     if others.come_first && count > 0 {
         writeln!(out)?;
-        write_hidden_count(out, count, &how)?;
+        write_hidden_count(out, "not listed:", count, &how)?;
     }
     for item in shown {
         write_item(out, item, hints, &explained_items(item, &failing))?;
@@ -255,7 +255,7 @@ fn write_failing_items(
         }
     }
     if !others.come_first {
-        write_hidden_count(out, count, &how)?;
+        write_hidden_count(out, "and", count, &how)?;
     }
     write_warnings(out, task)?;
     match &task.printed {

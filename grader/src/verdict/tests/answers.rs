@@ -104,6 +104,8 @@ fn a_panic_in_a_picture_that_is_partly_right_is_partial() {
     let line = answered(vec![boxes(1)], vec![judgement]);
     assert_eq!((line.points, line.verdict), (2, Verdict::Partial));
     assert_eq!((line.at, line.clue), (None, None), "in a given file");
+    let wanted = line.evidence.map(|evidence| evidence.wanted);
+    assert_eq!(wanted.as_deref(), Some("None"));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Items without answers: faults, items that were not run, and files that aren't compiled.
 
+use crate::handed_out::LIGHT;
 use crate::probe::{Crash, TimeLimit};
 use crate::submission::TaskFileError;
 
@@ -83,6 +84,30 @@ fn a_file_that_is_not_compiled_says_why_in_its_items_and_in_full() {
     ");
     let lines = reasons().map(|why| file_line(&why));
     assert_eq!(lines, [None, None, Some(7), None]);
+}
+
+#[test]
+fn a_section_on_a_panic_fits_its_kind_and_a_time_out_leads_to_the_chapter() {
+    let read = |outcome: &ItemOutcome| {
+        let line = item_score(&item("path.bounces", vec![boxes(2)]), outcome, &LIGHT);
+        line.where_to_read().map(Section::to_string)
+    };
+    let panics = |message: &str| {
+        let panicked = panicked(Credit::NONE, message, "path.rs:9:9");
+        read(&ItemOutcome::answered(vec![panicked]))
+    };
+    let unwrap = panics("called `Option::unwrap()` on a `None` value");
+    let section = "light/paths.md#a-surface-that-scatters-nothing";
+    assert_eq!(unwrap.as_deref(), Some(section));
+    assert_eq!(
+        panics("attempt to divide by zero").as_deref(),
+        Some("light/paths.md")
+    );
+    let endless = ItemOutcome::Fault {
+        fault: Fault::TimedOut(TimeLimit::Cpu),
+        culprit: None,
+    };
+    assert_eq!(read(&endless).as_deref(), Some("light/paths.md"));
 }
 
 #[test]

@@ -94,6 +94,7 @@ fn other_sections(assignment: &Assignment) -> impl Iterator<Item = (String, Sect
         let TaskClues {
             section_if_stack_overflows,
             sections_on_crashes,
+            sections_on_panics,
             section_on_kept_state,
             by_symptom,
             if_nothing_is_hit: _,
@@ -102,7 +103,9 @@ fn other_sections(assignment: &Assignment) -> impl Iterator<Item = (String, Sect
         let single = section_if_stack_overflows
             .iter()
             .chain(section_on_kept_state);
-        let of_faults = single.chain(sections_on_crashes.iter()).map(|section| {
+        let on_panics = sections_on_panics.iter().map(|(_, section)| section);
+        let on_faults = single.chain(*sections_on_crashes).chain(on_panics);
+        let of_faults = on_faults.map(|section| {
             let whose = format!("a clue for {} (fault)", task.id);
             (whose, Section::new(*section))
         });

@@ -16,7 +16,7 @@ use judging::assignment::{Assignment, LIGHT, RAYS};
 use judging::drawing_data::DrawingData;
 use judging::exam::{Exam, ExpectedRows, Item, Key, TreeCheck};
 use judging::scene::{self, QuestionScene};
-use judging::symptom::{Side, Symptom};
+use judging::symptom::{SOME_OR_NONE, SPREAD, Side, Symptom};
 use protocol::{Question, Ray, Shape};
 
 use crate::harness::{SEEDS, exam_of, root};
@@ -98,7 +98,9 @@ fn possible_symptoms(key: &Key) -> Vec<Symptom> {
         Key::Table { judged, rows, .. } => {
             let presence = match rows {
                 ExpectedRows::Hits(_) | ExpectedRows::Spans(_) => vec![Symptom::MISS, Symptom::HIT],
-                ExpectedRows::OptionalDirections(_) => vec![Symptom::MISS, Symptom::HIT],
+                ExpectedRows::OptionalDirections(_) => {
+                    vec![Symptom::less(SOME_OR_NONE), Symptom::more(SOME_OR_NONE)]
+                }
                 _ => Vec::new(),
             };
             let directions = judged
@@ -134,7 +136,7 @@ fn possible_symptoms(key: &Key) -> Vec<Symptom> {
             always.into_iter().chain(cost).chain(checks).collect()
         }
         Key::Radiance { .. } => vec![Symptom::of("radiance")],
-        Key::SpreadEvenly { .. } => vec![Symptom::of("spread")],
+        Key::SpreadEvenly { .. } => vec![Symptom::of(SPREAD)],
     }
 }
 
@@ -162,7 +164,8 @@ fn there_is_advice_for_every_symptom() {
             assert!(is_possible, "{} never shows {fitting:?}", item.id);
         }
     }
-    for clue in RAYS.tasks.iter().flat_map(|task| task.clues.by_symptom) {
+    let tasks = RAYS.tasks.iter().chain(LIGHT.tasks);
+    for clue in tasks.flat_map(|task| task.clues.by_symptom) {
         let text = clue.clue;
         assert!(text.ends_with(['.', '?']) && !text.contains("  "), "{text}");
         assert!((40..=240).contains(&text.chars().count()), "{text}");

@@ -1,6 +1,10 @@
 //! The assignment `light`.
 
+mod clues;
+
 use super::{Assignment, TaskClues, TaskFile, TaskInfo};
+
+use clues::{DIRECT, ENVIRONMENT, LIGHTS, PATH, SPECULAR};
 
 /// Part two: tasks 4 to 7 of the course that the slides "A3: PathTracing" are from.
 pub static LIGHT: Assignment = Assignment {
@@ -43,7 +47,7 @@ pub static LIGHT: Assignment = Assignment {
             ],
             points: 23,
             chapter: "light/glass.md",
-            clues: TaskClues::NONE,
+            clues: SPECULAR,
         },
         TaskInfo {
             id: "lights",
@@ -52,7 +56,7 @@ pub static LIGHT: Assignment = Assignment {
             methods: &["AreaLight::pdf", "Lights::sample", "Lights::pdf"],
             points: 15,
             chapter: "light/lights.md",
-            clues: TaskClues::NONE,
+            clues: LIGHTS,
         },
         TaskInfo {
             id: "direct",
@@ -61,7 +65,7 @@ pub static LIGHT: Assignment = Assignment {
             methods: &["direct"],
             points: 13,
             chapter: "light/direct.md",
-            clues: TaskClues::NONE,
+            clues: DIRECT,
         },
         TaskInfo {
             id: "path",
@@ -70,7 +74,7 @@ pub static LIGHT: Assignment = Assignment {
             methods: &["radiance"],
             points: 17,
             chapter: "light/paths.md",
-            clues: TaskClues::NONE,
+            clues: PATH,
         },
         TaskInfo {
             id: "environment",
@@ -84,7 +88,7 @@ pub static LIGHT: Assignment = Assignment {
             ],
             points: 20,
             chapter: "light/environment.md",
-            clues: TaskClues::NONE,
+            clues: ENVIRONMENT,
         },
     ],
     render: Some("cargo render lights"),

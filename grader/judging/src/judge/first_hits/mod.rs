@@ -230,14 +230,15 @@ fn failure_kind(
         (Aspect::Uv, Some(hit)) => describe::uv(hit.uv),
         (_, Some(hit)) => format!("a hit at distance {}", describe::number(hit.depth)),
     };
+    let nan = |is_nan: bool| is_nan.then_some(Side::NotANumber);
     let side = match aspect {
         Aspect::HitOrMiss => Some(Side::of_presence(got.is_some())),
         Aspect::Depth => got
             .zip(wanted)
             .and_then(|(got, wanted)| Side::of(got.distance, wanted.depth)),
-        Aspect::NoAnswer | Aspect::Normal | Aspect::Uv | Aspect::Direction | Aspect::Radiance => {
-            None
-        }
+        Aspect::Normal => got.and_then(|got| nan(got.normal.is_nan())),
+        Aspect::Uv => got.and_then(|got| nan(got.uv.is_nan())),
+        Aspect::NoAnswer | Aspect::Direction | Aspect::Radiance => None,
     };
     FailureKind::Wrong {
         what: aspect.name().to_owned(),

@@ -2,6 +2,7 @@
 
 use glam::{DVec3, UVec2, Vec2, Vec3, uvec2};
 use judging::exam::{ExamQuestion, Key};
+use judging::symptom::{SPREAD, Symptom};
 use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::environment::{MapImage, MapSample, RandomPair};
@@ -26,7 +27,7 @@ const ROUNDING: f64 = 1e-6;
 /// How far a direction is from a pixel's edge, as a fraction of the pixel.
 const EDGE: f64 = 0.02;
 /// The number of directions that must be spread evenly.
-const SPREAD: usize = 8192;
+const UNIFORM_CALLS: usize = 8192;
 /// The limit of χ² with 63 degrees of freedom that evenly distributed random numbers exceed with a
 /// probability of 10⁻⁹.
 const MAX_CHI_SQUARED: f64 = 155.07;
@@ -44,7 +45,9 @@ const UNIFORM: Declaration = Declaration {
     id: "environment.uniform",
     points: 4,
     title: "uniform directions are spread evenly over the whole sphere",
-    look: "Which of your two coordinates must be uniform: the polar angle or the height?",
+    look: "Is a part of the sphere empty? Then check the ranges of the height and of φ. If not: \
+        which must be uniform, the polar angle or the height?",
+    look_fits: &[Symptom::of(SPREAD)],
     section: "light/environment.md#directions-spread-evenly",
     tests: &[
         "Samples a direction uniformly from all directions, with two random numbers in `[0, 1)`.",
@@ -54,7 +57,7 @@ const UNIFORM: Declaration = Declaration {
         "The direction has length one.",
     ],
     questions: |rng| {
-        let pairs = (0..SPREAD).map(|_| RandomPair {
+        let pairs = (0..UNIFORM_CALLS).map(|_| RandomPair {
             random: random_pair(rng),
         });
         let question = LightQuestion::UniformSphere(Table::of_list((), pairs.collect()));
@@ -73,8 +76,10 @@ const PICK: Declaration = Declaration {
     id: "environment.pick",
     points: 3,
     title: "a pixel is picked by its share of the weights, row by row from the top",
-    look: "Add up the weights in the order of the pixels: which pixel does `choice` times the \
-        total fall on?",
+    look: "Pass your direction and the correct one to `Environment::index`. If the pixels differ, \
+        add up the weights in order: which pixel does `choice` times the total fall on? If not, \
+        look at the position in the pixel and at the two angles.",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[
         "Prepares a map for sampling.",
@@ -101,6 +106,7 @@ const POSITION: Declaration = Declaration {
     title: "the two other random numbers are the position in the pixel, across and down",
     look: "Which corner of the pixel do the numbers (0, 0) lead to, and which corner do (1, 1) \
         lead to?",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#anywhere-in-the-pixel",
     tests: &[
         "`random` is the position in the pixel, from its upper left corner: `random.x` across and \
@@ -125,6 +131,7 @@ const SINE: Declaration = Declaration {
     title: "rows near the poles weigh less, by the sine in the middle of the row",
     look: "Which angle do you take the sine of: the one at the row's edge, or the one in its \
         middle?",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#the-sine-belongs-in-the-weight",
     tests: &["A pixel's weight is its luminance, times the sine of θ in the middle of its row."],
     questions: |rng| {
@@ -145,8 +152,9 @@ const SINE: Declaration = Declaration {
 const LUMINANCE: Declaration = Declaration {
     id: "environment.luminance",
     points: 1,
-    title: "a coloured pixel is weighted by its luminance",
+    title: "samples and densities weight a coloured pixel by its luminance",
     look: "How much does a green pixel weigh in your code, compared with a blue one?",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#the-weight-of-a-pixel",
     tests: &["A pixel's weight is its luminance, …"],
     questions: |rng| {
@@ -167,9 +175,10 @@ const LUMINANCE: Declaration = Declaration {
 const ENDS: Declaration = Declaration {
     id: "environment.ends",
     points: 2,
-    title: "the smallest and the largest numbers pick the first and the last bright pixel",
+    title: "every number picks a bright pixel, also the smallest and the largest",
     look: "What does your search return if `choice` is 0, or if it is just below 1?",
-    section: "light/environment.md#the-search-ends-at-the-last-pixel",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
+    section: "light/environment.md#black-pixels-are-never-picked",
     tests: &["`choice` picks the pixel: …"],
     questions: |rng| {
         let sizes = [uvec2(2, 1), uvec2(4, 2), uvec2(16, 8)];
@@ -201,8 +210,9 @@ const ENDS: Declaration = Declaration {
 const BLACK: Declaration = Declaration {
     id: "environment.black",
     points: 2,
-    title: "a black pixel is never picked, and the density of its directions is 0",
+    title: "only pixels that aren't black are picked, and only they have a density",
     look: "Which pixel does your search return if several pixels have the same sum?",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#black-pixels-are-never-picked",
     tests: &[
         "A map can be entirely black.",
@@ -243,9 +253,9 @@ const PDF: Declaration = Declaration {
     id: "environment.pdf",
     points: 3,
     title: "the density is the pixel's share divided by a pixel's solid angle at that height",
-    look: "Which sine does the density use: that of the row's middle, or that of the direction \
-        itself?",
-    section: "light/environment.md#the-sine-in-the-density",
+    look: "Work out each factor of the formula for the direction shown. Which sine do you use: \
+        that of the row's middle, or that of the direction itself?",
+    section: "light/environment.md#the-density-of-a-direction",
     tests: &[
         "Returns the probability density, per solid angle, with which [`Environment::sample`] \
          chooses a direction: share · width · height / (2π² · sin θ).",
@@ -271,6 +281,11 @@ const SIZES: Declaration = Declaration {
     points: 1,
     title: "maps of any size are sampled, from two pixels to a hundred thousand",
     look: "Do you mix up the width and the height? If only large maps fail: are all sums in `f64`?",
+    look_fits: &[
+        Symptom::of("direction"),
+        Symptom::reversed("direction"),
+        Symptom::of("pdf"),
+    ],
     section: "light/environment.md#three-components-and-two-angles",
     tests: &[
         "`choice` picks the pixel: …",

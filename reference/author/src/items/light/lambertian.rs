@@ -43,7 +43,7 @@ const EVALUATE: Declaration = Declaration {
     points: 2,
     title: "a matte surface scatters albedo / π times the cosine of the incoming light",
     look: "Which of the two directions does the cosine belong to, and which factor comes before it?",
-    section: "light/materials.md#a-matte-surface",
+    section: "light/materials.md#the-cosine-is-already-in-evaluate",
     tests: &[
         "Returns the fraction of the light from `incoming` that is scattered to `out`, per solid \
          angle: albedo / π · cos θ, where θ is the angle between `incoming` and the normal.",
@@ -86,8 +86,8 @@ const PDF: Declaration = Declaration {
 const BELOW: Declaration = Declaration {
     id: "lambertian.below",
     points: 2,
-    title: "nothing is scattered if either direction is below the surface",
-    look: "What do you return if z is negative in `out`, in `incoming`, or in both?",
+    title: "nothing is scattered unless both directions are above the surface",
+    look: "What do you return if z is negative or 0 in `out`, in `incoming`, or in both?",
     section: "light/materials.md#light-from-below-is-not-scattered",
     tests: &["The result is zero unless both directions are above the surface (z > 0)."],
     questions: |rng| {

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 use protocol::light::LightQuestion;
 use protocol::light::specular::{GlassSample, Medium, MirrorColor};
 use protocol::{LocalDirection, Table};
@@ -56,6 +57,7 @@ const REFLECT: Declaration = Declaration {
     points: 1,
     title: "a mirror rotates a direction by half a turn about the normal",
     look: "Which components change sign, and which one stays the same?",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#the-mirror-direction",
     tests: &["Mirrors a direction about the normal."],
     questions: |rng| {
@@ -70,6 +72,7 @@ const REFLECT_INSIDE: Declaration = Declaration {
     points: 1,
     title: "a reflected direction stays on its side of the surface",
     look: "What is the sign of z before and after, if the path is inside the glass?",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#the-mirror-keeps-the-side",
     tests: &[
         "The result is on the same side of the surface as `out`, which can be on either side.",
@@ -87,6 +90,7 @@ const ENTERING: Declaration = Declaration {
     points: 2,
     title: "a path that enters a denser medium is bent toward the normal",
     look: "Which side is `out` on, and which index does Snell's law divide by which?",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#the-refracted-direction",
     tests: &[
         "Returns the direction on the other side of the surface of a medium with index of \
@@ -109,6 +113,7 @@ const LEAVING: Declaration = Declaration {
     points: 2,
     title: "a path that leaves a denser medium is bent away from the normal",
     look: "If `out` is inside, the ratio of the indices is inverted, and the result points up.",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#the-side-decides-the-ratio",
     tests: &["If out.z < 0, the path is inside, and the result has z > 0."],
     questions: |rng| {
@@ -124,8 +129,8 @@ const LEAVING: Declaration = Declaration {
 const TOTAL: Declaration = Declaration {
     id: "specular.refract_total",
     points: 2,
-    title: "beyond the critical angle, nothing is refracted",
-    look: "What is the squared sine of the refracted angle there, and what do you do with it?",
+    title: "light is refracted up to the critical angle, and not beyond it",
+    look: "What is the squared sine of the refracted angle, and what do you do if it exceeds 1?",
     section: "light/glass.md#total-reflection",
     tests: &[
         "Directions along the surface (z = 0), and those at the critical angle, are not tested.",
@@ -147,6 +152,11 @@ const HEAD_ON: Declaration = Declaration {
     points: 1,
     title: "along the normal, light goes straight on",
     look: "Do you divide by a sine or a length that is zero here?",
+    look_fits: &[
+        Symptom::of("direction"),
+        Symptom::reversed("direction"),
+        Symptom::of("length of the direction"),
+    ],
     section: "light/glass.md#straight-through-is-not-a-special-case",
     tests: &["The result has length one, even along the normal."],
     questions: |rng| {
@@ -233,7 +243,7 @@ const FRESNEL_LEAVING: Declaration = Declaration {
 const FRESNEL_TOTAL: Declaration = Declaration {
     id: "specular.fresnel_total",
     points: 1,
-    title: "beyond the critical angle, everything is reflected",
+    title: "everything is reflected beyond the critical angle, and only a part below it",
     look: "What do you return where `refract` returns `None`?",
     section: "light/glass.md#total-reflection-is-full-reflection",
     tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
@@ -272,7 +282,8 @@ const MIRROR: Declaration = Declaration {
     points: 2,
     title: "a mirror's only direction is attenuated by its reflectance and has no density",
     look: "Nothing is divided by a density here: what is left of the attenuation?",
-    section: "light/glass.md#a-mirror-has-no-density",
+    look_fits: &[Symptom::of("attenuation"), Symptom::of("pdf")],
+    section: "light/glass.md#what-to-return",
     tests: &[
         "Returns the only direction that reflected light can come from.",
         "`attenuation` is the reflectance, and `pdf` is `None`.",
@@ -334,7 +345,7 @@ const GLASS_RADIANCE: Declaration = Declaration {
 const GLASS_TOTAL: Declaration = Declaration {
     id: "specular.glass_total",
     points: 1,
-    title: "total reflection goes in the mirror direction with an attenuation of 1",
+    title: "glass reflects everything beyond the critical angle, with an attenuation of 1",
     look: "What do you return if nothing is refracted? Does it depend on the random number?",
     section: "light/glass.md#total-reflection-is-not-scaled",
     tests: &["If the path is reflected, `attenuation` is 1: …"],

@@ -45,7 +45,7 @@ pub static TASK: AuthoredTask = AuthoredTask {
 const SMALL_LIGHT: Declaration = Declaration {
     id: "direct.small_light",
     points: 2,
-    title: "sampling the light finds a small light",
+    title: "sampling the light finds a small light where nothing is in the way",
     look: "Which value of `evaluate`, which radiance and which densities do you use for a sample \
         of the light?",
     section: "light/direct.md#two-ways-to-find-a-light",
@@ -76,8 +76,9 @@ const SMALL_LIGHT: Declaration = Declaration {
 const SKY: Declaration = Declaration {
     id: "direct.sky",
     points: 1,
-    title: "sampling the material finds a uniform sky",
-    look: "Without lights, there is no direction toward a light. What is left of the sum?",
+    title: "without lights, only the material's direction finds the uniform sky",
+    look: "Only the material's direction is left. Is it the one that `scatter` returns for \
+        `numbers.direct`, do you convert it to the world, and what do you divide by?",
     section: "light/direct.md#an-even-sky-is-found-by-scattering",
     tests: &[
         "The second is the one that `Lambertian::scatter` returns for the random numbers \
@@ -140,7 +141,7 @@ const BOTH: Declaration = Declaration {
 const BLOCKED: Declaration = Declaration {
     id: "direct.blocked",
     points: 2,
-    title: "light that is blocked doesn't arrive",
+    title: "light arrives from a direction only if nothing is in the way",
     look: "Which function tells you whether anything is between the surface and the light?",
     section: "light/direct.md#something-in-the-way",
     tests: &[
@@ -228,7 +229,7 @@ const TURNED: Declaration = Declaration {
 const NO_SAMPLE: Declaration = Declaration {
     id: "direct.no_sample",
     points: 1,
-    title: "if there is no direction toward a light, the material's direction is still used",
+    title: "the material's direction is used with and without a direction toward a light",
     look: "What do you do if `World::sample_light` returns `None`?",
     section: "light/direct.md#without-a-light-sample",
     tests: &["If it returns `None`, the first term is zero."],
@@ -279,7 +280,8 @@ const OTHER_MATERIALS: Declaration = Declaration {
     id: "direct.other_materials",
     points: 1,
     title: "only matte surfaces look for direct light",
-    look: "What do you return for a mirror, for glass, and for a light?",
+    look: "If the correct result is 0: what do you return for a mirror, for glass and for a light? \
+        If it isn't, the surface is matte: check each factor of the formula.",
     section: "light/direct.md#mirrors-look-for-no-light",
     tests: &[
         "Only matte surfaces look for direct light.",

@@ -4,6 +4,7 @@ mod spheres;
 
 use glam::{DVec2, DVec3};
 use judging::exam::ExamQuestion;
+use judging::symptom::{SOME_OR_NONE, Symptom};
 use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::lights::{FlatLight, LightList, LightSample, ListedLight, Toward};
@@ -85,8 +86,9 @@ const TRIANGLE: Declaration = Declaration {
 const BEHIND: Declaration = Declaration {
     id: "lights.behind",
     points: 1,
-    title: "from behind, a light's density is 0",
-    look: "What is the sign of your cosine if the point is behind the light?",
+    title: "a light's density is 0 from behind, and positive in front",
+    look: "Is the correct density 0? Then the point is behind the light: what is the sign of your \
+        cosine? If not, compare each factor of the formula with your code.",
     section: "light/lights.md#the-back-of-a-light-is-dark",
     tests: &["The result is zero if the direction misses the light, and from behind, …"],
     questions: |rng| {
@@ -103,8 +105,9 @@ const BEHIND: Declaration = Declaration {
 const PAST: Declaration = Declaration {
     id: "lights.past",
     points: 1,
-    title: "the density of a direction that misses the light is 0",
-    look: "What do you return if `intersect` finds nothing?",
+    title: "only a direction that hits the light has a density",
+    look: "Is the correct density 0? Then `intersect` finds nothing: what do you return? If not, \
+        compare each factor of the formula with your code.",
     section: "light/lights.md#past-the-light-there-is-no-density",
     tests: &[
         "The result is zero if the direction misses the light, and from behind, where the light \
@@ -145,7 +148,8 @@ const DIRECTION: Declaration = Declaration {
     title: "a sample is the unit direction to the given point on the light",
     look: "Which point does your direction start from, which point does it lead to, and how long \
         is it?",
-    section: "light/lights.md#the-direction-has-length-one",
+    look_fits: &[Symptom::of("direction")],
+    section: "light/lights.md#from-the-point-to-the-light",
     tests: &[
         "Samples a direction from a point to a light with random numbers in `[0, 1)`.",
         "`random` picks the point on that light: see [`AreaLight::point`].",
@@ -168,6 +172,7 @@ const PICK: Declaration = Declaration {
     points: 2,
     title: "each light is picked by its share of the power, in the order of the list",
     look: "Add up the powers, one light after the other: in which light's part is `choice`?",
+    look_fits: &[Symptom::of("direction")],
     section: "light/lights.md#pick-a-light-by-its-power",
     tests: &[
         "`choice` picks the light: a light's share of `[0, 1)` is its share of the power, in the \
@@ -191,9 +196,10 @@ const PICK: Declaration = Declaration {
 const FACES_AWAY: Declaration = Declaration {
     id: "lights.faces_away",
     points: 1,
-    title: "there is no sample if the picked light faces away, or if there are no lights",
+    title: "there is a sample only if there are lights and the picked one doesn't face away",
     look: "If the light that was picked faces away, do you pick another light, or return a \
         direction anyway?",
+    look_fits: &[Symptom::of(SOME_OR_NONE)],
     section: "light/lights.md#the-picked-light-may-face-away",
     tests: &[
         "The result is `None` if there are no lights, or if the light that was picked faces away.",

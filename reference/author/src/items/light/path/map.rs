@@ -20,7 +20,7 @@ const CALLS: usize = 8;
 
 pub(super) const MAP: Declaration = Declaration {
     id: "path.map",
-    title: "an environment map is seen by the camera and in mirrors, in the right direction",
+    title: "an environment map is counted like a light, in the direction of the ray",
     look: "A map doesn't look the same in every direction. Which direction do you look it up in, \
         and in which cases?",
     section: "light/paths.md#a-ray-that-hits-nothing",

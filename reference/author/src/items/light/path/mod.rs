@@ -4,6 +4,7 @@ mod map;
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 use protocol::Table;
 use protocol::light::LightQuestion;
 
@@ -94,9 +95,10 @@ const SEEN: Declaration = Declaration {
 const ONE_BOUNCE: Declaration = Declaration {
     id: "path.one_bounce",
     points: 1,
-    title: "with 1 bounce, the direct light on the first surface is added",
-    look: "How many times does your loop add direct light if `bounces` is 1?",
-    section: "light/paths.md#the-number-of-bounces",
+    title: "with 1 bounce, the path is scattered at most once and adds direct light there",
+    look: "Write down what your loop adds at the first surface, and what at the second. Which term \
+        is missing or too much, or has the wrong factor?",
+    section: "light/paths.md#what-to-return",
     tests: &[
         "With 1 bounce, direct light is added.",
         "Bounce 0 is at the first surface.",
@@ -119,9 +121,10 @@ const ONE_BOUNCE: Declaration = Declaration {
 const BOUNCES: Declaration = Declaration {
     id: "path.bounces",
     points: 2,
-    title: "a path is scattered at most `bounces` times",
-    look: "Count the surfaces at which your code adds direct light if `bounces` is 3.",
-    section: "light/paths.md#the-number-of-bounces",
+    title: "a path is scattered as often as `bounces` and the roulette allow",
+    look: "If the question shown has more than 3 bounces, those with fewer are right: look at the \
+        roulette. If not, write down what your code adds at each surface, and each factor.",
+    section: "light/paths.md#what-to-return",
     tests: &["The path is scattered at most `bounces` times."],
     questions: |rng| {
         let bounces = [2, 3];
@@ -166,6 +169,7 @@ const ONCE: Declaration = Declaration {
     points: 2,
     title: "after a matte surface, a light or the sky that the path hits isn't counted again",
     look: "Which code has already counted the light that the path hits after a matte surface?",
+    look_fits: &[Symptom::more("value")],
     section: "light/paths.md#only-once",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \
@@ -252,7 +256,7 @@ const THROUGHPUT: Declaration = Declaration {
 const MIRROR: Declaration = Declaration {
     id: "path.mirror",
     points: 2,
-    title: "a mirror shows the lights and the sky",
+    title: "mirrors show the lights and the sky, and a light is black from behind",
     look: "After a mirror, `direct` has counted nothing yet. Which `pdf` tells you so?",
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[

@@ -1,0 +1,140 @@
+//! The clues for the assignment `light`.
+//!
+//! As for the assignment `rays`, a clue must be true of any code with the symptom.
+
+use super::super::{SymptomClue, TaskClues};
+use crate::signatures::PanicKind;
+use crate::symptom::{SOME_OR_NONE, Symptom};
+
+/// The length of a direction that a function returns.
+const LENGTH: Symptom = Symptom::of("length of the direction");
+/// The clue for a direction whose length is wrong.
+const WRONG_LENGTH: &str = "Your direction points the right way, but its length isn't one. Which factor \
+                            scales all three components, or where do you forget to normalise?";
+
+/// The clues for mirrors and glass.
+pub(super) const SPECULAR: TaskClues = TaskClues {
+    sections_on_panics: &[(
+        PanicKind::NoValue,
+        "light/glass.md#total-reflection-is-full-reflection",
+    )],
+    by_symptom: &[
+        SymptomClue {
+            symptoms: &[Symptom::less(SOME_OR_NONE)],
+            clue: "Here, light is refracted, but your code returns `None`. Work out the squared sine of the \
+                refracted angle for the direction shown: it is less than 1. What makes your code decide \
+                otherwise?",
+            section: "light/glass.md#total-reflection",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::more(SOME_OR_NONE)],
+            clue: "Here, light is totally reflected, but your code returns a direction. Work out the squared \
+                sine of the refracted angle for the direction shown: it is more than 1. What does your \
+                code do with it?",
+            section: "light/glass.md#total-reflection",
+        },
+        SymptomClue {
+            symptoms: &[LENGTH],
+            clue: WRONG_LENGTH,
+            section: "light/glass.md#what-to-return",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::of("direction"), Symptom::reversed("direction")],
+            clue: "Which of your functions should this direction come from: `reflect` or `refract`? Call it \
+                with the `out` shown, and compare its result with yours.",
+            section: "light/glass.md#what-to-return",
+        },
+    ],
+    ..TaskClues::NONE
+};
+
+/// The clues for sampling lights.
+pub(super) const LIGHTS: TaskClues = TaskClues {
+    sections_on_panics: &[
+        (PanicKind::Index, "light/lights.md#no-lights"),
+        (PanicKind::NoValue, "light/lights.md#no-lights"),
+    ],
+    by_symptom: &[
+        SymptomClue {
+            symptoms: &[Symptom::less(SOME_OR_NONE)],
+            clue: "The light that `choice` picks doesn't face away, but your code returns `None`. Which light \
+                does your code pick, and what is the sign of its cosine for the point shown?",
+            section: "light/lights.md#the-picked-light-may-face-away",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::more(SOME_OR_NONE)],
+            clue: "Your code returns a direction, although there is no light, or the light that `choice` \
+                picks faces away. Where does your code test for these two cases?",
+            section: "light/lights.md#the-picked-light-may-face-away",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::reversed("direction")],
+            clue: "Your direction is the opposite of the correct one, so it leads away from the light. Which \
+                point do you subtract from which?",
+            section: "light/lights.md#from-the-point-to-the-light",
+        },
+        SymptomClue {
+            symptoms: &[LENGTH],
+            clue: WRONG_LENGTH,
+            section: "light/lights.md#the-direction-has-length-one",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::of("direction")],
+            clue: "Work out by hand which light `choice` picks, and which point on it `random` picks. Does \
+                your direction lead from the point shown to that one?",
+            section: "light/lights.md#from-the-point-to-the-light",
+        },
+    ],
+    ..TaskClues::NONE
+};
+
+/// The clues for direct light.
+pub(super) const DIRECT: TaskClues = TaskClues {
+    sections_on_panics: &[(PanicKind::NoValue, "light/direct.md#without-a-light-sample")],
+    ..TaskClues::NONE
+};
+
+/// The clues for paths.
+pub(super) const PATH: TaskClues = TaskClues {
+    sections_on_panics: &[(
+        PanicKind::NoValue,
+        "light/paths.md#a-surface-that-scatters-nothing",
+    )],
+    by_symptom: &[SymptomClue {
+        symptoms: &[Symptom::of("value")],
+        clue: "Follow your path for the question shown. At each surface, write down what your code adds and \
+            what the throughput is. Which of the steps in the handout does your code do differently?",
+        section: "light/paths.md#what-to-return",
+    }],
+    ..TaskClues::NONE
+};
+
+/// The clues for environment maps.
+pub(super) const ENVIRONMENT: TaskClues = TaskClues {
+    sections_on_panics: &[(
+        PanicKind::Index,
+        "light/environment.md#the-search-ends-at-the-last-pixel",
+    )],
+    by_symptom: &[
+        SymptomClue {
+            symptoms: &[LENGTH],
+            clue: "A direction has length one. Add up the squares of your three components, and compare each of \
+                them with the formula: which one lacks a factor?",
+            section: "light/environment.md#three-components-and-two-angles",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::of("direction"), Symptom::reversed("direction")],
+            clue: "Pass your direction and the correct one to `Environment::index`. If both are in the same \
+                pixel, look at the position in the pixel and at the two angles. If not, look at the weights \
+                and the search.",
+            section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::of("pdf")],
+            clue: "Work out the pixel's share, the size of the map and sin θ for the direction shown, and \
+                compare each of them with the value in your code.",
+            section: "light/environment.md#the-density-of-a-direction",
+        },
+    ],
+    ..TaskClues::NONE
+};

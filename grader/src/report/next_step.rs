@@ -168,9 +168,10 @@ fn compile_step(score: &Score, file: &str, message: &str) -> String {
         return report.message.clone();
     }
     let line = report.line.map_or(String::new(), |line| format!(":{line}"));
-    let mut lines = report.message.lines();
-    let error = lines.next().unwrap_or_default();
-    let read = lines.find(|line| line.starts_with(SECTION_LABEL));
+    let error = report.message.lines().next().unwrap_or_default();
+    // Later paragraphs are about other errors.
+    let read = report.message.split("\n\n").nth(1);
+    let read = read.filter(|read| read.starts_with(SECTION_LABEL));
     let read = read.map_or(String::new(), |read| format!("\n{read}"));
     let lines = report.message.lines();
     let restore = lines.skip_while(|line| !line.starts_with(RESTORE_LABEL));

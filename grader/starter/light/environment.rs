@@ -77,7 +77,7 @@ impl Environment {
     ///
     /// - The given [`Environment::index`] finds the pixel.
     /// - The result is zero for a black pixel, and everywhere if all pixels are black.
-    /// - Directions at the poles (sin θ = 0) and at the edge of a pixel are not tested.
+    /// - Directions close to a pole (sin θ < 0.03) and those at the edge of a pixel are not tested.
     pub fn pdf(&self, direction: Vec3) -> f32 {
         todo!("part two, environment: with what density does `sample` return {direction:?}?")
     }

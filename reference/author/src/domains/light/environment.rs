@@ -57,6 +57,12 @@ pub static MAP_SAMPLE: FunctionDomain<Row<EnvironmentSample>> = FunctionDomain {
             "A black pixel is never picked.",
         ),
         not_asked(
+            &["share"],
+            NEVER_PICKED,
+            &[],
+            "A pixel with so small a share is only picked by numbers close to a border.",
+        ),
+        not_asked(
             &["black pixels"],
             &["all"],
             &[],
@@ -90,6 +96,9 @@ pub static MAP_PDF: FunctionDomain<Row<EnvironmentPdf>> = FunctionDomain {
 
 /// The classes of random numbers that consist of a single number.
 const EXACT_NUMBERS: &[&str] = &[NUMBERS[0], NUMBERS[3], NUMBERS[6]];
+
+/// The shares that are too small for a random number to pick.
+const NEVER_PICKED: &[&str] = &[SHARES[1]];
 
 /// The longitudes where every map has an edge between two columns.
 const SEAMS: &[&str] = &[AZIMUTHS[0], AZIMUTHS[2]];

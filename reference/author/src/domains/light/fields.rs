@@ -65,11 +65,11 @@ pub fn direction(rng: &mut Rng, class: usize) -> DVec3 {
     };
     let height = match class {
         0 => return sign * DVec3::Z,
-        1 => rng.uniform(0.9991, 0.999_999),
+        1 => 1.0 - rng.log_uniform(1e-6, 9e-4),
         2 => rng.uniform(0.101, 0.998),
         3 => rng.log_uniform(0.0101, 0.099),
         4 => rng.log_uniform(1.01e-3, 9.9e-3),
-        5 => rng.log_uniform(1e-5, 9.9e-4),
+        5 => rng.log_uniform(1e-8, 9.9e-4),
         _ => 0.0,
     };
     let around = if rng.coin() {
@@ -185,7 +185,7 @@ pub fn color_class(color: Vec3) -> usize {
 }
 
 /// Picks random reflectances, so that each class of colours occurs, and each class of channels in
-/// each channel.
+/// each channel. One of them is dark in all channels.
 pub fn reflectances(rng: &mut Rng) -> Vec<DVec3> {
     let count = CHANNELS.len();
     let mut all: Vec<DVec3> = (0..count)
@@ -196,7 +196,9 @@ pub fn reflectances(rng: &mut Rng) -> Vec<DVec3> {
         .collect();
     let axis = DVec3::AXES[rng.index(3)];
     let grey = DVec3::splat(channel(rng, 2));
-    all.extend([channel(rng, 2) * axis, grey, DVec3::ONE, DVec3::ZERO]);
+    let dark = DVec3::from_array([2; 3].map(|class| channel(rng, class)));
+    let dark = rng.log_uniform(1e-3, 0.015) * dark;
+    all.extend([channel(rng, 2) * axis, grey, dark, DVec3::ONE, DVec3::ZERO]);
     all
 }
 
@@ -228,9 +230,9 @@ pub fn index_class(ior: f32) -> usize {
 pub fn index(rng: &mut Rng, class: usize) -> f32 {
     let dense = match class.abs_diff(3) {
         0 => return 1.0,
-        1 => 1.0 + rng.log_uniform(1e-3, 0.019),
+        1 => 1.0 + rng.log_uniform(1e-5, 5e-3),
         2 => rng.uniform(1.05, 1.95),
-        _ => rng.uniform(2.05, 4.0),
+        _ => rng.log_uniform(2.05, 10.0),
     };
     let is_dense = class > 3;
     (if is_dense { dense } else { 1.0 / dense }) as f32
@@ -246,7 +248,7 @@ pub fn length_class(length: f64) -> usize {
 }
 
 /// The classes of a positive quantity without a usual size, such as a radiance.
-pub const MAGNITUDES: &[&str] = &["0", "below 0.1", "0.1", "1", "10", "above 100"];
+pub const MAGNITUDES: &[&str] = &["0", "below 0.1", "0.1", "1", "10", "100", "above 1000"];
 
 /// Returns the class of a quantity.
 pub fn magnitude_class(value: f64) -> usize {
@@ -256,22 +258,32 @@ pub fn magnitude_class(value: f64) -> usize {
         ..1.0 => 2,
         ..10.0 => 3,
         ..100.0 => 4,
-        _ => 5,
+        ..1e3 => 5,
+        _ => 6,
     }
 }
 
 /// The classes of shares.
-pub const SHARES: &[&str] = &["0", "below 1e-4", "1e-4", "1e-2", "0.1", "above 0.5"];
+pub const SHARES: &[&str] = &[
+    "0",
+    "below 1e-7",
+    "1e-7",
+    "1e-4",
+    "1e-2",
+    "0.1",
+    "above 0.5",
+];
 
 /// Returns the class of a share.
 pub fn share_class(share: f64) -> usize {
     match share {
         0.0 => 0,
-        ..1e-4 => 1,
-        ..1e-2 => 2,
-        ..0.1 => 3,
-        ..0.5 => 4,
-        _ => 5,
+        ..1e-7 => 1,
+        ..1e-4 => 2,
+        ..1e-2 => 3,
+        ..0.1 => 4,
+        ..0.5 => 5,
+        _ => 6,
     }
 }
 

@@ -18,7 +18,15 @@ use crate::oracle::light::spherical_light::SphericalLight64;
 pub static AREA_LIGHT_PDF: FunctionDomain<Row<AreaLightPdf>> = FunctionDomain {
     function: "AreaLight::pdf",
     subject_aspects: &[],
-    aspects: Aspect::TOWARD,
+    aspects: &[
+        Aspect::FORM,
+        Aspect::SIDE,
+        Aspect::DISTANCE,
+        DISTANCE_IN_EDGES,
+        Aspect::COSINE,
+        Aspect::SEEN,
+        Aspect::RAY_DIRECTION,
+    ],
     pairs: &[["form of the light", "seen"]],
     calls: rows_of!(AreaLightPdf),
     not_asked: &[WITHIN_THE_SCENE],
@@ -40,7 +48,7 @@ pub static LIGHTS_PDF: FunctionDomain<Row<LightsPdf>> = FunctionDomain {
     ],
     pairs: &[],
     calls: rows_of!(LightsPdf),
-    not_asked: &[WITHIN_THE_SCENE],
+    not_asked: &[WITHIN_THE_SCENE, NOT_THAT_SLANTED],
 };
 
 /// The domain of `Lights::sample`.
@@ -66,6 +74,7 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
     calls: rows_of!(LightsSample),
     not_asked: &[
         WITHIN_THE_SCENE,
+        NOT_THAT_SLANTED,
         not_asked(
             &["lights"],
             &["none"],
@@ -74,13 +83,13 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
         ),
         not_asked(
             &["cosine at the light"],
-            COSINES.split_at(4).1,
+            COSINES.split_at(5).1,
             &["some", "direction", "unit_direction"],
             "Seen from behind, the light faces away.",
         ),
         not_asked(
             &["cosine at the light"],
-            COSINES.split_at(4).0,
+            COSINES.split_at(5).0,
             &["`None`"],
             "Seen from the front, the light doesn't face away.",
         ),
@@ -98,7 +107,7 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
         ),
         not_asked(
             &["share of the picked light"],
-            &["0", "below 1e-4"],
+            SHARES.split_at(3).0,
             &[],
             "A light with so little power is only picked by numbers close to a border.",
         ),
@@ -120,6 +129,17 @@ const WITHIN_THE_SCENE: UntestedClasses = not_asked(
     &["1000"],
     &[],
     "Scenes have coordinates up to 1,000, so hardly any light is this large.",
+);
+
+/// The cosines of directions almost in the light's plane.
+const ALMOST_IN_ITS_PLANE: &[&str] = &[COSINES[4], COSINES[5]];
+
+/// Only a single light parallel to the axes is seen from so close to its plane.
+const NOT_THAT_SLANTED: UntestedClasses = not_asked(
+    &["cosine at the light"],
+    ALMOST_IN_ITS_PLANE,
+    &[],
+    "Correct formulas lose too many digits, unless the light is parallel to two axes.",
 );
 
 /// The forms of flat lights.
@@ -149,8 +169,12 @@ fn form_class(light: &FlatLight64) -> usize {
 
 /// Returns the class of a light's longer edge.
 fn side_class(light: &FlatLight64) -> usize {
+    length_class(longer_edge(light))
+}
+
+fn longer_edge(light: &FlatLight64) -> f64 {
     let [e0, e1] = light.shape.edges;
-    length_class(e0.length().max(e1.length()))
+    e0.length().max(e1.length())
 }
 
 /// The classes of the cosine at a light, from in front of it to behind it.
@@ -158,8 +182,10 @@ const COSINES: &[&str] = &[
     "head-on",
     "0.1",
     "0.02",
-    "below 0.02",
-    "below 0.02, from behind",
+    "1e-3",
+    "below 1e-3",
+    "below 1e-3, from behind",
+    "1e-3, from behind",
     "0.02, from behind",
     "0.1, from behind",
     "head-on, from behind",
@@ -171,7 +197,8 @@ fn cosine_class(cosine: f64) -> usize {
         0.99.. => 0,
         0.1.. => 1,
         0.02.. => 2,
-        _ => 3,
+        1e-3.. => 3,
+        _ => 4,
     };
     if cosine > 0.0 {
         class
@@ -290,7 +317,10 @@ impl<F: Function<Subject = LightList>> Aspect<Row<F>> {
     pub const COUNT: Self = Aspect {
         name: "lights",
         classes: &["none", "1", "2", "3 to 9", "10 to 49", "50 or more"],
-        class: |row| Some(class_up_to(&[0, 1, 2, 9, 49], row.subject.lights.len())),
+        class: |row| {
+            let count = row.subject.lights.len();
+            Some(class_up_to(&[0, 1, 2, 9, 49], count))
+        },
     };
 
     /// The kinds of lights in the list.
@@ -352,17 +382,24 @@ impl<F: Function<Subject = LightList, Input = Toward>> Aspect<Row<F>> {
         classes: DIRECTIONS,
         class: |row| direction_class(row.input.direction),
     };
-
-    /// All aspects of a direction toward a light.
-    const TOWARD: &'static [Self] = &[
-        Self::FORM,
-        Self::SIDE,
-        Self::DISTANCE,
-        Self::COSINE,
-        Self::SEEN,
-        Self::RAY_DIRECTION,
-    ];
 }
+
+/// The distance of the light, as a multiple of its longer edge.
+const DISTANCE_IN_EDGES: Aspect<Row<AreaLightPdf>> = Aspect {
+    name: "distance in edges",
+    classes: &["below 0.05", "0.05 to 20", "20 to 300", "above 300"],
+    class: |row| {
+        let Sight {
+            light, distance, ..
+        } = main_sight(&row.subject, &row.input)?;
+        Some(match distance / longer_edge(&light) {
+            ..0.05 => 0,
+            ..20.0 => 1,
+            ..300.0 => 2,
+            _ => 3,
+        })
+    },
+};
 
 /// The number of lights whose density is positive.
 const LIGHTS_AHEAD: Aspect<Row<LightsPdf>> = Aspect {

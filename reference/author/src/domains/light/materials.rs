@@ -91,7 +91,7 @@ pub static REFRACTED: FunctionDomain<Row<Refract>> = FunctionDomain {
             &["out"],
             NEAR_THE_NORMAL,
             &["`None`"],
-            "There is no total reflection so close to the normal, up to an index of 4.",
+            "There is no total reflection so close to the normal, up to an index of 10.",
         ),
         not_asked(
             &["passage", "critical angle"],
@@ -227,8 +227,21 @@ impl<F: Function<Subject: Colored>> Aspect<Row<F>> {
         class: |row| Some(color_class(row.subject.color())),
     };
 
+    /// The brightest channel of the material's colour.
+    pub const BRIGHTEST: Self = Aspect {
+        name: "brightest channel",
+        classes: CHANNELS,
+        class: |row| Some(channel_class(row.subject.color().max_element())),
+    };
+
     /// All aspects of the material's colour.
-    const COLORS: &'static [Self] = &[Self::RED, Self::GREEN, Self::BLUE, Self::COLOR];
+    const COLORS: &'static [Self] = &[
+        Self::RED,
+        Self::GREEN,
+        Self::BLUE,
+        Self::COLOR,
+        Self::BRIGHTEST,
+    ];
 }
 
 impl<F: Function<Input = DirectionPair>> Aspect<Row<F>> {
@@ -361,6 +374,8 @@ const BESIDE_THE_FRACTION: Aspect<Row<GlassScatter>> = Aspect {
         "far above",
         "the fraction is 1",
         "the fraction is 0",
+        "below a fraction of less than 2e-3",
+        "both are 0",
     ],
     class: |row| {
         let (out, ior) = (row.input.out.as_dvec3(), f64::from(row.subject.ior));
@@ -368,7 +383,9 @@ const BESIDE_THE_FRACTION: Aspect<Row<GlassScatter>> = Aspect {
         let above = f64::from(row.input.random) - fraction;
         Some(match above {
             _ if fraction == 1.0 => 4,
+            0.0 if ior == 1.0 => 7,
             _ if ior == 1.0 => 5,
+            ..0.0 if fraction < 2e-3 => 6,
             ..-0.03 => 0,
             ..0.0 => 1,
             ..0.03 => 2,

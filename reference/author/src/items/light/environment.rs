@@ -90,12 +90,8 @@ const PICK: Declaration = Declaration {
         "Numbers at the border between two pixels are not tested.",
     ],
     questions: |rng| {
-        let sizes = [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)];
-        let questions = sizes.map(|size| {
-            let map = colorful(rng, size);
-            samples(rng, map)
-        });
-        questions.into()
+        let maps = every_brightness(rng).into_iter();
+        maps.map(|map| samples(rng, map)).collect()
     },
     ..Declaration::in_group(MAPS)
 };
@@ -186,12 +182,16 @@ const ENDS: Declaration = Declaration {
         for size in sizes {
             let whole = colorful(rng, size);
             let mut with_borders = whole.clone();
-            let last = with_borders.pixels.len() - 1;
-            if last > 2 {
-                // The first bright pixel and the last one aren't the first and the last.
-                with_borders.pixels[0] = Vec3::ZERO;
-                with_borders.pixels[last] = Vec3::ZERO;
-            }
+            // The first bright pixel and the last one aren't the first and the last, and can be in
+            // other rows.
+            let black = match size.x {
+                2 => 0,
+                4 => 1,
+                width => width as usize + 1,
+            };
+            let last = with_borders.pixels.len() - black;
+            with_borders.pixels[..black].fill(Vec3::ZERO);
+            with_borders.pixels[last..].fill(Vec3::ZERO);
             for map in [whole, with_borders] {
                 let choices = [0.0, 1e-6, BELOW_ONE - f32::EPSILON, BELOW_ONE];
                 let calls = choices.map(|choice| MapSample {
@@ -263,15 +263,11 @@ const PDF: Declaration = Declaration {
          itself, not that of the pixel's middle.",
         "The direction must be a unit vector.",
         "The given [`Environment::index`] finds the pixel.",
-        "Directions at the poles (sin θ = 0) and at the edge of a pixel are not tested.",
+        "Directions close to a pole (sin θ < 0.03) and those at the edge of a pixel are not tested.",
     ],
     questions: |rng| {
-        let sizes = [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)];
-        let questions = sizes.map(|size| {
-            let map = colorful(rng, size);
-            pdfs(rng, map, |_| true)
-        });
-        questions.into()
+        let maps = every_brightness(rng).into_iter();
+        maps.map(|map| pdfs(rng, map, |_| true)).collect()
     },
     ..Declaration::in_group(MAPS)
 };
@@ -279,8 +275,9 @@ const PDF: Declaration = Declaration {
 const SIZES: Declaration = Declaration {
     id: "environment.sizes",
     points: 1,
-    title: "maps of any size are sampled, from two pixels to a hundred thousand",
-    look: "Do you mix up the width and the height? If only large maps fail: are all sums in `f64`?",
+    title: "maps of any size are sampled, from two pixels to two hundred thousand",
+    look: "Do you mix up the width and the height? If only large maps or dim pixels fail: are all \
+        sums in `f64`?",
     look_fits: &[
         Symptom::of("direction"),
         Symptom::reversed("direction"),
@@ -299,6 +296,13 @@ const SIZES: Declaration = Declaration {
             questions.push(samples(rng, map.clone()));
             questions.push(pdfs(rng, map, |_| true));
         }
+        // Next to the sun, all other shares are tiny.
+        let size = uvec2(4, 2);
+        let pixels = (0..8).map(|_| (color(rng) * rng.log_uniform(0.5, 5.0)).as_vec3());
+        let mut pixels: Vec<Vec3> = pixels.collect();
+        pixels[rng.index(8)] = Vec3::splat(1e8);
+        let map = MapImage { size, pixels };
+        questions.push(pdfs(rng, map, |_| true));
         let map = large(rng);
         questions.push(samples(rng, map.clone()));
         questions.push(pdfs(rng, map, |_| true));
@@ -330,6 +334,25 @@ fn colorful(rng: &mut Rng, size: UVec2) -> MapImage {
     }
 }
 
+/// Returns maps in a few sizes: one is dim everywhere, and in one, the sun is about as bright as all
+/// other pixels together.
+fn every_brightness(rng: &mut Rng) -> Vec<MapImage> {
+    let mut maps =
+        [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)].map(|size| colorful(rng, size));
+    let dim = rng.log_uniform(1e-9, 1e-7) as f32;
+    for pixel in &mut maps[1].pixels {
+        *pixel *= dim;
+    }
+    let sunny = &mut maps[3].pixels;
+    let sun = rng.index(sunny.len());
+    sunny[sun] = Vec3::splat(rng.log_uniform(300.0, 3000.0) as f32);
+    let brightness = rng.log_uniform(30.0, 1000.0) as f32;
+    for pixel in sunny {
+        *pixel *= brightness;
+    }
+    maps.into()
+}
+
 /// Returns a random colour: white, grey, or with one, two or three channels.
 fn pixel(rng: &mut Rng) -> Vec3 {
     let brightness = rng.log_uniform(0.01, 200.0);
@@ -348,11 +371,11 @@ fn pixel(rng: &mut Rng) -> Vec3 {
 /// single precision aren't exact enough. Many neighbours have the same colour, so that the exam
 /// stays small.
 fn large(rng: &mut Rng) -> MapImage {
-    let size = uvec2(512, 256);
+    let size = uvec2(640, 320);
     let mut pixels = Vec::new();
     while pixels.len() < size.element_product() as usize {
         let pixel = color(rng) * rng.log_uniform(0.5, 5.0);
-        let count = rng.integer(100, 3000) as usize;
+        let count = rng.integer(150, 4500) as usize;
         pixels.resize(pixels.len() + count, pixel.as_vec3());
     }
     pixels.truncate(size.element_product() as usize);

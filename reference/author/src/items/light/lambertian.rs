@@ -8,7 +8,7 @@ use protocol::light::lambertian::{DirectionPair, Matte, MatteSample};
 
 use super::groups::{MATTE, MATTE_SAMPLES};
 use super::{colors, densities, scattered, table};
-use crate::domains::light::fields::{self, ABOVE, BELOW_ONE, HORIZON, number};
+use crate::domains::light::fields::{self, ABOVE, BELOW_ONE, HORIZON};
 use crate::domains::light::materials::{MATTE_EVALUATE, MATTE_PDF, MATTE_SCATTER};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::lambertian;
@@ -137,11 +137,7 @@ const DIRECTION: Declaration = Declaration {
         "`direction` is the one that the given [`sample_cosine_hemisphere`] returns for `random`.",
         "`out` is above the surface.",
     ],
-    questions: |rng| {
-        surfaces(rng, |rng, matte| {
-            samples(matte, &["direction", "unit_direction"], randoms(rng), rng)
-        })
-    },
+    questions: |rng| samples(rng, &["direction", "unit_direction"], &[]),
     ..Declaration::in_group(MATTE_SAMPLES)
 };
 
@@ -156,13 +152,12 @@ const ATTENUATION: Declaration = Declaration {
          that it is also right at the horizon, where both are zero.",
     ],
     questions: |rng| {
-        surfaces(rng, |rng, matte| {
-            let mut numbers = randoms(rng);
-            // These lead to directions close to the normal and to the horizon.
-            let ends = [0.0, 1e-6, 1.0 - f32::EPSILON, BELOW_ONE];
-            numbers.extend(ends.map(|x| Vec2::new(x, number(rng))));
-            samples(matte, &["attenuation"], numbers, rng)
-        })
+        // These lead to directions close to the normal and to the horizon.
+        samples(
+            rng,
+            &["attenuation"],
+            &[0.0, 1e-6, 1.0 - f32::EPSILON, BELOW_ONE],
+        )
     },
     ..Declaration::in_group(MATTE_SAMPLES)
 };
@@ -174,11 +169,7 @@ const SAMPLED_PDF: Declaration = Declaration {
     look: "Which direction do you compute the density for: `out`, or the one you return?",
     section: "light/materials.md#the-density-of-the-sampled-direction",
     tests: &["`pdf` is the density of this direction."],
-    questions: |rng| {
-        surfaces(rng, |rng, matte| {
-            samples(matte, &["pdf"], randoms(rng), rng)
-        })
-    },
+    questions: |rng| samples(rng, &["pdf"], &[]),
     ..Declaration::in_group(MATTE_SAMPLES)
 };
 
@@ -270,24 +261,33 @@ fn pdfs(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
     )
 }
 
-fn randoms(rng: &mut Rng) -> Vec<Vec2> {
-    (0..CALLS).map(|_| fields::number_pair(rng)).collect()
+/// Returns questions about samples of different surfaces. The first random number of some samples is
+/// in `ends`.
+fn samples(rng: &mut Rng, judged: &[&str], ends: &[f32]) -> Vec<ExamQuestion> {
+    // Each question ends with the call that the next one starts with.
+    let same = sample(rng, None);
+    surfaces(rng, |rng, matte| {
+        let firsts = [None; CALLS]
+            .into_iter()
+            .chain(ends.iter().copied().map(Some));
+        let others: Vec<MatteSample> = firsts.map(|x| sample(rng, x)).collect();
+        let calls = [vec![same], others, vec![same]].concat();
+        let albedo = matte.albedo.as_dvec3();
+        let rows = calls
+            .iter()
+            .map(|call| lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2()));
+        let rows = scattered(rows);
+        let question = LightQuestion::LambertianScatter(Table::of_list(matte, calls));
+        vec![table(question, judged, rows)]
+    })
 }
 
-fn samples(matte: Matte, judged: &[&str], numbers: Vec<Vec2>, rng: &mut Rng) -> Vec<ExamQuestion> {
-    let calls = numbers.into_iter().map(|random| MatteSample {
-        out: {
-            let class = rng.index(ABOVE);
-            fields::direction(rng, class).as_vec3()
-        },
-        random,
-    });
-    let calls: Vec<MatteSample> = calls.collect();
-    let albedo = matte.albedo.as_dvec3();
-    let rows = calls
-        .iter()
-        .map(|call| lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2()));
-    let rows = scattered(rows);
-    let question = LightQuestion::LambertianScatter(Table::of_list(matte, calls));
-    vec![table(question, judged, rows)]
+/// Returns a call of `Lambertian::scatter`, with this first random number if there is one.
+fn sample(rng: &mut Rng, first: Option<f32>) -> MatteSample {
+    let class = rng.index(ABOVE);
+    let random = fields::number_pair(rng);
+    MatteSample {
+        out: fields::direction(rng, class).as_vec3(),
+        random: Vec2::new(first.unwrap_or(random.x), random.y),
+    }
 }

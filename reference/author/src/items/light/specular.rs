@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use judging::exam::ExamQuestion;
 use judging::symptom::Symptom;
 use protocol::light::LightQuestion;
@@ -22,6 +22,8 @@ use crate::seed::Rng;
 
 /// The number of calls in each question.
 const CALLS: usize = 12;
+/// Smaller fractions are compared as if they had this size.
+const SMALLEST_FRACTION: f64 = 0.01;
 
 /// The task `specular`.
 pub static TASK: AuthoredTask = AuthoredTask {
@@ -166,7 +168,8 @@ const HEAD_ON: Declaration = Declaration {
                 directions_that(rng, medium, below, refracted)[0],
             ];
             let out = [DVec3::Z, DVec3::NEG_Z].into_iter().chain(tilted);
-            let near = [1, 2 * HORIZON - 1].map(|class| fields::direction(rng, class));
+            let near = (0..CALLS).flat_map(|_| [1, 2 * HORIZON - 1]);
+            let near = near.map(|class| fields::direction(rng, class));
             refraction(medium, out.chain(near).collect())
         })
     },
@@ -450,6 +453,19 @@ fn total(out: DVec3, ior: f64) -> bool {
     !refracted(out, ior)
 }
 
+/// Returns up to two directions for which little is reflected.
+fn faint(rng: &mut Rng, medium: Medium, draw: fn(&mut Rng) -> DVec3) -> Vec<DVec3> {
+    let ior = medium.ior.into();
+    let direction = |_| {
+        rng.attempt(1_000, |rng| {
+            let out = draw(rng);
+            let is_faint = (1e-4..1.9e-3).contains(&specular::fresnel(out, ior));
+            (is_faint && is_clear(out, ior)).then_some(out)
+        })
+    };
+    (0..2).filter_map(direction).collect()
+}
+
 /// Returns directions for which a condition is true and that all correct formulas agree on.
 fn directions_that(
     rng: &mut Rng,
@@ -479,8 +495,17 @@ fn few(
     all
 }
 
-/// The smallest difference of a cosine from that of the critical angle.
-const CRITICAL: f64 = 0.02;
+/// Returns the smallest difference of a cosine from that of the critical angle. It is less where the
+/// critical angle itself is close to the surface or the normal.
+fn critical_distance(ior: f64) -> f64 {
+    let cosine = critical_cosine(ior);
+    (0.2 * cosine.min(1.0 - cosine)).clamp(5e-4, 0.02)
+}
+
+/// Returns the cosine of the critical angle.
+fn critical_cosine(ior: f64) -> f64 {
+    (1.0 - ior.min(1.0 / ior).powi(2)).sqrt()
+}
 
 /// Returns up to two directions close to the critical angle, on the side with this sign, for which
 /// a condition is true.
@@ -491,15 +516,15 @@ fn near_critical(
     condition: fn(DVec3, f64) -> bool,
 ) -> Vec<DVec3> {
     let ior = f64::from(medium.ior);
-    let critical = (1.0 - ior.min(1.0 / ior).powi(2)).sqrt();
+    let (critical, distance) = (critical_cosine(ior), critical_distance(ior));
     let direction = |_| {
         rng.attempt(1_000, |rng| {
-            let height = critical + rng.sign() * rng.uniform(CRITICAL, 2.8 * CRITICAL);
+            let height = critical + rng.sign() * rng.uniform(distance, 2.8 * distance);
             let flat = above(rng).truncate().normalize();
             let height = height.clamp(0.0, 1.0);
             let out = single((flat * (1.0 - height * height).sqrt()).extend(side * height));
             let is_wanted = is_clear(out, ior) && condition(out, ior);
-            (height > 1e-3 && height < 0.999 && is_wanted).then_some(out)
+            (height > 1e-3 && height < 0.9999 && is_wanted).then_some(out)
         })
     };
     (0..2).filter_map(direction).collect()
@@ -510,14 +535,12 @@ fn near_critical(
 fn is_clear(out: DVec3, ior: f64) -> bool {
     /// A tenth of the tolerances for directions and fractions.
     const MOST: f64 = 1e-4;
-    /// Smaller fractions are compared as if they had this size.
-    const SMALLEST_FRACTION: f64 = 0.01;
     let (near, far) = if out.z > 0.0 { (1.0, ior) } else { (ior, 1.0) };
     let ratio = near / far;
     let cosine = out.z.abs();
     let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
     let rounding = 2e-7 * (1.0 + ratio * ratio);
-    if squared.abs() < rounding || specular::critical_margin(out, ior) < CRITICAL {
+    if squared.abs() < rounding || specular::critical_margin(out, ior) < critical_distance(ior) {
         return false;
     }
     let [least, most] = [squared - rounding, squared + rounding].map(|it| it.max(0.0).sqrt());
@@ -559,6 +582,8 @@ fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
         for (draw, side) in [(any_above as fn(&mut Rng) -> DVec3, 1.0), (any_below, -1.0)] {
             out.extend(few(rng, medium, draw, refracted));
             out.extend(near_critical(rng, medium, side, refracted));
+            out.extend(faint(rng, medium, draw));
+            out.push(side * DVec3::Z);
         }
         glass_samples(rng, medium, out, judged)
     })
@@ -571,24 +596,29 @@ fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]
     let mut calls = Vec::new();
     for out in out {
         let fraction = specular::fresnel(out, ior);
+        let margin = MARGIN * fraction.max(SMALLEST_FRACTION);
+        // Along the normal, the fraction isn't rounded.
+        let is_exactly_zero = ior == 1.0 && out.truncate() == DVec2::ZERO;
         for is_below in [true, false] {
             let sample = rng.attempt(1_000, |rng| {
                 // Numbers close to the fraction are as frequent as others.
-                let distance = rng.log_uniform(2.0 * MARGIN, 1.0);
+                let distance = rng.log_uniform(2.0 * margin, 1.0);
                 let number = if rng.coin() {
                     fraction + distance
                 } else {
                     fraction - distance
                 };
-                let number = if rng.coin() {
+                let number = if is_exactly_zero {
+                    0.0
+                } else if rng.coin() {
                     number as f32
                 } else {
                     fields::number(rng)
                 };
                 let is_random = (0.0..1.0).contains(&number);
                 // Total reflection doesn't depend on the number.
-                let is_far = (f64::from(number) - fraction).abs() > MARGIN;
-                let is_clear = is_far || total(out, ior);
+                let is_far = (f64::from(number) - fraction).abs() > margin;
+                let is_clear = is_far || is_exactly_zero || total(out, ior);
                 let is_wanted = (f64::from(number) < fraction) == is_below;
                 (is_random && is_clear && is_wanted).then_some(number)
             });

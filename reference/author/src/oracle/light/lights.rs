@@ -87,7 +87,7 @@ impl Light64 {
 
     /// Samples a unit direction to the light. Returns `None` if the light faces away. The margin is
     /// how far it is from that.
-    fn sample(&self, from: DVec3, random: DVec2) -> WithMargin<Option<DVec3>> {
+    pub fn sample(&self, from: DVec3, random: DVec2) -> WithMargin<Option<DVec3>> {
         let light = match self {
             Light64::Flat(light) => light,
             Light64::Sphere(light) => return light.sample(from, random),
@@ -160,13 +160,19 @@ impl Lights64 {
         self.lights.get(index)
     }
 
+    /// Returns the start and the end of each light's share.
+    pub fn portions(&self) -> Vec<[f64; 2]> {
+        let ends = self.shares.iter().scan(0.0, |sum, share| {
+            let start = *sum;
+            *sum += share;
+            Some([start, *sum])
+        });
+        ends.collect()
+    }
+
     /// Returns the starts of all shares but the first.
     fn borders(&self) -> impl Iterator<Item = f64> {
-        let ends = self.shares.iter().scan(0.0, |sum, share| {
-            *sum += share;
-            Some(*sum)
-        });
-        ends.take(self.lights.len().saturating_sub(1))
+        self.portions().into_iter().skip(1).map(|[start, _]| start)
     }
 
     /// Returns the probability density, per solid angle, with which [`Lights64::sample`] chooses a

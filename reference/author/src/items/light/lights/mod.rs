@@ -12,11 +12,12 @@ use protocol::light::lights::{FlatLight, LightList, LightSample, ListedLight, To
 use super::groups::{LIGHT_DENSITIES, LIGHT_SAMPLES};
 use super::{MARGIN, color, densities, optional_directions, single, table};
 use crate::domains::fields::{FURTHEST, direction as random_direction};
-use crate::domains::light::fields;
+use crate::domains::light::fields::{self, BELOW_ONE};
 use crate::domains::light::lights::{AREA_LIGHT_PDF, LIGHTS_PDF, LIGHTS_SAMPLE};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::flat_shape::FlatShape;
 use crate::oracle::light::lights::{FlatLight64, Lights64};
+use crate::oracle::light::nearest_border;
 use crate::seed::Rng;
 
 /// The number of calls in each question.
@@ -58,8 +59,14 @@ const DENSITY: Declaration = Declaration {
         "The given [`AreaLight::intersect`] finds the distance.",
     ],
     questions: |rng| {
-        one_light(rng, RECTANGLES, |rng, light| {
-            toward(rng, light, FRONT, CALLS)
+        let forms = [RECTANGLES, RECTANGLES].concat();
+        one_light(rng, &forms, |rng, light| {
+            let mut calls = toward(rng, light, FRONT, CALLS / 2)?;
+            calls.extend(toward(rng, light, CLOSE, CALLS / 2)?);
+            if length(light) < FURTHEST / (1.1 * FAR.distance[1]) {
+                calls.extend(toward(rng, light, FAR, CALLS / 2)?);
+            }
+            Some(calls)
         })
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -135,9 +142,18 @@ const GRAZING: Declaration = Declaration {
          light if points on the light are sampled uniformly: …",
     ],
     questions: |rng| {
-        one_light(rng, EVERY_FORM, |rng, light| {
+        let mut questions = one_light(rng, EVERY_FORM, |rng, light| {
             toward(rng, light, EDGE_ON, CALLS / 2)
-        })
+        });
+        questions.extend(every_size(rng).into_iter().map(|size| {
+            rng.retry(|rng| {
+                let light = parallel_to_axes(rng, size);
+                let mut calls = toward(rng, &light, ALMOST_IN_ITS_PLANE, 2)?;
+                calls.extend(toward(rng, &light, ALMOST_IN_ITS_PLANE_BEHIND, 2)?);
+                Some(one_light_densities(&light, calls))
+            })
+        }));
+        questions
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
 };
@@ -244,7 +260,14 @@ const SHARES: Declaration = Declaration {
             .zip(sizes)
             .map(|(count, size)| {
                 let (lights, calls) = rng.retry(|rng| {
-                    let lights = several(rng, count, size);
+                    let mut lights = several(rng, count, size);
+                    if count == 3 {
+                        // A light is hardly ever picked.
+                        let others: f64 = lights[1..].iter().map(FlatLight64::power).sum();
+                        let radiance =
+                            rng.log_uniform(1e-9, 9e-8) * others / lights[0].shape.area();
+                        lights[0].radiance = single(DVec3::splat(radiance));
+                    }
                     let calls = calls_of_list(rng, &lights)?;
                     Some((lights, calls))
                 });
@@ -305,17 +328,34 @@ const OVERLAP: Declaration = Declaration {
     ..Declaration::in_group(LIGHT_DENSITIES)
 };
 
-/// How a light is seen: the range of the cosine at the light, and whether from the front or the
-/// back.
+/// How a light is seen.
 #[derive(Clone, Copy)]
 struct View {
+    /// The range of the cosine at the light.
     cosine: [f64; 2],
+    /// Positive from the front and negative from the back.
     sign: f64,
+    /// The range of the distance, as a multiple of the light's first edge.
+    distance: [f64; 2],
+    /// The smallest margin, which is relative to the largest coordinate.
+    margin: f64,
 }
 
 const FRONT: View = View {
     cosine: [0.2, 1.0],
     sign: 1.0,
+    distance: [0.05, 20.0],
+    margin: MARGIN,
+};
+const CLOSE: View = View {
+    distance: [0.005, 0.03],
+    ..FRONT
+};
+/// From so far away, the light is small compared with the coordinates.
+const FAR: View = View {
+    distance: [300.0, 3000.0],
+    margin: 2e-5,
+    ..FRONT
 };
 const BACK: View = View {
     sign: -1.0,
@@ -323,7 +363,7 @@ const BACK: View = View {
 };
 const EDGE_ON: View = View {
     cosine: [0.005, 0.1],
-    sign: 1.0,
+    ..FRONT
 };
 const EDGE_ON_BACK: View = View {
     sign: -1.0,
@@ -331,11 +371,22 @@ const EDGE_ON_BACK: View = View {
 };
 const VERY_EDGE_ON: View = View {
     cosine: [0.005, 0.0199],
-    sign: 1.0,
+    ..FRONT
 };
 const VERY_EDGE_ON_BACK: View = View {
     sign: -1.0,
     ..VERY_EDGE_ON
+};
+/// For lights that are parallel to two axes.
+const ALMOST_IN_ITS_PLANE: View = View {
+    cosine: [2e-4, 9e-4],
+    sign: 1.0,
+    distance: [0.05, 2.0],
+    margin: 1e-5,
+};
+const ALMOST_IN_ITS_PLANE_BEHIND: View = View {
+    sign: -1.0,
+    ..ALMOST_IN_ITS_PLANE
 };
 
 /// The forms of lights, as indices of the classes of their domain.
@@ -363,6 +414,20 @@ fn light(rng: &mut Rng, form: usize, size: f64) -> FlatLight64 {
     }
 }
 
+/// Returns a rectangle that is parallel to two axes.
+fn parallel_to_axes(rng: &mut Rng, size: f64) -> FlatLight64 {
+    let axes = rng.shuffled(DVec3::AXES.to_vec());
+    let edges = [axes[0], axes[1]].map(|axis| single(axis * rng.uniform(0.5, 1.0) * size));
+    FlatLight64 {
+        shape: FlatShape {
+            corner: single(rng.point(size)),
+            edges,
+            is_triangle: false,
+        },
+        radiance: color(rng),
+    }
+}
+
 /// Returns a random size of a light in this class of lengths.
 fn size(rng: &mut Rng, class: usize) -> f64 {
     let decade = 10_f64.powi(class as i32 - 3);
@@ -378,7 +443,7 @@ fn every_size(rng: &mut Rng) -> Vec<f64> {
 
 /// Returns lights of different forms. Some lists are dim, and in some, a light has no power.
 fn several(rng: &mut Rng, count: usize, size: f64) -> Vec<FlatLight64> {
-    let brightness = rng.log_uniform(1e-3, 1.0);
+    let brightness = rng.log_uniform(1e-3, 1e3);
     let lights = (0..count).map(|_| {
         let form = rng.index(EVERY_FORM.len());
         let size = size * rng.uniform(0.3, 1.0);
@@ -417,14 +482,18 @@ fn one_light(
             let light = light(rng, form, size);
             Some((light, calls(rng, &light)?))
         });
-        let rows = calls
-            .iter()
-            .map(|call| light.pdf(call.from.as_dvec3(), call.direction.as_dvec3()));
-        let rows = densities(rows);
-        let question = LightQuestion::AreaLightPdf(Table::of_list(subject(&[light]), calls));
-        table(question, &["pdf"], rows)
+        one_light_densities(&light, calls)
     };
     forms.iter().zip(sizes).map(question).collect()
+}
+
+fn one_light_densities(light: &FlatLight64, calls: Vec<Toward>) -> ExamQuestion {
+    let rows = calls
+        .iter()
+        .map(|call| light.pdf(call.from.as_dvec3(), call.direction.as_dvec3()));
+    let rows = densities(rows);
+    let question = LightQuestion::AreaLightPdf(Table::of_list(subject(&[*light]), calls));
+    table(question, &["pdf"], rows)
 }
 
 /// Returns the length of a light's first edge.
@@ -442,7 +511,7 @@ fn toward(rng: &mut Rng, light: &FlatLight64, view: View, count: usize) -> Optio
             let call = toward_point(rng, light, view, light.shape.at(along))?;
             let (from, direction) = (call.from.as_dvec3(), call.direction.as_dvec3());
             let hit = light.shape.intersect_plane(from, direction);
-            hit.filter(|hit| hit.is_hit() && hit.margin() > MARGIN)?;
+            hit.filter(|hit| hit.is_hit() && hit.margin() > view.margin)?;
             Some(call)
         })
     };
@@ -456,6 +525,8 @@ fn toward_point(rng: &mut Rng, light: &FlatLight64, view: View, target: DVec3) -
     let View {
         cosine: [least, most],
         sign,
+        distance: [nearest, farthest],
+        ..
     } = view;
     let special = if rng.coin() {
         DVec3::AXES[rng.index(3)]
@@ -474,7 +545,7 @@ fn toward_point(rng: &mut Rng, light: &FlatLight64, view: View, target: DVec3) -
         let along = rng.perpendicular_to(normal) * (1.0 - height * height).sqrt();
         -(sign * height * normal + along)
     };
-    let distance = length(light) * rng.log_uniform(0.05, 20.0);
+    let distance = length(light) * rng.log_uniform(nearest, farthest);
     let from = single(target - distance * direction);
     (from.abs().max_element() < FURTHEST).then(|| Toward {
         from: from.as_vec3(),
@@ -560,6 +631,8 @@ fn turned(call: &Toward) -> Toward {
 
 /// Returns the calls whose directions aren't close to the edge of any light.
 fn clear(lights: &[FlatLight64], calls: Vec<Toward>) -> Vec<Toward> {
+    /// Rounding moves a direction by about a thousandth of this.
+    const CLEAR: f64 = 5e-4;
     // Lights without power have edges, too.
     let bright = lights.iter().map(|light| FlatLight64 {
         radiance: DVec3::ONE,
@@ -568,7 +641,7 @@ fn clear(lights: &[FlatLight64], calls: Vec<Toward>) -> Vec<Toward> {
     let lights = Lights64::new(bright);
     let is_clear = |call: &Toward| {
         let density = lights.pdf(call.from.as_dvec3(), call.direction.as_dvec3());
-        density.margin > MARGIN
+        density.margin > CLEAR
     };
     calls.into_iter().filter(is_clear).collect()
 }
@@ -592,6 +665,7 @@ fn samples(
     condition: fn(&Option<DVec3>) -> bool,
 ) -> Vec<LightSample> {
     let all = Lights64::new(lights.iter().copied());
+    let portions = all.portions();
     let scale = lights.iter().map(length).fold(0.0, f64::max).max(1e-3);
     let call = |_| {
         rng.retry(|rng| {
@@ -606,16 +680,45 @@ fn samples(
                 let target = light.point(random.as_dvec2());
                 toward_point(rng, &light, view, target)?.from.as_dvec3()
             };
+            let choice = if portions.is_empty() || rng.coin() {
+                fields::number(rng)
+            } else {
+                // Every light is as frequent as the others.
+                let [start, end] = portions[rng.index(portions.len())];
+                (rng.uniform(start, end) as f32).min(BELOW_ONE)
+            };
             let call = LightSample {
                 from: from.as_vec3(),
-                choice: fields::number(rng),
+                choice,
                 random,
             };
-            let sample = sample(&all, &call);
-            (sample.margin > MARGIN && condition(&sample.value)).then_some(call)
+            let is_clear = is_clear(&all, &call);
+            (is_clear && condition(&sample(&all, &call).value)).then_some(call)
         })
     };
     (0..count).map(call).collect()
+}
+
+/// Returns whether a choice isn't close to the border between two lights, relative to the picked
+/// light's share, and the picked light doesn't nearly face away.
+fn is_clear(lights: &Lights64, call: &LightSample) -> bool {
+    /// The smallest distance of a choice from a border, as a fraction of the light's share.
+    const BORDER: f64 = 0.2;
+    /// The smallest distance of a choice from a border, because sums of powers are rounded.
+    const ROUNDING: f64 = 2e-5;
+    let choice = f64::from(call.choice);
+    let portions = lights.portions();
+    let starts = portions.iter().skip(1).map(|[start, _]| *start);
+    let nearest = nearest_border(choice, starts);
+    let is_picked = |[start, end]: &&[f64; 2]| (*start..*end).contains(&choice);
+    // The last light is also picked past the end of its share, which can be due to rounding.
+    let picked = portions.iter().find(is_picked).or(portions.last());
+    let share = picked.map_or(0.0, |[start, end]| end - start);
+    let margin = lights.picked(choice).map_or(f64::INFINITY, |light| {
+        let sample = light.sample(call.from.as_dvec3(), call.random.as_dvec2());
+        sample.margin
+    });
+    nearest > ROUNDING.max(BORDER * share) && margin > MARGIN
 }
 
 fn sample(

@@ -11,12 +11,15 @@ use super::super::{
 };
 use super::{EVERY_FORM, light, listed};
 use crate::items::Declaration;
+use crate::oracle::light::WithMargin;
 use crate::oracle::light::lights::{Light64, Lights64};
 use crate::oracle::light::spherical_light::SphericalLight64;
 use crate::seed::Rng;
 
 /// The number of calls of each kind in a question.
 const CALLS: usize = 12;
+/// The number of calls from inside a sphere in a question.
+const FROM_INSIDE: usize = 4;
 
 pub(super) const SAMPLES: Declaration = Declaration {
     id: "lights.sphere_samples",
@@ -31,11 +34,19 @@ pub(super) const SAMPLES: Declaration = Declaration {
     ],
     questions: |rng| {
         lists(rng, |rng, lights| {
-            let of_spheres = (0..CALLS).map(|_| sample_of(rng, lights, is_sphere));
+            let of_spheres = (0..CALLS).map(|_| sample_of(rng, lights, outside, is_sphere));
             let mut calls: Vec<LightSample> = of_spheres.collect();
             if !lights.iter().all(is_sphere) {
-                calls.extend((0..CALLS).map(|_| sample_of(rng, lights, |light| !is_sphere(light))));
+                let others = |_| sample_of(rng, lights, outside, |light| !is_sphere(light));
+                calls.extend((0..CALLS).map(others));
             }
+            // Inside a sphere, there is no sample of that sphere.
+            calls.extend((0..FROM_INSIDE).map(|_| {
+                rng.retry(|rng| {
+                    let call = sample_of(rng, lights, inside, is_sphere);
+                    Some(call).filter(|call| sample(lights, call).value.is_none())
+                })
+            }));
             sampled(lights, rng.shuffled(calls))
         })
     },
@@ -54,7 +65,8 @@ pub(super) const DENSITIES: Declaration = Declaration {
             let toward_spheres = (0..CALLS).map(|_| toward_any(rng, lights, is_sphere));
             let mut calls: Vec<Toward> = toward_spheres.collect();
             calls.extend((0..CALLS).map(|_| toward_any(rng, lights, |_| true)));
-            calls.extend((0..CALLS).map(|_| anywhere(rng, lights)));
+            calls.extend((0..CALLS).map(|_| anywhere(rng, lights, outside)));
+            calls.extend((0..FROM_INSIDE).map(|_| anywhere(rng, lights, inside)));
             list_densities(lights, rng.shuffled(calls))
         })
     },
@@ -118,31 +130,43 @@ fn outside(rng: &mut Rng, lights: &[Light64]) -> DVec3 {
     })
 }
 
+/// Returns a point inside a sphere.
+fn inside(rng: &mut Rng, lights: &[Light64]) -> DVec3 {
+    rng.retry(|rng| match lights[rng.index(lights.len())] {
+        Light64::Sphere(light) => Some(single(light.center + 0.9 * light.radius * in_ball(rng))),
+        Light64::Flat(_) => None,
+    })
+}
+
 /// Returns a call of `Lights::sample` that picks a light which fulfils a condition. An area light
 /// may face away.
-fn sample_of(rng: &mut Rng, lights: &[Light64], wanted: fn(&Light64) -> bool) -> LightSample {
+fn sample_of(
+    rng: &mut Rng,
+    lights: &[Light64],
+    from: fn(&mut Rng, &[Light64]) -> DVec3,
+    wanted: fn(&Light64) -> bool,
+) -> LightSample {
     let all = Lights64::new(lights.iter().copied());
     rng.retry(|rng| {
         let call = LightSample {
-            from: outside(rng, lights).as_vec3(),
+            from: from(rng, lights).as_vec3(),
             choice: random(rng),
             random: random_pair(rng),
         };
         let is_wanted = all.picked(call.choice.into()).is_some_and(wanted);
-        let from = call.from.as_dvec3();
-        let sample = all.sample(from, call.choice.into(), call.random.as_dvec2());
-        (is_wanted && sample.margin > MARGIN).then_some(call)
+        (is_wanted && sample(lights, &call).margin > MARGIN).then_some(call)
     })
 }
 
-fn sampled(lights: &[Light64], calls: Vec<LightSample>) -> ExamQuestion {
+fn sample(lights: &[Light64], call: &LightSample) -> WithMargin<Option<DVec3>> {
     let all = Lights64::new(lights.iter().copied());
-    let sample = |call: &LightSample| {
-        let from = call.from.as_dvec3();
-        let sample = all.sample(from, call.choice.into(), call.random.as_dvec2());
-        sample.value
-    };
-    let rows = optional_directions(calls.iter().map(sample));
+    let from = call.from.as_dvec3();
+    all.sample(from, call.choice.into(), call.random.as_dvec2())
+}
+
+fn sampled(lights: &[Light64], calls: Vec<LightSample>) -> ExamQuestion {
+    let rows = calls.iter().map(|call| sample(lights, call).value);
+    let rows = optional_directions(rows);
     let question = LightQuestion::LightsSample(Table::of_list(subject(lights), calls));
     table(question, &["direction", "unit_direction"], rows)
 }
@@ -166,9 +190,9 @@ fn in_ball(rng: &mut Rng) -> DVec3 {
 }
 
 /// Returns a random direction, which misses most lights.
-fn anywhere(rng: &mut Rng, lights: &[Light64]) -> Toward {
+fn anywhere(rng: &mut Rng, lights: &[Light64], from: fn(&mut Rng, &[Light64]) -> DVec3) -> Toward {
     rng.retry(|rng| {
-        let from = outside(rng, lights);
+        let from = from(rng, lights);
         let direction = rng.direction();
         clear(lights, from, direction)
     })

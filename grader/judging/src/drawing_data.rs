@@ -30,7 +30,7 @@ pub enum DrawingData {
 /// One hit of a path. Steps are listed in order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathStep {
-    /// What the path hits.
+    /// The kind of surface that the path hits.
     pub hit: PathHit,
     /// Position of the hit in world space, or a point on the ray if it hits nothing.
     pub position: Vec3,
@@ -41,7 +41,7 @@ pub struct PathStep {
     pub light: Vec3,
 }
 
-/// What a path hits.
+/// A kind of surface that a path hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PathHit {
     /// Nothing, so the path leaves the scene.

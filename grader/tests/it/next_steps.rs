@@ -52,6 +52,8 @@ fn the_last_task_leads_to_a_picture_and_a_challenge_but_not_for_staff_or_a_platf
     let lines = [
         "next    `cargo render cornell-box` draws with your code",
         "handout/src/traversal.md, \"A challenge\"",
+        "the next assignment, \"Path tracing: materials, lights and paths\",",
+        "begins in handout/src/light/materials.md",
     ];
     assert_eq!(next(&REFERENCE), lines);
     let submission = Submission::reference("full");

@@ -21,7 +21,7 @@ pub struct SampleRow {
     pub variance: Option<f64>,
     /// The standard error of the mean luminance: σ / √n.
     pub standard_error: Option<f64>,
-    /// What is wrong with the sample.
+    /// The bad values in the sample, one sentence each.
     pub problems: Vec<String>,
 }
 

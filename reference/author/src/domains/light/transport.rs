@@ -292,7 +292,7 @@ const LIGHT_SAMPLE: Aspect<DirectCall> = Aspect {
     },
 };
 
-/// What the scattered direction finds.
+/// The light that the scattered direction finds.
 const SCATTERED: Aspect<DirectCall> = Aspect {
     name: "scattered direction",
     classes: &["no light", "a light", "the environment"],

@@ -63,12 +63,13 @@ fn a_pixel_shows_what_its_first_path_asks_and_gets() {
         .collect();
     let path = [
         "path of the first sample, whose radiance is",
+        "bounce 0, throughput [1.0000, 1.0000, 1.0000]",
         "hit",
         "light",
         "light pdf",
     ];
     assert!(kinds[0].starts_with(path[0]), "{text}");
-    assert_eq!(kinds[1..4], path[1..], "{text}");
+    assert_eq!(kinds[1..5], path[1..], "{text}");
     assert!(kinds.contains(&"scatter"), "{text}");
     assert!(text.contains("hit: a matte surface at"), "{text}");
 }

@@ -89,6 +89,7 @@ fn a_save_that_visits_the_farther_child_first_changes_the_sums_and_the_picture()
     }
     // Saves made while another view is shown: the last version's tests are not known.
     viewer.command(&json!({ "view": "shaded" }));
+    viewer.wait_for_picture();
     for save in 1..=2 {
         let text = submission.read("bvh.rs");
         submission.write("bvh.rs", &format!("{text}// save {save}\n"));

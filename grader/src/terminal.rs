@@ -46,12 +46,14 @@ pub fn grade_started_and_print(
 ) -> Result<ExitCode, Error> {
     let started = started_assignments(options.submission.as_deref())?;
     let all = options_of_each(options, print.require, &started)?;
-    if print.next {
-        return print_first_step(&all, print);
-    }
     let mut code = ExitCode::SUCCESS;
-    for options in all {
-        code = grade_and_print(&options, print)?;
+    for (number, options) in (1..).zip(&all) {
+        let points = print_report(options, print, number == all.len())?;
+        code = exit_code(points, print.require);
+        // `--next` names one thing to do, in the first assignment that isn't complete.
+        if print.next && points < options.handed_out.assignment.points() {
+            break;
+        }
     }
     Ok(code)
 }
@@ -59,6 +61,13 @@ pub fn grade_started_and_print(
 /// Prints the report on a submission, whether cached or new. Returns exit code 1 if the points are
 /// below the required number.
 pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<ExitCode, Error> {
+    let points = print_report(options, print, true)?;
+    Ok(exit_code(points, print.require))
+}
+
+/// Prints the report on a submission, whether cached or new, and returns the points. If only the next
+/// thing to do is printed, nothing is printed about a complete assignment that isn't the last.
+fn print_report(options: &GradeOptions, print: PrintOptions, is_last: bool) -> Result<u32, Error> {
     let most = options.handed_out.assignment.points();
     if print.require > most {
         let points = print.require;
@@ -66,11 +75,8 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
             "--require {points} cannot be met: the assignment has only {most} points"
         )));
     }
-    if print.next {
-        return print_first_step(std::slice::from_ref(options), print);
-    }
     // A cached report has no timings, and only its text is stored.
-    let may_reuse = !print.fresh && !print.timings;
+    let may_reuse = !print.fresh && !print.timings && !print.next;
     let mut prepared = PreparedSubmission::new(options)?;
     let cached = may_reuse.then(|| find_cached_report(&mut prepared));
     let (points, files) = match cached.transpose()?.flatten() {
@@ -81,34 +87,12 @@ pub fn grade_and_print(options: &GradeOptions, print: PrintOptions) -> Result<Ex
             );
             (cached.points, Some(files))
         }
-        None => grade_and_store(&mut prepared, print)?,
+        None => grade_and_store(&mut prepared, print, is_last)?,
     };
     if let Some(files) = files.filter(|_| print.open) {
         desktop::show(&files.page);
     }
-    Ok(exit_code(points, print.require))
-}
-
-/// Grades one assignment after the other, up to the first one that isn't complete, and prints what
-/// to do next in that one or, if all are complete, in the last.
-fn print_first_step(all: &[GradeOptions], print: PrintOptions) -> Result<ExitCode, Error> {
-    let mut code = ExitCode::SUCCESS;
-    for (index, options) in all.iter().enumerate() {
-        let mut prepared = PreparedSubmission::new(options)?;
-        let graded = grade_prepared(&mut prepared)?;
-        store(&graded, &terminal_report(&graded, options));
-        code = exit_code(graded.score.points, print.require);
-        let assignment = options.handed_out.assignment;
-        if graded.score.points < assignment.points() || index + 1 == all.len() {
-            let step = first_step(&graded.score, &options.tasks, assignment, options.hints);
-            print_text(&prepared, &step);
-            if let Some(files) = graded.files.filter(|_| print.open) {
-                desktop::show(&files.page);
-            }
-            break;
-        }
-    }
-    Ok(code)
+    Ok(points)
 }
 
 fn exit_code(points: u32, required: u32) -> ExitCode {
@@ -147,24 +131,29 @@ fn find_cached_report(
 fn grade_and_store(
     prepared: &mut PreparedSubmission,
     print: PrintOptions,
+    is_last: bool,
 ) -> Result<(u32, Option<ReportFiles>), Error> {
     let graded = grade_prepared(prepared)?;
     let text = terminal_report(&graded, prepared.options);
-    let files = graded.files.as_ref().map_or(String::new(), file_list);
-    print_text(prepared, &format!("{text}{files}"));
-    store(&graded, &text);
+    if print.next {
+        let assignment = prepared.options.handed_out.assignment;
+        if is_last || graded.score.points < assignment.points() {
+            let tasks = &prepared.options.tasks;
+            let step = first_step(&graded.score, tasks, assignment, prepared.options.hints);
+            print_text(prepared, &step);
+        }
+    } else {
+        let files = graded.files.as_ref().map_or(String::new(), file_list);
+        print_text(prepared, &format!("{text}{files}"));
+    }
+    if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
+        cached_report::store(key, &graded.score, &text, files);
+    }
     print_commands(&graded.runner_commands());
     if print.timings {
         print_line(graded.score.timings.stages.table());
     }
     Ok((graded.score.points, graded.files))
-}
-
-/// Stores a report, so that it can be printed again if nothing has changed.
-fn store(graded: &GradedSubmission, text: &str) {
-    if let (Some(key), Some(files)) = (&graded.cache_key, &graded.files) {
-        cached_report::store(key, &graded.score, text, files);
-    }
 }
 
 /// Prints the diagnosis of this machine and returns the exit code for it.

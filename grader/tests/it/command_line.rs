@@ -85,9 +85,11 @@ fn exits_with_1_below_the_required_points() {
     let graded = Submission::reference("full").grade_with(&["--require", "100"]);
     assert_eq!(graded.points(), *FULL_POINTS);
 
-    let refused = Submission::starter("refused").grade_with(&["--require", "101"]);
-    let why = "--require 101 cannot be met: the assignment has only 100 points";
-    assert_fails(&refused.output, 2, why);
+    for options in [&["--require", "101"][..], &["--require", "101", "--next"]] {
+        let refused = Submission::starter("refused").grade_with(options);
+        let why = "--require 101 cannot be met: the assignment has only 100 points";
+        assert_fails(&refused.output, 2, why);
+    }
 }
 
 #[test]

@@ -29,8 +29,9 @@ pub(super) fn most_informative_first(task: &TaskScore) -> Vec<&ItemScore> {
 }
 
 /// Returns the item to fix first and its task: the most informative failing item of the first
-/// selected task in which something can be fixed, which a blocked item can't. If the task's file doesn't compile and contains several tasks'
-/// methods, the task is the last one whose method starts above the compiler's first error.
+/// selected task that isn't only blocked by other tasks. If the task's file doesn't compile and
+/// contains several tasks' methods, the task is the last one whose method starts above the
+/// compiler's first error.
 pub(super) fn first_to_fix(
     score: &Score,
     is_selected: impl Fn(&TaskScore) -> bool,

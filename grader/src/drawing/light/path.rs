@@ -50,7 +50,7 @@ pub(super) fn draw(ray: &Ray, steps: &[PathStep], row: &RowComparison) -> Option
     }
     if steps.len() > MAX_DESCRIBED {
         let count = steps.len() - MAX_DESCRIBED;
-        let text = format!("{count} more, the last of which adds {}", light(last));
+        let text = format!("{count} more hits, and the last one adds {}", light(last));
         sheet.add_legend(Symbol::None, &text);
     }
     row.add_results(&mut sheet, [Symbol::None, Symbol::None]);
@@ -80,7 +80,7 @@ struct View {
 }
 
 impl View {
-    /// Returns the view along the axis in which these points differ least.
+    /// Returns the view along the shortest side of the box around these points.
     fn of(points: &[DVec3]) -> View {
         let min = points.iter().copied().reduce(DVec3::min);
         let max = points.iter().copied().reduce(DVec3::max);

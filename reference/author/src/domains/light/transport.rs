@@ -263,8 +263,8 @@ const SURFACE: Aspect<DirectCall> = Aspect {
     class: |call| call.surface.as_ref().map(surface_class),
 };
 
-/// The cosine of the angle at which the ray hits a matte surface. If it is even smaller, rounding
-/// moves the hit along the surface.
+/// The cosine between the ray and the normal of a matte surface. Smaller ones aren't asked, because
+/// rounding moves such a hit along the surface.
 const SIDE: Aspect<DirectCall> = Aspect {
     name: "cosine of the ray",
     classes: &["above 0.2", "above 0.05", "smaller"],
@@ -314,7 +314,7 @@ const SCATTERED_HEIGHT: Aspect<DirectCall> = Aspect {
     },
 };
 
-/// The density with which a light is sampled in the scattered direction.
+/// The light pdf of the scattered direction.
 const LIGHT_PDF: Aspect<DirectCall> = Aspect {
     name: "light pdf of the scattered direction",
     classes: &["0", "up to 1", "up to 100", "beyond"],

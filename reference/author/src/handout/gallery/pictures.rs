@@ -73,7 +73,7 @@ struct Workspace {
 }
 
 impl Workspace {
-    /// Unpacks the bundle of part one, which contains part two's solution, and adds part one's.
+    /// Unpacks part one's bundle, which contains part two's solution, and adds the solution of part one.
     /// Compiled files stay in the folder and are reused the next time.
     fn create(root: &Path, authoring: &'static Authoring) -> Result<Self> {
         let folder = root.join(FOLDER);

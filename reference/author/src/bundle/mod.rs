@@ -20,11 +20,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Result, bail, ensure};
-use grader::files;
 use grader::given_files;
 use grader::handed_out::{HandedOut, LIGHT};
 
-use crate::authoring;
 use crate::light::{LightFiles, part_one};
 use crate::starter;
 
@@ -107,13 +105,7 @@ impl Bundle {
         // Generate these files instead of reading them from `student`, where staff may have solved
         // the assignment.
         let starter = starter::generated_files(root, part_one(handed_out))?;
-        match light {
-            LightFiles::Solved => part_two::remove(&mut bundle)?,
-            LightFiles::Stubs => {
-                let exam = files::read(root.join(authoring::LIGHT.practice_exam))?;
-                bundle.insert(authoring::LIGHT.practice_exam, exam);
-            }
-        }
+        part_two::add_exam(root, light, &mut bundle)?;
         for file in starter.into_iter().chain(light.generate(root)?) {
             bundle.insert(file.path, file.contents);
         }

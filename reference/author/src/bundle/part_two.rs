@@ -1,49 +1,36 @@
-//! Removes part two from the sources of a bundle whose students only get it solved. Its assignment
-//! embeds the stubs and an exam, and students of part one need neither.
+//! Part two in a bundle whose students only get it solved. Its viewer and renderer are compiled as
+//! for other bundles, but there is nothing to grade.
+
+use std::path::Path;
 
 use anyhow::{Context, Result};
+use grader::files;
 
 use super::Bundle;
+use crate::authoring;
+use crate::light::LightFiles;
 
-/// The files and folders that only part two needs.
-const OWN: [&str; 2] = [
-    "grader/judging/src/assignment/light/",
-    "grader/src/handed_out/light.rs",
-];
-/// The lines that register the assignment: the file, the lines, and their replacement.
-const REGISTERED: [(&str, &str, &str); 5] = [
-    ("grader/judging/src/assignment/mod.rs", "mod light;\n", ""),
-    (
-        "grader/judging/src/assignment/mod.rs",
-        "pub use light::{LIGHT, LIGHT_FILES};\n",
-        "",
-    ),
-    ("grader/src/handed_out/mod.rs", "mod light;\n", ""),
-    (
-        "grader/src/handed_out/mod.rs",
-        "pub use light::LIGHT;\n",
-        "",
-    ),
-    (
-        "grader/src/handed_out/mod.rs",
-        "[&HandedOut; 2] = [&RAYS, &LIGHT];",
-        "[&HandedOut; 1] = [&RAYS];",
-    ),
-];
+/// The file that lists the assignments.
+const LIST: &str = "grader/src/handed_out/mod.rs";
+/// The list, with and without part two.
+const BOTH: &str = "[&HandedOut; 2] = [&RAYS, &LIGHT];";
+const PART_ONE: &str = "[&HandedOut; 1] = [&RAYS];";
 
-/// Removes the assignment.
-pub(super) fn remove(bundle: &mut Bundle) -> Result<()> {
-    let is_own = |path: &str| OWN.iter().any(|own| path.starts_with(own));
-    bundle.files.retain(|path, _| !is_own(path));
-    for (path, lines, replacement) in REGISTERED {
-        let text = bundle
-            .text(path)
-            .with_context(|| format!("{path} is missing"))?;
-        let (before, after) = text
-            .split_once(lines)
-            .with_context(|| format!("{path} has no line {lines:?}: update bundle/part_two.rs"))?;
-        let text = format!("{before}{replacement}{after}");
-        bundle.insert(path, text);
+/// Adds the practice exam if students write part two. Otherwise, adds an empty file in its place
+/// and removes part two from the list of assignments that can be graded.
+pub(super) fn add_exam(root: &Path, light: LightFiles, bundle: &mut Bundle) -> Result<()> {
+    let path = authoring::LIGHT.practice_exam;
+    match light {
+        LightFiles::Stubs => bundle.insert(path, files::read(root.join(path))?),
+        LightFiles::Solved => {
+            bundle.insert(path, "");
+            let text = bundle.text(LIST).unwrap_or_default();
+            let (before, after) = text
+                .split_once(BOTH)
+                .with_context(|| format!("{LIST} has no {BOTH:?}: update bundle/part_two.rs"))?;
+            let text = format!("{before}{PART_ONE}{after}");
+            bundle.insert(LIST, text);
+        }
     }
     Ok(())
 }

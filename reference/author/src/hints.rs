@@ -4,10 +4,12 @@
 
 use std::collections::BTreeSet;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use judging::exam::{Exam, Item, Key};
 use judging::observe::{expected, observe};
-use judging::signatures::{KnownMistake, MistakeAnswers, MistakeSignatures, ObservedAnswer};
+use judging::signatures::{
+    KnownMistake, MistakeAnswers, MistakeSignatures, NoAnswerReason, ObservedAnswer,
+};
 use protocol::{Geometry, Question};
 use rayon::prelude::*;
 
@@ -41,6 +43,16 @@ pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
     let known_count = known.len();
     let mut recorded = known;
     for form in in_other_forms {
+        let mut own = recorded
+            .iter()
+            .filter(|own| own.mistake.id == form.mistake.id);
+        ensure!(
+            !form.times_out() || own.any(RecordedMistake::times_out),
+            "the mistake {} runs out of time in another form of the reference's code, but not in the \
+             reference's own. On a faster machine, it may not, so the exam would be different there. \
+             Change the form in forms.toml or remove it",
+            form.mistake.id
+        );
         if !recorded.iter().any(|other| other.covers(&form)) {
             recorded.push(form);
         }
@@ -92,6 +104,12 @@ fn record<'s>(
 }
 
 impl RecordedMistake<'_> {
+    /// Returns whether an item was stopped at its time limit.
+    fn times_out(&self) -> bool {
+        let mut observed = self.answers.iter().flatten().flatten();
+        observed.any(|answer| *answer == ObservedAnswer::NoAnswer(NoAnswerReason::Time))
+    }
+
     /// Returns whether a form of the same mistake gives no other answers than this one. It may crash
     /// elsewhere, because many mistakes lead to crashes, so these say little about the cause.
     fn covers(&self, form: &RecordedMistake) -> bool {

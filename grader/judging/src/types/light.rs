@@ -4,6 +4,7 @@ use glam::Vec3;
 use protocol::light::environment::MapImage;
 use protocol::light::lights::{FlatLight, ListedLight, SphericalLight};
 use protocol::light::transport::Room;
+use serde_json::Value as Json;
 
 use super::{number, point};
 
@@ -23,12 +24,39 @@ pub(super) fn map_text(map: &MapImage) -> String {
     format!("{kind} of {}×{} pixels", map.size.x, map.size.y)
 }
 
-/// Describes a room by its environment.
+/// The material kinds of scene files, each with the words for one and for several surfaces.
+const SURFACES: [(&str, [&str; 2]); 4] = [
+    ("lambertian", ["Lambertian surface", "Lambertian surfaces"]),
+    ("mirror", ["mirror", "mirrors"]),
+    ("glass", ["glass surface", "glass surfaces"]),
+    ("emitter", ["light", "lights"]),
+];
+
+/// Describes a room by its surfaces and its environment map.
 pub(super) fn room_text(room: &Room) -> String {
-    match &room.map {
-        Some(map) => format!("a room under {}", map_text(map)),
-        None => "a room".to_owned(),
+    let scene: Json = serde_json::from_str(&room.scene).unwrap_or_default();
+    let surfaces = scene["shapes"].as_array().map_or(&[][..], Vec::as_slice);
+    let materials = surfaces.iter().filter_map(|surface| {
+        let name = surface["polygon"]["material"].as_str()?;
+        Some(&scene["materials"][name])
+    });
+    let counted = SURFACES.iter().filter_map(|(kind, [one, several])| {
+        let is_kind = |material: &&Json| material.get(kind).is_some();
+        match materials.clone().filter(is_kind).count() {
+            0 => None,
+            1 => Some(format!("1 {one}")),
+            count => Some(format!("{count} {several}")),
+        }
+    });
+    let counted: Vec<String> = counted.collect();
+    let mut text = "a room".to_owned();
+    if !counted.is_empty() {
+        text += &format!(" of {}", counted.join(", "));
     }
+    if let Some(map) = &room.map {
+        text += &format!(" under {}", map_text(map));
+    }
+    text
 }
 
 /// Returns the number of lights, and how many of them are spheres, if any.

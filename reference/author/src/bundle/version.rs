@@ -1,6 +1,6 @@
 //! The version of a bundle: a hash of everything in it except the students' own files.
 //!
-//! It is part of each package's version, as in `0.1.0+3f9a1c02e1d4`. This makes Cargo recompile
+//! It is part of each package's version, as in `1.0.0+3f9a1c02e1d4`. This makes Cargo recompile
 //! everything after an update, even though the unpacked files are older than its build output. It
 //! also lets the grader recognise the version of each part.
 

@@ -301,7 +301,7 @@ fn every_package_has_the_bundles_version_and_so_has_the_lock_file() {
     assert_eq!(version.len(), 12);
     let lock = BUNDLE.text("Cargo.lock").unwrap();
     for name in ["grader", "framework", "protocol", "student"] {
-        let package = format!("name = \"{name}\"\nversion = \"0.1.0+{version}\"\n");
+        let package = format!("name = \"{name}\"\nversion = \"1.0.0+{version}\"\n");
         assert!(lock.contains(&package), "{package}");
     }
 }

@@ -84,7 +84,8 @@ impl Submission {
 
     /// Reads the task files in the folder `src` of the package that students work in: the files
     /// that Cargo compiles, regardless of copies in other folders. If there is no such folder,
-    /// searches for the files in the same way as [`Submission::collect`].
+    /// searches for the files in the same way as [`Submission::collect`]. All assignments in the
+    /// folder `student` have its name.
     pub fn collect_package(
         path: &Path,
         handed_out: &'static HandedOut,
@@ -94,7 +95,9 @@ impl Submission {
         if files.any(|file| file.is_file()) {
             let mut search = folder::search_one(&source, handed_out)?;
             let copies = std::mem::take(&mut search.lookalikes);
-            let mut own = Submission::choose(folder_name(path), search)?;
+            let depth = Path::new(handed_out.student).components().count();
+            let student = path.ancestors().nth(depth - 1).unwrap_or(path);
+            let mut own = Submission::choose(folder_name(student), search)?;
             let notes = own.notes_on_own_copies(&copies);
             own.ignored_copies.extend(notes);
             own.ignored_copies

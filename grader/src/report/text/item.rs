@@ -114,7 +114,7 @@ pub(super) fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -
     if printed.lines().count() > MAX_PRINTED_LINES {
         writeln!(
             out,
-            "  {FAINT}and more: `--replay` shows everything{FAINT:#}"
+            "  {FAINT}`--replay` shows the rest{FAINT:#}"
         )?;
     }
     Ok(())

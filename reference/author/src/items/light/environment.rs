@@ -45,8 +45,8 @@ const UNIFORM: Declaration = Declaration {
     id: "environment.uniform",
     points: 4,
     title: "uniform directions are spread evenly over the whole sphere",
-    look: "Is a part of the sphere empty? Then check the ranges of the height and of φ. If not: \
-        which must be uniform, the polar angle or the height?",
+    look: "If part of the sphere is empty, check the ranges of the height and of φ. Otherwise, ask \
+           yourself which must be uniform: the polar angle or the height?",
     look_fits: &[Symptom::of(SPREAD)],
     section: "light/environment.md#directions-spread-evenly",
     tests: &[
@@ -77,8 +77,8 @@ const PICK: Declaration = Declaration {
     points: 3,
     title: "a pixel is picked by its share of the weights, row by row from the top",
     look: "Pass your direction and the correct one to `Environment::index`. If the pixels differ, \
-        add up the weights in order: which pixel does `choice` times the total fall on? If not, \
-        look at the position in the pixel and at the two angles.",
+           add up the weights in order: which pixel does `choice` times the total fall on? If they \
+           are the same, look at the position in the pixel and at the two angles.",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[
@@ -171,7 +171,7 @@ const LUMINANCE: Declaration = Declaration {
 const ENDS: Declaration = Declaration {
     id: "environment.ends",
     points: 2,
-    title: "every number picks a bright pixel, also the smallest and the largest",
+    title: "every number picks a bright pixel, even the smallest and the largest",
     look: "What does your search return if `choice` is 0, or if it is just below 1?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#black-pixels-are-never-picked",

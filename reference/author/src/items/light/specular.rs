@@ -283,7 +283,7 @@ const FRESNEL_LOW_INDEX: Declaration = Declaration {
 const MIRROR: Declaration = Declaration {
     id: "specular.mirror",
     points: 2,
-    title: "a mirror's only direction is attenuated by its reflectance and has no density",
+    title: "a mirror attenuates by its reflectance, and its only direction has no density",
     look: "Nothing is divided by a density here: what is left of the attenuation?",
     look_fits: &[Symptom::of("attenuation"), Symptom::of("pdf")],
     section: "light/glass.md#what-to-return",

@@ -31,7 +31,10 @@ pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> O
         let why = "`Bvh::hit` doesn't use the boxes of the tree yet";
         (why, format!("all {count}"))
     } else if largest > LARGE_LEAF_FACTOR * scene.max_leaf_size {
-        ("`Bvh::build` makes a leaf that is too large", largest.to_string())
+        (
+            "`Bvh::build` makes a leaf that is too large",
+            largest.to_string(),
+        )
     } else {
         return None;
     };

@@ -15,7 +15,7 @@ use crate::oracle::light::transport as oracle;
 pub(super) const MAP: Declaration = Declaration {
     id: "direct.map",
     points: 2,
-    title: "an environment map is found by both samples, also if there are lights",
+    title: "both samples find an environment map, even if there are lights",
     look: "Which function of `World` knows the light pdf of every direction, no matter whether it \
         leads to a light or to the environment?",
     section: "light/direct.md#the-light-pdf-of-the-world",

@@ -280,8 +280,8 @@ const OTHER_MATERIALS: Declaration = Declaration {
     id: "direct.other_materials",
     points: 1,
     title: "only matte surfaces look for direct light",
-    look: "If the correct result is 0: what do you return for a mirror, for glass and for a light? \
-        If it isn't, the surface is matte: check each factor of the formula.",
+    look: "If the correct result is 0, the surface may be a mirror, glass or a light: what do you \
+           return for these? Otherwise, it is matte: check each factor of the formula.",
     section: "light/direct.md#mirrors-look-for-no-light",
     tests: &[
         "Only matte surfaces look for direct light.",

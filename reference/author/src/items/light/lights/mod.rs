@@ -94,8 +94,8 @@ const BEHIND: Declaration = Declaration {
     id: "lights.behind",
     points: 1,
     title: "a light's density is 0 from behind, and positive in front",
-    look: "Is the correct density 0? Then the point is behind the light: what is the sign of your \
-        cosine? If not, compare each factor of the formula with your code.",
+    look: "If the correct density is 0, the point is behind the light: what is the sign of your \
+           cosine? Otherwise, compare each factor of the formula with your code.",
     section: "light/lights.md#the-back-of-a-light-is-dark",
     tests: &["The result is zero if the direction misses the light, and from behind, …"],
     questions: |rng| {
@@ -113,8 +113,8 @@ const PAST: Declaration = Declaration {
     id: "lights.past",
     points: 1,
     title: "only a direction that hits the light has a density",
-    look: "Is the correct density 0? Then `intersect` finds nothing: what do you return? If not, \
-        compare each factor of the formula with your code.",
+    look: "If the correct density is 0, `intersect` finds nothing: what do you return then? \
+           Otherwise, compare each factor of the formula with your code.",
     section: "light/lights.md#past-the-light-there-is-no-density",
     tests: &[
         "The result is zero if the direction misses the light, and from behind, where the light \

@@ -96,8 +96,8 @@ const ONE_BOUNCE: Declaration = Declaration {
     id: "path.one_bounce",
     points: 1,
     title: "with 1 bounce, the path is scattered at most once and adds direct light there",
-    look: "Write down what your loop adds at the first surface, and what at the second. Which term \
-        is missing or too much, or has the wrong factor?",
+    look: "Write down what your loop adds at the first surface, and what it adds at the second. Is \
+           a term missing, counted twice, or multiplied by the wrong factor?",
     section: "light/paths.md#what-to-return",
     tests: &[
         "With 1 bounce, direct light is added.",
@@ -121,9 +121,10 @@ const ONE_BOUNCE: Declaration = Declaration {
 const BOUNCES: Declaration = Declaration {
     id: "path.bounces",
     points: 2,
-    title: "a path is scattered as often as `bounces` and the roulette allow",
-    look: "If the question shown has more than 3 bounces, those with fewer are right: look at the \
-        roulette. If not, write down what your code adds at each surface, and each factor.",
+    title: "a path is scattered as often as `bounces` and Russian roulette allow",
+    look: "If the question shown has more than 3 bounces, your code is right with fewer: look at \
+           Russian roulette. Otherwise, write down what your code adds at each surface, and each \
+           factor.",
     section: "light/paths.md#what-to-return",
     tests: &["The path is scattered at most `bounces` times."],
     questions: |rng| {
@@ -330,8 +331,8 @@ const GLASS: Declaration = Declaration {
     id: "path.glass",
     points: 1,
     title: "glass shows what is behind it and inside it",
-    look: "Glass has no density either. Does the path continue on the side that it is scattered \
-           to?",
+    look: "Like a mirror, glass has no density. Does the path continue on the side that it is \
+           scattered to?",
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \

@@ -168,7 +168,7 @@ fn command_for_the_rest(score: &Score, task: Option<Task>) -> String {
 fn status_line(score: &Score, phase: Phase, has_old_results: bool) -> String {
     let name = &score.submission;
     let old = if has_old_results {
-        " (grey lines are from before this save)"
+        " (grey: before this save)"
     } else {
         ""
     };

@@ -78,7 +78,7 @@ const PICK: Declaration = Declaration {
     title: "a pixel is picked by its share of the weights, row by row from the top",
     look: "Pass your direction and the correct one to `Environment::index`. If the pixels differ, \
            add up the weights in order: which pixel does `choice` times the total fall on? If they \
-           are the same, look at the position in the pixel and at the two angles.",
+           match, check the position in the pixel and the two angles.",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[

@@ -22,7 +22,7 @@ use crate::seed::Rng;
 
 /// The number of calls in each question.
 const CALLS: usize = 12;
-/// Smaller fractions are compared as if they had this size.
+/// The lower limit for comparisons: smaller fractions are compared as if they had this size.
 const SMALLEST_FRACTION: f64 = 0.01;
 
 /// The task `specular`.
@@ -483,7 +483,7 @@ fn directions_that(
     (0..CALLS).map(direction).collect()
 }
 
-/// Returns a few such directions.
+/// Returns half as many directions as [`directions_that`].
 fn few(
     rng: &mut Rng,
     medium: Medium,
@@ -589,7 +589,7 @@ fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
     })
 }
 
-/// Returns a question in which each direction is asked twice: with a random number on each side of
+/// Returns a question in which each direction occurs twice: with a random number on each side of
 /// its reflected fraction.
 fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]) -> ExamQuestion {
     let ior = f64::from(medium.ior);

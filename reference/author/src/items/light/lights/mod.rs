@@ -333,7 +333,7 @@ const OVERLAP: Declaration = Declaration {
 struct View {
     /// The range of the cosine at the light.
     cosine: [f64; 2],
-    /// Positive from the front and negative from the back.
+    /// The sign of the cosine: 1 in front of the light and -1 behind it.
     sign: f64,
     /// The range of the distance, as a multiple of the light's first edge.
     distance: [f64; 2],
@@ -351,7 +351,7 @@ const CLOSE: View = View {
     distance: [0.005, 0.03],
     ..FRONT
 };
-/// From so far away, the light is small compared with the coordinates.
+/// A view from so far away that the light is small compared with the coordinates.
 const FAR: View = View {
     distance: [300.0, 3000.0],
     margin: 2e-5,
@@ -377,7 +377,7 @@ const VERY_EDGE_ON_BACK: View = View {
     sign: -1.0,
     ..VERY_EDGE_ON
 };
-/// For lights that are parallel to two axes.
+/// A view of a light that is parallel to two axes, from almost within its plane.
 const ALMOST_IN_ITS_PLANE: View = View {
     cosine: [2e-4, 9e-4],
     sign: 1.0,
@@ -459,7 +459,7 @@ fn several(rng: &mut Rng, count: usize, size: f64) -> Vec<FlatLight64> {
     lights
 }
 
-/// Returns a copy of a light that is moved and has another radiance.
+/// Returns a copy of a light with a different position and radiance.
 fn shifted(rng: &mut Rng, light: &FlatLight64, offset: DVec3) -> FlatLight64 {
     FlatLight64 {
         shape: FlatShape {
@@ -631,7 +631,8 @@ fn turned(call: &Toward) -> Toward {
 
 /// Returns the calls whose directions aren't close to the edge of any light.
 fn clear(lights: &[FlatLight64], calls: Vec<Toward>) -> Vec<Toward> {
-    /// Rounding moves a direction by about a thousandth of this.
+    /// The smallest distance between a direction and an edge. Rounding moves a direction by about a
+    /// thousandth of this.
     const CLEAR: f64 = 5e-4;
     // Lights without power have edges, too.
     let bright = lights.iter().map(|light| FlatLight64 {

@@ -535,9 +535,10 @@ fn is_glass(surface: &Surface64) -> bool {
 /// Returns whether the radiance hardly changes if the ray starts slightly beside its origin. In
 /// long paths, rounding errors can grow at each bounce.
 fn is_stable(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3) -> bool {
-    /// Rounding to single precision moves a point by about 1e-7, relative to its coordinates.
+    /// The distance by which the origin is moved, relative to its coordinates. Rounding to single
+    /// precision moves a point by about 1e-7.
     const SHIFT: f64 = 3e-6;
-    /// Half the tolerance.
+    /// The largest relative change in the radiance: half the tolerance.
     const CHANGE: f64 = 5e-4;
     let (center, half) = room.extent();
     let shift = SHIFT * (center.length() + half.max_element());
@@ -551,7 +552,7 @@ fn is_stable(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3) -> b
     })
 }
 
-/// Returns the radiance along a ray if its path is scattered at most once less.
+/// Returns the radiance along a ray with the maximum number of bounces reduced by one.
 fn without_the_last(room: &Room, ray: &Ray64, numbers: &[Numbers64]) -> DVec3 {
     oracle::radiance(room, ray, &numbers[..numbers.len() - 1]).value
 }
@@ -571,7 +572,7 @@ fn decides(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3, surviv
     light == expected && is_lit(alive) && is_visible
 }
 
-/// Returns a room without a ceiling, with lights of which the back is seen, too.
+/// Returns a room without a ceiling, with lights that are also seen from behind.
 fn bright(rng: &mut Rng, environment: Environment64) -> Room {
     let mut quads: Vec<Quad> = walls(HALF, || matte(rng));
     quads.remove(3);
@@ -593,7 +594,7 @@ fn closed(rng: &mut Rng) -> Room {
     })
 }
 
-/// Returns a closed room with bright walls, of which two are mirrors, a glass block and one light.
+/// Returns a closed room with bright walls (two of them mirrors), a glass block and one light.
 fn shiny(rng: &mut Rng) -> Room {
     let mut walls = Vec::new();
     for index in 0..6 {
@@ -616,7 +617,7 @@ fn shiny(rng: &mut Rng) -> Room {
     Room::new(quads, DARK)
 }
 
-/// Returns a closed room with mirrors, a glass block and lights of which the back is seen, too.
+/// Returns a closed room with mirrors, a glass block and lights that are also seen from behind.
 fn with_backs_of_lights(rng: &mut Rng) -> Room {
     let mut quads = shiny(rng).quads().to_vec();
     for (axis, facing) in [(0, 1.0), (2, -1.0)] {

@@ -75,7 +75,7 @@ const UNIFORM: Declaration = Declaration {
 const PICK: Declaration = Declaration {
     id: "environment.pick",
     points: 3,
-    title: "a pixel is picked by its share of the weights, row by row from the top",
+    title: "pixels are picked in proportion to their weight, row by row from the top",
     look: "Pass your direction and the correct one to `Environment::index`. If the pixels differ, \
            add up the weights in order: which pixel does `choice` times the total fall on? If they \
            match, check the position in the pixel and the two angles.",

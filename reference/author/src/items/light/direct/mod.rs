@@ -181,7 +181,7 @@ const BLOCKED: Declaration = Declaration {
 const TURNED: Declaration = Declaration {
     id: "direct.turned",
     points: 2,
-    title: "a tilted surface is lit in its own frame",
+    title: "directions are converted to and from the frame of a tilted surface",
     look: "Which of your directions are in the world, and which are in the surface's frame?",
     section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
     tests: &["The result is the sum, over both directions, of evaluate × radiance / …"],

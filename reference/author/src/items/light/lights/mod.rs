@@ -186,7 +186,7 @@ const DIRECTION: Declaration = Declaration {
 const PICK: Declaration = Declaration {
     id: "lights.pick",
     points: 2,
-    title: "each light is picked by its share of the power, in the order of the list",
+    title: "lights are picked in proportion to their power, in the order of the list",
     look: "Add up the powers, one light after the other: in which light's part is `choice`?",
     look_fits: &[Symptom::of("direction")],
     section: "light/lights.md#pick-a-light-by-its-power",

@@ -469,7 +469,7 @@ const SURVIVORS: Declaration = Declaration {
 const SIZES: Declaration = Declaration {
     id: "path.sizes",
     points: 1,
-    title: "a path continues from its surface in a small room and in a very large one",
+    title: "a path doesn't hit the surface that it leaves, in a room of any size",
     look: "Where does your next ray start? `Surface::leave` knows how far rounding can move a point.",
     section: "light/paths.md#leave-the-surface",
     tests: &[

@@ -76,7 +76,8 @@ const TRIANGLE: Declaration = Declaration {
     id: "lights.triangle",
     points: 1,
     title: "the density of directions to a triangle uses the triangle's own area",
-    look: "The given `area` is right for both shapes. Do you compute your own?",
+    look: "The given field `area` is right for both shapes, parallelograms and triangles. Do you \
+           use it, or do you compute the area yourself?",
     section: "light/lights.md#the-density-of-an-area-light",
     tests: &[
         "Returns the probability density, per solid angle, of a direction from a point to the \
@@ -135,7 +136,8 @@ const GRAZING: Declaration = Declaration {
     id: "lights.grazing",
     points: 1,
     title: "a light that is seen nearly edge-on has a high density",
-    look: "Is there a smallest cosine in your code?",
+    look: "The cosine can be very small, so the density can be very large. Do you raise small \
+           cosines to a minimum, or limit the density?",
     section: "light/lights.md#the-cosine-divides",
     tests: &[
         "Returns the probability density, per solid angle, of a direction from a point to the \
@@ -187,7 +189,8 @@ const PICK: Declaration = Declaration {
     id: "lights.pick",
     points: 2,
     title: "lights are picked in proportion to their power, in the order of the list",
-    look: "Add up the powers, one light after the other: in which light's part is `choice`?",
+    look: "Add up the shares of the power, one light after the other: which light's interval \
+           contains `choice`?",
     look_fits: &[Symptom::of("direction")],
     section: "light/lights.md#pick-a-light-by-its-power",
     tests: &[

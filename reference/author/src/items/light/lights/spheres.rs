@@ -23,7 +23,7 @@ const FROM_INSIDE: usize = 4;
 
 pub(super) const SAMPLES: Declaration = Declaration {
     id: "lights.sphere_samples",
-    title: "a sphere that is picked from the list samples its own direction",
+    title: "if a sphere is picked, the direction is sampled toward that sphere",
     look: "Which function samples a direction if the light that was picked is a sphere? And can \
            your code pick a sphere in the first place?",
     section: "light/lights.md#what-to-return",

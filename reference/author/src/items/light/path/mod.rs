@@ -57,7 +57,8 @@ const SEEN: Declaration = Declaration {
     id: "path.seen",
     points: 1,
     title: "with 0 bounces, the ray sees only emitted light or the environment",
-    look: "What do you add for the first surface, and what if the ray hits nothing?",
+    look: "What do you add if the ray hits a light, and what if it hits nothing? With 0 bounces, \
+           nothing else is added.",
     section: "light/paths.md#the-first-surface-can-be-a-light",
     tests: &[
         "Estimates the radiance that arrives at the origin of a ray, by following one path.",
@@ -258,7 +259,8 @@ const MIRROR: Declaration = Declaration {
     id: "path.mirror",
     points: 2,
     title: "mirrors show the lights and the sky, and a light is black from behind",
-    look: "After a mirror, `direct` has counted nothing yet. Which `pdf` tells you so?",
+    look: "At a mirror, `direct` returns zero, so the light that the path hits next must be \
+           counted. Which value of `pdf` tells you that?",
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \
@@ -393,7 +395,7 @@ const ROULETTE: Declaration = Declaration {
     id: "path.roulette",
     points: 2,
     title: "from the fourth surface on, a path survives with probability q",
-    look: "At which bounce does your roulette begin, and what is compared with `survive`?",
+    look: "At which bounce does your roulette begin, and what do you compare `survive` with?",
     section: "light/paths.md#roulette-begins-at-bounce-three",
     tests: &["This is Russian roulette: see PBR, section 2.2.4."],
     questions: |rng| {
@@ -437,7 +439,8 @@ const SURVIVORS: Declaration = Declaration {
     id: "path.survivors",
     points: 2,
     title: "a survivor's throughput is divided by q, which is at least 0.05 and at most 0.95",
-    look: "What is q in a white room, and in a dark one? And what do you divide by?",
+    look: "Work out q in a white room and in a dark one: is it limited to the range from 0.05 to \
+           0.95? And do you divide a survivor's throughput by it?",
     section: "light/paths.md#survivors-carry-more",
     tests: &[
         "Here, q is the largest channel of the throughput after this bounce's attenuation, but at \
@@ -470,7 +473,8 @@ const SIZES: Declaration = Declaration {
     id: "path.sizes",
     points: 1,
     title: "a path doesn't hit the surface that it leaves, in a room of any size",
-    look: "Where does your next ray start? `Surface::leave` knows how far rounding can move a point.",
+    look: "Where does your next ray start? Use `Surface::leave`, which takes into account how far \
+           rounding can move a point.",
     section: "light/paths.md#leave-the-surface",
     tests: &[
         "At each bounce, the path adds [`direct`] light and continues in the direction that …",

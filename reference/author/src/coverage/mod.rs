@@ -113,8 +113,7 @@ impl Coverage {
         let without = authored.items.iter().filter(|item| item.tests.is_empty());
         let without = without.map(|item| {
             format!(
-                "{} doesn't test any sentence: quote at least one \
-                                                  in its `tests`",
+                "{} doesn't test any sentence: quote at least one in its `tests`",
                 item.id
             )
         });

@@ -144,8 +144,8 @@ pub struct Arguments {
     #[arg(long, value_name = "LEVEL", help_heading = STAFF_OPTIONS)]
     pub isolation: Option<Isolation>,
 
-    /// Block items that depend on a failed task, as on a student's machine, instead of grading them
-    /// with the reference's parts
+    /// Leave items that depend on a failed task blocked, as on a student's machine, instead of
+    /// grading them with the reference's parts
     #[arg(long, help_heading = STAFF_OPTIONS)]
     pub no_reference: bool,
 

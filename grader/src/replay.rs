@@ -159,7 +159,8 @@ impl ExamRun {
             (Err(fault), Some((question, element))) => {
                 let number = item.number(question, element);
                 return format!(
-                    "correct, but the item got no answers because of {}#{number}: {fault}",
+                    "correct in isolation, but the item got no answers because {}#{number} ended \
+                     the program: {fault}",
                     item.id
                 );
             }

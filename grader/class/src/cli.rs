@@ -133,7 +133,8 @@ pub struct GradingArguments {
     #[arg(long, value_name = "LEVEL")]
     pub isolation: Option<Isolation>,
 
-    /// Block items that depend on a failed task instead of grading them with the reference's parts
+    /// Leave items that depend on a failed task blocked instead of grading them with the reference's
+    /// parts
     #[arg(long)]
     pub no_reference: bool,
 }

@@ -86,8 +86,9 @@ pub fn check_none_lost(store: &Store) -> Result<(), Error> {
         |id: &String| matches!(store.result(id), Ok(Some(result)) if result.info.is_corrected);
     match store.ids()?.into_iter().find(is_corrected) {
         Some(id) => Err(Error::user(format!(
-            "{} contains points for corrected submissions, such as {id}: pass their folder with \
-             --corrected again, or an empty folder to go back to the original files",
+            "{} contains points for corrected submissions, such as {id}: pass the folder of \
+             corrected submissions with --corrected again, or pass an empty folder to go back to \
+             the original files",
             store.folder().display()
         ))),
         None => Ok(()),

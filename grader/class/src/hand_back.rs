@@ -33,9 +33,9 @@ const NO_NUMBER: &str = "the number in the file name could be a person's or a gr
                          says which: pass Moodle's worksheet with --moodle";
 
 /// The warning about a group that gets a single page.
-const ONE_PAGE: &str = "the platform gives all members of a group the same page, which doesn't show \
-                        their different points or comments: send them their own pages, which are \
-                        in the folder hand-back";
+const ONE_PAGE: &str = "the platform gives all members of a group the same page, so it leaves out \
+                        points and comments that differ between them: send each member the page in \
+                        the folder hand-back";
 
 /// An archive to hand back to students.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -20,9 +20,9 @@ pub const FOLDER: &str = "hand-in-again";
 /// The maximum length of a name or a reason, in characters.
 const MAX_CHARS: usize = 1_000;
 
-/// Writes a message for each person who has submitted something, but nothing that can be graded or
-/// not all files. Removes the messages from the last run. For each message, returns the indices of
-/// the submissions that it is about.
+/// Writes a message to each person whose submissions cannot be graded or lack files. Removes the
+/// messages from the last run. For each message, returns the indices of the submissions that it is
+/// about.
 pub fn write_messages(
     class: &GradedClass,
     store: &Store,

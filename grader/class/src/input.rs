@@ -82,7 +82,7 @@ impl Input {
             unpacked.build_dir
         });
         for name in hidden_names(&root.path).map_err(Error::user)? {
-            let why = "its name begins with a dot, so it is hidden";
+            let why = "its name begins with a dot, so it is treated as a hidden file and ignored";
             class.unmatched.push(UnmatchedPath::new(name, why));
         }
         let of_several = if class.entries.is_empty() {

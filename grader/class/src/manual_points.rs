@@ -203,8 +203,8 @@ impl ManualPointsList {
             if sum.is_none_or(|sum| sum > most) {
                 return Err(self.error(*row, format!(
                     "{delta:+} points is out of range: {student} earned {earned} of {most} points \
-                        for {task}, perhaps because files were handed in again. Correct this row \
-                        and pass the table with --manual-points"
+                     for {task}. Correct this row and pass the table with --manual-points. If the \
+                     row was valid before, files were probably handed in again"
                 )));
             }
         }

@@ -73,7 +73,7 @@ fn result_line(result: &EntryResult) -> String {
         EntryOutcome::Graded(score) => format!("{id}: {} of {}", score.points, score.max_points),
         EntryOutcome::NothingToGrade(why) => format!("{id}: nothing to grade: {why}"),
         EntryOutcome::Fault(why) => {
-            format!("{id}: not graded, through no fault of the student: {why}")
+            format!("{id}: not graded because of a problem with the grader or the machine: {why}")
         }
     };
     sanitize_line(&line, usize::MAX)

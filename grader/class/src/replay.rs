@@ -45,7 +45,10 @@ pub fn replay_question(
     let result = find_result(&store, who)?;
     let title = id_and_names(&result.id, &result.info.display_names());
     let Some(score) = result.score() else {
-        return Err(Error::user(format!("{title} has no score: see grades.csv")));
+        return Err(Error::user(format!(
+            "{title} has no score, so none of its questions can be rerun: see grades.csv for the \
+             reason"
+        )));
     };
     let options = GradeOptions {
         submission: Some(store.submission_path(&result.id)),

@@ -90,7 +90,8 @@ impl PackageContents {
         let faults = [
             (
                 !text.starts_with(b"#!"),
-                "does not begin with #!, so it cannot be run",
+                "does not begin with #!, so it cannot be run: add a first line, such as \
+                 #!/usr/bin/env bash",
             ),
             (
                 is_floating,
@@ -128,7 +129,7 @@ impl PackageContents {
         let mut problems = Vec::new();
         if exam.id == PRACTICE_ID {
             problems.push(
-                "it runs the practice exam, whose answers students already have: choose a \
+                "the package runs the practice exam, whose answers students already have: choose a \
                  different exam with --exam-seed"
                     .to_owned(),
             );

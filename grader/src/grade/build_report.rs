@@ -34,22 +34,24 @@ fn notes(submission: &Submission, build: &Build) -> Vec<String> {
         let (missing, changed): (Vec<_>, Vec<_>) =
             changed.into_iter().partition(|method| method.is_missing);
         let file = file.name;
-        for (methods, what) in [
+        for (methods, one, several) in [
             (
                 missing,
-                "are missing, but other code may need them: put them back",
+                "is missing. Other code may need it, so put it back",
+                "are missing. Other code may need them, so put them back",
             ),
             (
                 changed,
+                "was changed, which may cause items in any task to fail",
                 "were changed, which may cause items in any task to fail",
             ),
         ] {
-            if !methods.is_empty() {
-                let names: Vec<&str> = methods.iter().map(|method| method.name).collect();
-                notes.push(format!(
-                    "{file}: given methods {what}: {}",
-                    names.join(", ")
-                ));
+            let names: Vec<&str> = methods.iter().map(|method| method.name).collect();
+            let names = names.join(", ");
+            match methods.len() {
+                0 => {}
+                1 => notes.push(format!("{file}: the given method {names} {one}")),
+                _ => notes.push(format!("{file}: the given methods {names} {several}")),
             }
         }
     }

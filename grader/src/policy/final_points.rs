@@ -101,7 +101,7 @@ impl FinalPoints {
         rules.extend_from_slice(&self.changes);
         rules.extend(self.lateness());
         let is_changed = !rules.is_empty();
-        is_changed.then(|| format!("Towards the grade: {}.", rules.join("; ")))
+        is_changed.then(|| format!("These rules apply to the grade: {}.", rules.join("; ")))
     }
 
     fn is_changed(&self) -> bool {
@@ -226,7 +226,7 @@ mod tests {
                  deducted.",
             ),
         ] {
-            let expected = format!("Towards the grade: {rules}");
+            let expected = format!("These rules apply to the grade: {rules}");
             assert_eq!(counted(policy, 90, 5, hours).rules(), Some(expected));
         }
     }

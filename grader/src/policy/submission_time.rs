@@ -49,8 +49,8 @@ impl SubmissionTime {
         let text = text.map_err(|error| error.of_action("read Gradescope's"))?;
         SubmissionTime::parse(&text).map_err(|why| {
             Error::Machine(format!(
-                "cannot read the submission time and due date in {} ({why}); without \
-                 --gradescope-metadata, no submission counts as late",
+                "cannot read the submission time and due date in {} ({why}): correct the file, or \
+                 leave out --gradescope-metadata, so that no submission counts as late",
                 path.display()
             ))
         })

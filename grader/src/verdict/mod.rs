@@ -457,7 +457,7 @@ pub fn add_hints(line: &mut ItemScore, mistakes: &[&KnownMistake]) {
         line.section = Some(section);
     }
     let ids: Vec<&str> = mistakes.iter().map(|mistake| mistake.id.as_str()).collect();
-    line.staff = Some(format!("answers like those of {}", ids.join(" or ")));
+    line.staff = Some(format!("the answers match those of {}", ids.join(" or ")));
 }
 
 /// Returns the score of an item that was graded with substituted parts. This is the score that

@@ -52,9 +52,9 @@ fn note(changed: &[&str]) -> Option<String> {
     (!first.is_empty()).then(|| {
         format!(
             "the given code was changed: {}{more}. These results are for the changed code, but \
-             your work will be graded with the original: undo the changes. Alternatively, extract \
-             only these files from the archive again and run `cargo clean`, because Cargo doesn't \
-             notice changed files with old dates",
+             your work will be graded with the original. Undo the changes, or extract these files \
+             from the archive again and run `cargo clean`, because Cargo doesn't notice changed \
+             files with old dates",
             first.join(", ")
         )
     })

@@ -221,7 +221,7 @@ fn a_helper_in_another_task_file_and_a_changed_given_method_cost_nothing() {
     let note = &graded.score()["build"]["notes"][0];
     assert_eq!(
         note,
-        "bbox.rs: given methods were changed, which may cause items in any task to fail: center"
+        "bbox.rs: the given method center was changed, which may cause items in any task to fail"
     );
 }
 

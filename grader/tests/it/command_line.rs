@@ -232,7 +232,10 @@ fn replay_tells_a_right_answer_that_is_lost_to_another_question() {
     let first = "sphere.from_inside#1";
     assert_ne!(culprit, first, "{text}");
     let text = replay(&submission, first);
-    let lost = format!("verdict  correct, but the item got no answers because of {culprit}: ");
+    let lost = format!(
+        "verdict  correct in isolation, but the item got no answers because {culprit} ended the \
+         program: "
+    );
     assert!(text.contains(&lost), "{text}");
     assert!(!text.contains("keeps something"), "{text}");
 }

@@ -44,7 +44,7 @@ fn a_known_mistake_gets_a_nudge() {
     assert!(!hints(&graded).is_empty());
     let staff = graded.score().to_string();
     assert!(
-        staff.contains("answers like those of sphere.far_first"),
+        staff.contains("the answers match those of sphere.far_first"),
         "{staff}"
     );
 }

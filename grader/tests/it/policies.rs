@@ -69,5 +69,5 @@ fn missing_submission_times_are_not_the_students_fault() {
     let submission = Submission::starter("any");
     let metadata = submission.file_option("--gradescope-metadata", "metadata.json", "{}");
     let graded = submission.grade_with(&metadata);
-    assert_fails(&graded.output, 3, "no submission counts as late");
+    assert_fails(&graded.output, 3, "so that no submission counts as late");
 }

@@ -110,8 +110,8 @@ impl RecordedMistake<'_> {
         observed.any(|answer| *answer == ObservedAnswer::NoAnswer(NoAnswerReason::Time))
     }
 
-    /// Returns whether a form of the same mistake gives no other answers than this one. It may crash
-    /// elsewhere, because many mistakes lead to crashes, so these say little about the cause.
+    /// Returns whether `form` is a form of the same mistake and gives the same answers. Its crashes
+    /// are ignored, because many mistakes lead to crashes, so a crash says little about the cause.
     fn covers(&self, form: &RecordedMistake) -> bool {
         let items = self.answers.iter().zip(&form.answers);
         let mut pairs =

@@ -191,7 +191,8 @@ fn start_or_resume(store: &Store, settings: Settings, regrade: bool) -> Result<R
         (None, true) => {
             let out = store.folder().display();
             Err(Error::user(format!(
-                "{out} contains no scores yet: leave out --regrade"
+                "{out} contains no scores that could be compared with new ones: leave out \
+                 --regrade"
             )))
         }
         (None, false) => Ok(Run::first_round(settings)),

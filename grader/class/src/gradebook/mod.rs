@@ -213,7 +213,7 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
         if !others.is_empty() {
             let id = &class_row.result.id;
             warnings.push(format!(
-                "{others} from {id} could also be {who}: enter the points by hand"
+                "the row {who} could also be for {others} from {id}: enter the points by hand"
             ));
             if !is_named(&best) {
                 continue;
@@ -322,7 +322,9 @@ fn match_rows<'c>(
                         "{who} could be any of {names}: enter the points by hand"
                     ));
                 }
-                None => warnings.push(format!("{who} is not in this list")),
+                None => warnings.push(format!(
+                    "{who} is not in this list, so the copy has no row for them"
+                )),
             }
         }
     }

@@ -79,7 +79,7 @@ fn a_row_is_filled_in_if_it_is_clear_whose_it_is() {
             vec![
                 "Ann Lee could be any of Lee, Ann (7002); Lee, Ann (7003): enter the points by \
                  hand",
-                "Nobody is not in this list",
+                "Nobody is not in this list, so the copy has no row for them",
                 "Doe, Jane has several submissions (b, c), so this row is left unchanged: keep only one submission",
             ],
         ),
@@ -336,8 +336,9 @@ fn people_of_one_submission_who_share_a_row_are_told_apart_by_the_name() {
         (filled.table.rows[0][4].clone(), filled.warnings)
     };
     assert_eq!(fill(&["Ann Lee", "ann lee"]), ("80".to_owned(), vec![]));
-    let wanted =
-        |name: &str| format!("{name} from x could also be Ann Lee: enter the points by hand");
+    let wanted = |name: &str| {
+        format!("the row Ann Lee could also be for {name} from x: enter the points by hand")
+    };
     let (filled, warnings) = fill(&["Bob", "Ann Lee"]);
     assert_eq!((filled.as_str(), warnings), ("80", vec![wanted("Bob")]));
     let (filled, warnings) = fill(&["Bob", "Cid"]);

@@ -181,9 +181,9 @@ fn recognise_layout<'a>(
         [] if root.name == TEAMS_SUBMITTED => Ok(Layout::Teams),
         [] if is_github_classroom(root) => Ok(Layout::GitHub),
         [] if are_clones(root) => Err(Error::user(
-            "the folders are clones whose names have the same beginning, which may be the \
-             assignment's title or part of people's names; choose one with --layout gitlab or \
-             --layout github if it is the title, or --layout folders if it isn't",
+            "the folders are Git clones whose names all begin in the same way: if this beginning \
+             is the assignment's title, pass --layout gitlab or --layout github; if it is part of \
+             people's names, pass --layout folders",
         )),
         [] => Ok(Layout::Plain),
         [only] => Ok(*only),

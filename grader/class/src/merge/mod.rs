@@ -73,7 +73,8 @@ pub fn merge_shards(
         for id in shard.ids()?.into_iter().filter(current) {
             if let Some(other) = sources.insert(id.clone(), shard) {
                 return Err(Error::user(format!(
-                    "{id} is in both {} and {}: were they graded with the same --shard?",
+                    "{id} is in both {} and {}, probably because both were graded with the same \
+                     --shard: grade one of them again with a different part, such as 2/8",
                     other.folder().display(),
                     shard.folder().display()
                 )));
@@ -149,7 +150,8 @@ fn read_finished_run(shard: Store) -> Result<(Store, Run), Error> {
             "{path} is not finished: run the same `cargo class --shard` command again"
         ))),
         None => Err(Error::user(format!(
-            "{path} contains no results from `cargo class --shard`"
+            "{path} contains no results from `cargo class --shard`: pass the output folders of \
+             these commands"
         ))),
     }
 }
@@ -169,7 +171,10 @@ fn check_compatible(one: &(Store, Run), other: &(Store, Run)) -> Result<(), Erro
          missing: run every `cargo class --shard` command again (existing results are kept)"
             .to_owned()
     } else if !what.is_empty() {
-        format!(": they differ in {}", what.join(", "))
+        format!(
+            ": they differ in {}. Grade all parts with the same exam, isolation level and options",
+            what.join(", ")
+        )
     } else {
         return Ok(());
     };

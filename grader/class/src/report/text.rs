@@ -61,7 +61,10 @@ pub fn render_summary(summary: &ClassSummary) -> String {
             summary.superseded,
             "not counted because another submission by the same person counts",
         ),
-        (summary.by_test_student, "by Canvas's test student"),
+        (
+            summary.by_test_student,
+            "submitted by Canvas's test student",
+        ),
         (
             summary.undated,
             "counted as on time or 1 day late because their submission time is unknown",

@@ -103,7 +103,7 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
     assert!(!class.read("students/ann/feedback.html").contains(SENTENCE));
 
     let refused = class.refused(&exam, &[]);
-    let expected = "contains points for corrected submissions, such as bob: pass their folder";
+    let expected = "contains points for corrected submissions, such as bob: pass the folder";
     assert_contains(&refused, &[expected]);
     let empty = class.path_beside("empty");
     fs::create_dir(&empty).unwrap();

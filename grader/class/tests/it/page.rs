@@ -22,7 +22,7 @@ fn the_page_renders_hints_sorts_submissions_and_fits_a_phone() {
     let texts = [
         "no matter what <code>offset</code> is",
         "<th scope=\"row\">2 days late</th><td class=\"number\">1</td>",
-        "as 1 day late if marked as late: carl.",
+        "or as 1 day late if the platform marks them as late: carl.",
     ];
     assert_contains(&page, &texts);
 

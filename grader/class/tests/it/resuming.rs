@@ -98,7 +98,10 @@ fn refuses_to_mix_incomparable_scores_and_regrade_reports_the_changes() {
 
     let class = TestClass::named("new").with_reference("ann");
     let error = class.refused(&class.small_exam(&ITEMS), &["--regrade"]);
-    assert!(error.contains("contains no scores yet"), "{error}");
+    assert!(
+        error.contains("contains no scores that could be compared with new ones"),
+        "{error}"
+    );
 }
 
 /// Changes the points for the camera's item. Returns the original points and the path of the new

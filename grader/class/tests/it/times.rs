@@ -48,7 +48,7 @@ fn a_late_flag_without_a_time_is_said_to_count_as_one_day() {
     for page in ["class.html", "students/doejane_7001/feedback.html"] {
         assert_contains(&class.read(page), &[sentence]);
     }
-    let times = "as 1 day late if marked as late: doejane_7001 (doejane).";
+    let times = "or as 1 day late if the platform marks them as late: doejane_7001 (doejane).";
     assert_contains(&class.read("class.html"), &[times]);
 }
 
@@ -193,13 +193,13 @@ fn the_test_student_is_counted_separately() {
     let text = grade(&class, "canvas", gradebook);
     let expected = [
         "2 graded, small exam",
-        "1 by Canvas's test student",
+        "1 submitted by Canvas's test student",
         "2 counted as on time or 1 day late",
     ];
     assert_contains(&text, &expected);
     let page = class.read("class.html");
-    let expected = "2 graded, 0 with nothing to grade, 0 not graded, 1 by Canvas's test student, \
-                    0 without a submission.";
+    let expected = "2 graded, 0 with nothing to grade, 0 not graded, 1 submitted by Canvas's test \
+                    student, 0 without a submission.";
     assert_contains(&page, &[expected]);
     let times = "Submission times\nHanded in | Students\non time | 1\n1 day late | 1\n";
     assert_contains(&section(&page, "times"), &[times]);

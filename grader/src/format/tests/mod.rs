@@ -180,7 +180,7 @@ fn gradescope_shows_each_item_when_the_policy_says() {
 fn gradescope_tells_no_total_that_includes_hidden_points() {
     let file = json("gradescope", &sample::restricted());
     let output = file["output"].as_str().unwrap();
-    let rules = "Some items are not shown yet.\n\nTowards the grade: 28 points are scaled to 56; handed \
+    let rules = "Some items are not shown yet.\n\nThese rules apply to the grade: 28 points are scaled to 56; handed \
                  in 1 day late, so 10% of the points earned are deducted.\n\nerror: expected";
     assert!(output.starts_with(rules), "{output}");
     // A program can choose how long it runs.

@@ -121,7 +121,7 @@ fn add_details(item: &mut ItemScore) {
                 hint("Which camera?", "The camera is another one."),
             ];
             item.evidence = evidence(2, ["pixel\u{1b}[2J (1, 2)", "2", "1"]);
-            item.staff = text("answers like those of camera.not_normalised");
+            item.staff = text("the answers match those of camera.not_normalised");
         }
         "triangle.inside" => {
             item.look = text("Draw the triangle.");

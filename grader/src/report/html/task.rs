@@ -161,7 +161,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
                     got,
                     &describe::answer::wanted(first, 0).join(", or "),
                 ),
-                None => evidence_table(&all, got, "an answer to each"),
+                None => evidence_table(&all, got, "an answer to each question"),
             }
         }
         Verdict::NotCompiled => evidence_table(
@@ -188,7 +188,7 @@ fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
         | Verdict::Crashed
         | Verdict::Protocol => {
             let got = format!("no answer: {}", score.message);
-            evidence_table(&all, &got, "an answer to each")
+            evidence_table(&all, &got, "an answer to each question")
         }
     }
 }

@@ -114,7 +114,7 @@ fn escapes_everything_that_a_submission_can_write() {
 fn hides_staff_notes() {
     let page = page_of("sphere.normal", |item| {
         item.verdict = Verdict::Wrong;
-        item.staff = Some("answers like those of sphere.inward".to_owned());
+        item.staff = Some("the answers match those of sphere.inward".to_owned());
     });
     assert!(page.contains("sphere.normal") && !page.contains("sphere.inward"));
 }

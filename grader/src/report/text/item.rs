@@ -112,10 +112,7 @@ pub(super) fn write_printed(out: &mut String, task: &TaskScore, printed: &str) -
         writeln!(out, "  {FAINT}│{FAINT:#} {line}")?;
     }
     if printed.lines().count() > MAX_PRINTED_LINES {
-        writeln!(
-            out,
-            "  {FAINT}and more: `--replay` shows everything{FAINT:#}"
-        )?;
+        writeln!(out, "  {FAINT}`--replay` shows the rest{FAINT:#}")?;
     }
     Ok(())
 }

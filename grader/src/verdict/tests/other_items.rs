@@ -63,14 +63,14 @@ fn every_mistake_that_explains_the_answers_gives_a_hint_and_the_first_its_sectio
     };
     assert_eq!(line.hints, ["bbox.swap", "bbox.flat"].map(hint));
     assert_eq!(line.section, Some(Section::new("boxes.md#swap")));
-    let staff = "answers like those of bbox.swap or bbox.flat";
+    let staff = "the answers match those of bbox.swap or bbox.flat";
     assert_eq!(line.staff.as_deref(), Some(staff));
 
     let line = hinted(&[mistake("bbox.swap", None)]);
     assert_eq!(line.section, full_score().section);
     assert_eq!(
         line.staff.as_deref(),
-        Some("answers like those of bbox.swap")
+        Some("the answers match those of bbox.swap")
     );
 
     assert_eq!(hinted(&[]), full_score());

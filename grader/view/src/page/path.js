@@ -21,7 +21,7 @@ export function pathParts({ bounces, steps }) {
 function rows(bounce) {
   const { number: index, surface, throughput, found, attenuation, lights, pdf } = bounce;
   const isBlack = found.every((x) => x === 0);
-  const light = isBlack ? "0" : `${colour(found)} (${bounce.is_found_counted ? "counts" : "already in direct light"})`;
+  const light = isBlack ? "0" : `${colour(found)} (${bounce.is_found_counted ? "counted" : "already counted as direct light"})`;
   const direct = lights.map((light) => colour(light.radiance) + (light.pdf === null ? "" : ` (light pdf ${number(light.pdf, 3)})`));
   const density = bounce.has_pdf ? colour([pdf], 3) : attenuation ? "none" : "";
   const cells = [String(index), surface, colour(throughput, 3), density, attenuation ? colour(attenuation, 3) : "", light, direct.join("; ")];

@@ -92,7 +92,7 @@ impl Session {
         let task = |id| task(files, id);
         let mut add = |text: String, location: Option<String>| notes.push(Note { text, location });
         for (part, panic) in &opened.missing {
-            let (id, method) = task_and_method(*part);
+            let (_, method) = task_and_method(*part);
             let effect = match part {
                 SubmissionPart::Camera => "the viewer's own camera is used",
                 SubmissionPart::Triangle => "triangles are left out",
@@ -102,14 +102,13 @@ impl Session {
                     "the tree cannot be used"
                 }
             };
-            let title = task(id).map_or(method, |task| task.title);
-            let text = format!("{title}: not written yet, so {effect}.");
+            let text = format!("`{method}` is not written yet, so {effect}.");
             add(text, Some(panic.location.clone()));
         }
         let build = task("build");
         match &opened.tree {
             ElementOutcome::Panicked(panic) => add(
-                format!("{}: panicked: {}", title_of_build(build), panic.message),
+                format!("`Bvh::build` panicked: {}", panic.message),
                 Some(panic.location.clone()),
             ),
             ElementOutcome::Value(size) => {
@@ -119,7 +118,9 @@ impl Session {
         }
         let checkup = self.tree.as_ref().filter(|tree| tree.index.has_nodes());
         for kind in checkup.into_iter().flat_map(|tree| &tree.checkup.kinds) {
-            let text = format!("{}: {}: {}.", title_of_build(build), kind.title, kind.count);
+            let (first, rest) = kind.title.split_at(1);
+            let title = format!("{}{rest}", first.to_lowercase());
+            let text = format!("Defects in the tree: {title} ({}).", kind.count);
             add(text, self.line_of(build));
         }
         if let Some(why) = &self.tree_fault {
@@ -168,7 +169,7 @@ impl Session {
             count => format!(", so each ray tests all {count} primitives"),
         };
         let not_written =
-            |task: &TaskInfo, effect: &str| format!("{}: not written yet{effect}.", task.title);
+            |method: &str, effect: &str| format!("`{method}` is not written yet{effect}.");
         let is_from_starter = |task: &&TaskInfo| self.is_from_starter(task);
         let traverse = traverse.filter(is_from_starter);
         let unwritten = build.filter(|task| size.nodes == 0 && is_from_starter(task));
@@ -178,13 +179,16 @@ impl Session {
                 Some(_) => &effect,
                 None => ", so `Bvh::hit` has no tree to traverse",
             };
-            add(not_written(build, effect), self.line_of(Some(build)));
+            add(not_written("Bvh::build", effect), self.line_of(Some(build)));
         } else if size.nodes == 0 && size.primitives > 0 {
-            let text = format!("{}: the tree has no nodes.", title_of_build(build));
+            let text = "`Bvh::build` returned a tree without nodes.".to_owned();
             add(text, self.line_of(build));
         }
         if let Some(traverse) = traverse {
-            add(not_written(traverse, &effect), self.line_of(Some(traverse)));
+            add(
+                not_written("Bvh::hit", &effect),
+                self.line_of(Some(traverse)),
+            );
         }
         if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
             let text = "Nothing can be drawn yet: write the `hit` method for triangles or spheres \
@@ -255,10 +259,4 @@ fn task_and_method(part: SubmissionPart) -> (&'static str, &'static str) {
         SubmissionPart::Traversal => ("traverse", "Bvh::hit"),
         SubmissionPart::Light => ("path", "radiance"),
     }
-}
-
-/// Returns the title of the task about building the tree or, if there is no such task, the method's
-/// name.
-fn title_of_build(task: Option<&TaskInfo>) -> &str {
-    task.map_or("Bvh::build", |task| task.title)
 }

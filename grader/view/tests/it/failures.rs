@@ -35,10 +35,10 @@ fn the_starter_lists_the_tasks_that_are_missing_with_their_lines() {
     let state = viewer.wait_for_picture();
     let notes = notes(&state);
     for (task, file) in [
-        ("Task 1: camera rays: not written yet", "camera.rs:"),
-        ("Task 2: triangles: not written yet", "triangle.rs:"),
-        ("Task 2: spheres: not written yet", "sphere.rs:"),
-        ("Task 3: boxes: not written yet", "bbox.rs:"),
+        ("`Camera::sample_ray` is not written yet", "camera.rs:"),
+        ("`Triangle::hit` is not written yet", "triangle.rs:"),
+        ("`Sphere::hit` is not written yet", "sphere.rs:"),
+        ("`BBox::hit` is not written yet", "bbox.rs:"),
     ] {
         let line = notes.lines().find(|line| line.starts_with(task));
         assert!(line.is_some_and(|line| line.contains(file)), "{notes}");
@@ -56,10 +56,10 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
     let notes = notes(&state);
     assert!(notes.contains("spheres are left out"), "{notes}");
     assert!(
-        notes.contains("Task 3: building a BVH: not written yet, so each ray tests all"),
+        notes.contains("`Bvh::build` is not written yet, so each ray tests all"),
         "{notes}"
     );
-    let traversal = "Task 3: traversing a BVH: not written yet";
+    let traversal = "`Bvh::hit` is not written yet";
     let line = notes.lines().find(|line| line.starts_with(traversal));
     let text = starter.read("bvh.rs");
     let hit = text.lines().position(|line| line.contains("pub fn hit("));
@@ -97,7 +97,7 @@ fn a_traversal_without_a_tree_does_not_test_all_primitives() {
     );
     let viewer = Viewer::start(&submission, "spheres --size 16x12 --samples 1");
     let notes = notes(&viewer.wait_for_picture());
-    let note = "Task 3: building a BVH: not written yet, so `Bvh::hit` has no tree to traverse.";
+    let note = "`Bvh::build` is not written yet, so `Bvh::hit` has no tree to traverse.";
     assert!(notes.starts_with(note), "{notes}");
 }
 

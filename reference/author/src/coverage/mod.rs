@@ -111,7 +111,12 @@ impl Coverage {
             }
         }
         let without = authored.items.iter().filter(|item| item.tests.is_empty());
-        let without = without.map(|item| format!("{} doesn't test any sentence", item.id));
+        let without = without.map(|item| {
+            format!(
+                "{} doesn't test any sentence: quote at least one in its `tests`",
+                item.id
+            )
+        });
         self.problems.extend(without);
 
         self.table.contents += &format!("\n## {}\n\n| sentence | items |\n|---|---|\n", task.title);

@@ -84,7 +84,8 @@ pub fn collect(
     platform: Platform,
     course: CourseFiles,
 ) -> Result<Bundle> {
-    const NOT_SECRET: &str = "only a package for Gradescope can contain a final exam";
+    const NO_FINAL_EXAM: &str = "so it must not contain a final exam: leave out --exam and \
+                                 --exam-seed, or create a package for gradescope";
     let students = || {
         let light = course.light;
         Bundle::collect(root, handed_out, BundleOptions { book: None, light })
@@ -102,10 +103,10 @@ pub fn collect(
         }
         (Platform::Github, None) => students(),
         (Platform::Classroom50, Some(_)) => {
-            bail!("students can read classroom50's folder: {NOT_SECRET}")
+            bail!("students can read classroom50's folder, {NO_FINAL_EXAM}")
         }
         (Platform::Github, Some(_)) => {
-            bail!("students can read a template repository: {NOT_SECRET}")
+            bail!("students can read a template repository, {NO_FINAL_EXAM}")
         }
     }
 }

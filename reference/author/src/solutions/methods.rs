@@ -66,7 +66,8 @@ impl Method {
             Some(id) => {
                 let variants = &solutions.variants;
                 let variant = variants.iter().find(|variant| variant.id == id);
-                let variant = variant.ok_or_else(|| anyhow!("{}: no variant {id}", self.id))?;
+                let variant =
+                    variant.ok_or_else(|| anyhow!("{}: there is no variant {id}", self.id))?;
                 &variant.sources
             }
         };

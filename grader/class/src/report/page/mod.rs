@@ -53,7 +53,9 @@ pub fn render_page(
                         (summary.graded) " graded, " (summary.nothing_to_grade)
                         " with nothing to grade, " (summary.not_graded) " not graded, "
                         @if summary.superseded > 0 { (summary.superseded) " replaced by another attempt, " }
-                        @if summary.by_test_student > 0 { (summary.by_test_student) " by Canvas's test student, " }
+                        @if summary.by_test_student > 0 {
+                            (summary.by_test_student) " submitted by Canvas's test student, "
+                        }
                         (summary.missing) " without a submission."
                     }
                 }

@@ -50,11 +50,12 @@ pub(super) fn times(class: &GradedClass) -> Markup {
             } } }
         }
         @if !undated.is_empty() { p {
-            "Submission time unknown, so counted as on time, or as 1 day late if marked as late: "
+            "The submission time of these people is unknown. They count as on time, or as 1 day \
+             late if the platform marks them as late: "
             (sanitized(&undated)) "."
         } }
         @if !unclear.is_empty() {
-            p { "No final points until these problems are resolved:" }
+            p { "These people have no final points until the problems are resolved:" }
             ul { @for (who, grade) in &unclear { li {
                 strong { (sanitized(who)) }
                 @if let Some(problem) = &grade.problem { ": " (sanitized(&problem.to_string())) }

@@ -124,9 +124,9 @@ pub(super) const ENVIRONMENT: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("direction"), Symptom::reversed("direction")],
-            clue: "Pass your direction and the correct one to `Environment::index`. If both are in the same \
-                pixel, look at the position in the pixel and at the two angles. If not, look at the weights \
-                and the search.",
+            clue: "Pass your direction and the correct one to `Environment::index`. If both are in \
+                   the same pixel, look at the position in the pixel and at the two angles. \
+                   Otherwise, look at the weights and the search.",
             section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
         },
         SymptomClue {

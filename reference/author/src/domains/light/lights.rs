@@ -120,7 +120,7 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
     ],
 };
 
-/// Scenes have coordinates up to 1,000.
+/// Classes that need no tests because scenes have coordinates up to 1,000.
 const WITHIN_THE_SCENE: UntestedClasses = not_asked(
     &[
         "longer edge of the light",
@@ -134,7 +134,8 @@ const WITHIN_THE_SCENE: UntestedClasses = not_asked(
 /// The cosines of directions almost in the light's plane.
 const ALMOST_IN_ITS_PLANE: &[&str] = &[COSINES[4], COSINES[5]];
 
-/// Only a single light parallel to the axes is seen from so close to its plane.
+/// Classes that need no tests because only a single light parallel to the axes is seen from so
+/// close to its plane.
 const NOT_THAT_SLANTED: UntestedClasses = not_asked(
     &["cosine at the light"],
     ALMOST_IN_ITS_PLANE,
@@ -217,7 +218,7 @@ const SEEN: &[&str] = &[
     "in the opposite direction",
 ];
 
-/// A light in a direction, or past which the direction leads.
+/// A light and the point where a direction crosses its plane, on the light or beside it.
 struct Sight {
     light: FlatLight64,
     distance: f64,

@@ -156,7 +156,7 @@ const THROUGH: &[&str] = &[
 /// Paths that are totally reflected.
 const REFLECTED: &[&str] = &[PASSAGES[2], PASSAGES[5], CRITICAL_CLASSES[1]];
 
-/// For most materials, the normal is on the side of `out`.
+/// Classes that need no tests because, for most materials, the normal is on the side of `out`.
 const FROM_ABOVE: UntestedClasses = not_asked(
     &["out"],
     NOT_ABOVE,
@@ -164,7 +164,8 @@ const FROM_ABOVE: UntestedClasses = not_asked(
     "The normal of a matte surface or a mirror is on the same side as `out`.",
 );
 
-/// The contract excludes directions along a surface that refracts.
+/// Classes that need no tests because the contract excludes directions along a surface that
+/// refracts.
 const NEVER_ALONG: UntestedClasses = not_asked(
     &["out"],
     ALONG,
@@ -172,7 +173,7 @@ const NEVER_ALONG: UntestedClasses = not_asked(
     "The contract excludes directions along the surface.",
 );
 
-/// Beyond the critical angle, there is no refracted direction.
+/// Classes that need no tests because, beyond the critical angle, there is no refracted direction.
 const NEVER_THROUGH: UntestedClasses = not_asked(
     &["passage", "critical angle"],
     REFLECTED,

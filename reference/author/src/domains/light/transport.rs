@@ -82,7 +82,7 @@ pub static RADIANCE: FunctionDomain<PathCall> = FunctionDomain {
 pub struct DirectCall {
     room: Rc<Room>,
     input: DirectSample,
-    /// The surface that the ray hits. `None` if it hits nothing, which isn't asked.
+    /// The surface that the ray hits. `None` if it hits nothing, which isn't tested.
     surface: Option<Surface64>,
 }
 
@@ -263,8 +263,8 @@ const SURFACE: Aspect<DirectCall> = Aspect {
     class: |call| call.surface.as_ref().map(surface_class),
 };
 
-/// The cosine between the ray and the normal of a matte surface. Smaller ones aren't asked, because
-/// rounding moves such a hit along the surface.
+/// The cosine between the ray and the normal of a matte surface. Smaller cosines aren't tested,
+/// because rounding moves such a hit along the surface.
 const SIDE: Aspect<DirectCall> = Aspect {
     name: "cosine of the ray",
     classes: &["above 0.2", "above 0.05", "smaller"],

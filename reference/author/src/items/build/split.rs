@@ -93,10 +93,10 @@ const LARGE_END: Layout<'static> = Layout {
 
 pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
-    title: "a row of a few primitives is split in the best place",
+    title: "a short row of primitives is split at the best plane",
     look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
-           areas and the counts of its sides: does your code try this partition and compute this \
-           cost, and are these the two sides of your root?",
+           areas and the counts of its sides: does your code try this partition, does it compute \
+           this cost, and does it split the root this way?",
     look_fits: &[Symptom::of("SAH cost")],
     section: "building.md#which-partitions-to-try",
     tests: &["Use 8 or more buckets…"],

@@ -203,8 +203,8 @@ pub(super) const COLLINEAR: Declaration = Declaration {
 pub(super) const OUTLIER: Declaration = Declaration {
     id: "build.outlier",
     title: "one primitive far from the others does not ruin the tree",
-    look: "Most of the other primitives then end up in one bucket. The split still helps, because \
-        it puts them into a smaller node with its own buckets.",
+    look: "If one primitive is far away, most of the others end up in one bucket. The split still \
+           helps, because it puts them into a smaller node with its own buckets.",
     look_fits: &[Symptom::less("splits"), Symptom::of("leaf size")],
     section: "building.md#one-primitive-far-from-the-others",
     tests: &["Every primitive is…", "The box of a node…"],

@@ -95,7 +95,7 @@ pub(super) const OFFSET_AXES: Declaration = Declaration {
 
 pub(super) const LARGE_FILM: Declaration = Declaration {
     id: "camera.large_film",
-    title: "everything works together on a large film",
+    title: "rays on a large film point in the right direction",
     look: "The film has 3840 columns and 2160 rows. Work out one position by hand: pixel + offset, \
            divided by these numbers in floating point, gives two fractions between 0 and 1.",
     section: "camera.md#integer-division-gives-zero",

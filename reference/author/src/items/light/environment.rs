@@ -45,8 +45,8 @@ const UNIFORM: Declaration = Declaration {
     id: "environment.uniform",
     points: 4,
     title: "uniform directions are spread evenly over the whole sphere",
-    look: "Is a part of the sphere empty? Then check the ranges of the height and of φ. If not: \
-        which must be uniform, the polar angle or the height?",
+    look: "If part of the sphere is empty, check the ranges of the height and of φ. Otherwise, ask \
+           yourself which must be uniform: the polar angle or the height?",
     look_fits: &[Symptom::of(SPREAD)],
     section: "light/environment.md#directions-spread-evenly",
     tests: &[
@@ -75,10 +75,10 @@ const UNIFORM: Declaration = Declaration {
 const PICK: Declaration = Declaration {
     id: "environment.pick",
     points: 3,
-    title: "a pixel is picked by its share of the weights, row by row from the top",
+    title: "pixels are picked in proportion to their weight, row by row from the top",
     look: "Pass your direction and the correct one to `Environment::index`. If the pixels differ, \
-        add up the weights in order: which pixel does `choice` times the total fall on? If not, \
-        look at the position in the pixel and at the two angles.",
+           add up the weights in order: which pixel does `choice` times the total fall on? If they \
+           match, check the position in the pixel and the two angles.",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[
@@ -99,7 +99,7 @@ const PICK: Declaration = Declaration {
 const POSITION: Declaration = Declaration {
     id: "environment.position",
     points: 2,
-    title: "the two other random numbers are the position in the pixel, across and down",
+    title: "`random` is the position in the pixel, across and down",
     look: "Which corner of the pixel do the numbers (0, 0) lead to, and which corner do (1, 1) \
         lead to?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
@@ -124,7 +124,7 @@ const POSITION: Declaration = Declaration {
 const SINE: Declaration = Declaration {
     id: "environment.sine",
     points: 2,
-    title: "rows near the poles weigh less, by the sine in the middle of the row",
+    title: "a pixel's weight is multiplied by the sine of θ in the middle of its row",
     look: "Which angle do you take the sine of: the one at the row's edge, or the one in its \
         middle?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
@@ -149,7 +149,8 @@ const LUMINANCE: Declaration = Declaration {
     id: "environment.luminance",
     points: 1,
     title: "samples and densities weight a coloured pixel by its luminance",
-    look: "How much does a green pixel weigh in your code, compared with a blue one?",
+    look: "Compare the weights of a pure green and a pure blue pixel in your code: the green one \
+           has a much higher luminance.",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#the-weight-of-a-pixel",
     tests: &["A pixel's weight is its luminance, …"],
@@ -171,8 +172,9 @@ const LUMINANCE: Declaration = Declaration {
 const ENDS: Declaration = Declaration {
     id: "environment.ends",
     points: 2,
-    title: "every number picks a bright pixel, also the smallest and the largest",
-    look: "What does your search return if `choice` is 0, or if it is just below 1?",
+    title: "every number picks a bright pixel, even the smallest and the largest",
+    look: "What does your search return if `choice` is 0, or just below 1? In both cases, it must \
+           be a pixel with a positive weight.",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#black-pixels-are-never-picked",
     tests: &["`choice` picks the pixel: …"],
@@ -211,7 +213,8 @@ const BLACK: Declaration = Declaration {
     id: "environment.black",
     points: 2,
     title: "only pixels that aren't black are picked, and only they have a density",
-    look: "Which pixel does your search return if several pixels have the same sum?",
+    look: "A black pixel has the same cumulative sum as the pixel before it. Which of the two does \
+           your search return?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#black-pixels-are-never-picked",
     tests: &[
@@ -276,8 +279,8 @@ const SIZES: Declaration = Declaration {
     id: "environment.sizes",
     points: 1,
     title: "maps of any size are sampled, from two pixels to two hundred thousand",
-    look: "Do you mix up the width and the height? If only large maps or dim pixels fail: are all \
-        sums in `f64`?",
+    look: "Check whether you swap the width and the height anywhere. If only large maps or dim \
+           pixels fail, check that all sums are in `f64`.",
     look_fits: &[
         Symptom::of("direction"),
         Symptom::reversed("direction"),

@@ -113,7 +113,8 @@ const GRAZING: Declaration = Declaration {
     id: "lambertian.grazing",
     points: 1,
     title: "light that grazes the surface is scattered in proportion to its small cosine",
-    look: "Is there a smallest cosine in your code? A cosine of 0.001 isn't zero.",
+    look: "Do you treat small cosines as zero, or raise them to a minimum? A cosine of 0.001 is \
+           valid.",
     section: "light/materials.md#both-directions-must-be-above-the-surface",
     tests: &["The result is zero unless both directions are above the surface (z > 0)."],
     questions: |rng| {
@@ -145,7 +146,8 @@ const ATTENUATION: Declaration = Declaration {
     id: "lambertian.attenuation",
     points: 2,
     title: "every sample is attenuated by the albedo, even close to the horizon",
-    look: "Simplify `evaluate` divided by `pdf` on paper: what is left?",
+    look: "Divide `evaluate` by `pdf` on paper and simplify the result. Return that, so that \
+           nothing is divided by zero at the horizon.",
     section: "light/materials.md#the-attenuation-needs-no-division",
     tests: &[
         "`attenuation` is [`Lambertian::evaluate`] divided by [`Lambertian::pdf`], simplified so \

@@ -298,7 +298,7 @@ pub(super) fn path_case_along(
     })
 }
 
-/// Returns a room of another size at another place.
+/// Returns the room with a different size and position.
 pub(super) fn moved(room: &Room, factor: f64, shift: DVec3) -> Room {
     let quads = room.quads().iter().map(|quad| {
         let shape = quad.shape();

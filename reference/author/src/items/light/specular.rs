@@ -22,7 +22,7 @@ use crate::seed::Rng;
 
 /// The number of calls in each question.
 const CALLS: usize = 12;
-/// Smaller fractions are compared as if they had this size.
+/// The lower limit for comparisons: smaller fractions are compared as if they had this size.
 const SMALLEST_FRACTION: f64 = 0.01;
 
 /// The task `specular`.
@@ -73,7 +73,8 @@ const REFLECT_INSIDE: Declaration = Declaration {
     id: "specular.reflect_inside",
     points: 1,
     title: "a reflected direction stays on its side of the surface",
-    look: "What is the sign of z before and after, if the path is inside the glass?",
+    look: "If the path is inside the glass, what is the sign of z in `out`, and what is it in your \
+           result?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#the-mirror-keeps-the-side",
     tests: &[
@@ -91,7 +92,8 @@ const ENTERING: Declaration = Declaration {
     id: "specular.refract_entering",
     points: 2,
     title: "a path that enters a denser medium is bent toward the normal",
-    look: "Which side is `out` on, and which index does Snell's law divide by which?",
+    look: "Which side is `out` on, and which of the two indices is on that side? Work out one \
+           example with Snell's law.",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#the-refracted-direction",
     tests: &[
@@ -153,7 +155,8 @@ const HEAD_ON: Declaration = Declaration {
     id: "specular.refract_head_on",
     points: 1,
     title: "along the normal, light goes straight on",
-    look: "Do you divide by a sine or a length that is zero here?",
+    look: "Along the normal, the sine of the angle is zero. Do you divide by it, or by a length \
+           that is zero here?",
     look_fits: &[
         Symptom::of("direction"),
         Symptom::reversed("direction"),
@@ -179,8 +182,9 @@ const HEAD_ON: Declaration = Declaration {
 const LOW_INDEX: Declaration = Declaration {
     id: "specular.refract_low_index",
     points: 1,
-    title: "an index of 1 bends nothing, and one below 1 has total reflection outside",
-    look: "Is there anything in your code that is only right if `ior` is greater than 1?",
+    title: "an index of 1 bends nothing, and below 1, total reflection occurs outside",
+    look: "Does any step in your code assume that `ior` is greater than 1? It can also be 1 or \
+           less.",
     section: "light/glass.md#an-index-below-one",
     tests: &[
         "`ior` can be less than 1, in which case total reflection can occur outside.",
@@ -264,8 +268,9 @@ const FRESNEL_TOTAL: Declaration = Declaration {
 const FRESNEL_LOW_INDEX: Declaration = Declaration {
     id: "specular.fresnel_low_index",
     points: 1,
-    title: "an index of 1 reflects nothing, and one below 1 reflects like its inverse inside",
-    look: "Is there anything in your code that is only right if `ior` is greater than 1?",
+    title: "an index of 1 reflects nothing, and an index below 1 swaps outside and inside",
+    look: "Does any step in your code assume that `ior` is greater than 1? It can also be 1 or \
+           less.",
     section: "light/glass.md#an-index-below-one",
     tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
     questions: |rng| {
@@ -283,8 +288,8 @@ const FRESNEL_LOW_INDEX: Declaration = Declaration {
 const MIRROR: Declaration = Declaration {
     id: "specular.mirror",
     points: 2,
-    title: "a mirror's only direction is attenuated by its reflectance and has no density",
-    look: "Nothing is divided by a density here: what is left of the attenuation?",
+    title: "a mirror attenuates by its reflectance, and its only direction has no density",
+    look: "A mirror's only direction has no density to divide by: what is the attenuation then?",
     look_fits: &[Symptom::of("attenuation"), Symptom::of("pdf")],
     section: "light/glass.md#what-to-return",
     tests: &[
@@ -314,7 +319,7 @@ const MIRROR: Declaration = Declaration {
 const GLASS_CHOICE: Declaration = Declaration {
     id: "specular.glass_choice",
     points: 2,
-    title: "glass reflects if the random number is below the fraction and refracts otherwise",
+    title: "glass reflects if the random number is below `fresnel`, and refracts otherwise",
     look: "Which of the two directions do you choose if `random` is less than `fresnel`?",
     section: "light/glass.md#below-the-fraction-means-reflected",
     tests: &[
@@ -330,7 +335,8 @@ const GLASS_RADIANCE: Declaration = Declaration {
     id: "specular.glass_radiance",
     points: 2,
     title: "refraction scales radiance by the squared index ratio, and reflection doesn't",
-    look: "Which index is on the side of `out`, and which on the side that the light comes from?",
+    look: "Which index is on the side of `out`, and which is on the side that the light comes \
+           from?",
     section: "light/glass.md#the-ratio-of-indices-is-squared",
     tests: &[
         "If the path is reflected, `attenuation` is 1: the fraction of the light that is \
@@ -483,7 +489,7 @@ fn directions_that(
     (0..CALLS).map(direction).collect()
 }
 
-/// Returns a few such directions.
+/// Returns half as many directions as [`directions_that`].
 fn few(
     rng: &mut Rng,
     medium: Medium,
@@ -589,7 +595,7 @@ fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
     })
 }
 
-/// Returns a question in which each direction is asked twice: with a random number on each side of
+/// Returns a question in which each direction occurs twice: with a random number on each side of
 /// its reflected fraction.
 fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]) -> ExamQuestion {
     let ior = f64::from(medium.ior);

@@ -20,28 +20,31 @@ pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> O
     let leaves = tree.nodes.iter().filter(|node| node.is_leaf());
     let largest = leaves.map(|leaf| leaf.size as usize).max().unwrap_or(0);
     let (why, tested) = if tree.nodes.is_empty() {
-        let why = "build: no tree yet";
+        let why = "`Bvh::build` returns no tree yet";
         // The starter's `Bvh::hit` finds hits without a tree, but a correct traversal doesn't. If
         // this panics, rendering does too, and its message says why.
         if !finds(submission, shape, &[])? {
-            return Some(format!("note: task 3, {why}, so `Bvh::hit` finds nothing"));
+            return Some(format!("note: {why}, so `Bvh::hit` finds nothing"));
         }
         (why, format!("all {count}"))
     } else if !skips_missed_boxes(submission, shape) {
-        let why = "traverse: `Bvh::hit` doesn't use the boxes of the tree yet";
+        let why = "`Bvh::hit` doesn't use the boxes of the tree yet";
         (why, format!("all {count}"))
     } else if largest > LARGE_LEAF_FACTOR * scene.max_leaf_size {
-        ("build: a leaf is too large", largest.to_string())
+        (
+            "`Bvh::build` makes a leaf that is too large",
+            largest.to_string(),
+        )
     } else {
         return None;
     };
     let quick = if count > MANY_PRIMITIVES {
-        "; `--samples 4` is enough for a first look"
+        "; to see a picture sooner, use `--samples 4`"
     } else {
         ""
     };
     Some(format!(
-        "note: task 3, {why}, so each ray may test {tested} primitives{quick}"
+        "note: {why}, so each ray may test {tested} primitives{quick}"
     ))
 }
 
@@ -145,10 +148,10 @@ mod tests {
         starts(
             &CORRECT,
             &Tree::default(),
-            "note: task 3, build: no tree yet, so each ray",
+            "note: `Bvh::build` returns no tree yet, so each ray",
         );
         // This submission tests every primitive, regardless of the tree.
-        starts(&CORRECT, &leaf(1), "note: task 3, traverse: `Bvh::hit`");
+        starts(&CORRECT, &leaf(1), "note: `Bvh::hit` doesn't use");
         // If a primitive can't be tested at all, another message says so.
         let panicking = SphereSubmission {
             alter: |_| panic!("the sphere is hit"),
@@ -157,11 +160,11 @@ mod tests {
         starts(
             &panicking,
             &leaf(99),
-            "note: task 3, build: a leaf is too large",
+            "note: `Bvh::build` makes a leaf that is too large",
         );
         assert_eq!(note(&panicking, scene, &leaf(4)), None);
         assert_eq!(note(&panicking, scene, &Tree::default()), None);
-        let nothing = "note: task 3, build: no tree yet, so `Bvh::hit` finds nothing";
+        let nothing = "note: `Bvh::build` returns no tree yet, so `Bvh::hit` finds nothing";
         assert_eq!(
             note(&Traversal, scene, &Tree::default()).as_deref(),
             Some(nothing)

@@ -128,8 +128,8 @@ impl Function for Direct {
     }
 
     fn sentence(_: &Room) -> &'static str {
-        "{scene}; the surface that {ray} hits; random numbers: light {light}, on_light {on_light}, \
-         direct {direct}"
+        "{scene}; the surface that the {ray} hits; random numbers: light {light}, on_light \
+         {on_light}, direct {direct}"
     }
 
     fn question(table: Table<Self>) -> Question {

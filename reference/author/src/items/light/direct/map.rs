@@ -15,9 +15,9 @@ use crate::oracle::light::transport as oracle;
 pub(super) const MAP: Declaration = Declaration {
     id: "direct.map",
     points: 2,
-    title: "an environment map is found by both samples, also if there are lights",
-    look: "Which function of `World` knows the light pdf of every direction, no matter whether it \
-        leads to a light or to the environment?",
+    title: "both samples find an environment map, even if there are lights",
+    look: "An environment map has a light pdf too. Which method of `World` returns the light pdf \
+           of any direction, whether it leads to a light or to the map?",
     section: "light/direct.md#the-light-pdf-of-the-world",
     tests: &[
         "Each term uses both densities of its own direction, no matter which way that direction \

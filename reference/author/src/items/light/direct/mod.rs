@@ -46,8 +46,8 @@ const SMALL_LIGHT: Declaration = Declaration {
     id: "direct.small_light",
     points: 2,
     title: "sampling the light finds a small light where nothing is in the way",
-    look: "Which value of `evaluate`, which radiance and which densities do you use for a sample \
-        of the light?",
+    look: "The term of the light sample is evaluate × radiance / (light pdf + scattering pdf), all \
+           for the direction toward the light. Which of these values is wrong in your code?",
     section: "light/direct.md#two-ways-to-find-a-light",
     tests: &[
         "Estimates the direct light that a surface scatters back along the path, from one \
@@ -77,8 +77,9 @@ const SKY: Declaration = Declaration {
     id: "direct.sky",
     points: 1,
     title: "without lights, only the material's direction finds the uniform sky",
-    look: "Only the material's direction is left. Is it the one that `scatter` returns for \
-        `numbers.direct`, do you convert it to the world, and what do you divide by?",
+    look: "Without lights, only the material's direction remains. Is it the one that `scatter` \
+           returns for `numbers.direct`, do you convert it to world space, and what do you divide \
+           by?",
     section: "light/direct.md#an-even-sky-is-found-by-scattering",
     tests: &[
         "The second is the one that `Lambertian::scatter` returns for the random numbers \
@@ -142,7 +143,8 @@ const BLOCKED: Declaration = Declaration {
     id: "direct.blocked",
     points: 2,
     title: "light arrives from a direction only if nothing is in the way",
-    look: "Which function tells you whether anything is between the surface and the light?",
+    look: "Which method of `World` tells you whether anything is between the surface and the \
+           light?",
     section: "light/direct.md#something-in-the-way",
     tests: &[
         "It is zero if something is in the way: see [`World::emitted`].",
@@ -181,8 +183,9 @@ const BLOCKED: Declaration = Declaration {
 const TURNED: Declaration = Declaration {
     id: "direct.turned",
     points: 2,
-    title: "a tilted surface is lit in its own frame",
-    look: "Which of your directions are in the world, and which are in the surface's frame?",
+    title: "directions are converted to and from the frame of a tilted surface",
+    look: "Which of your directions are in world space, and which are in the surface's frame? \
+           Check where you convert one to the other.",
     section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
     tests: &["The result is the sum, over both directions, of evaluate × radiance / …"],
     questions: |rng| {
@@ -230,7 +233,8 @@ const NO_SAMPLE: Declaration = Declaration {
     id: "direct.no_sample",
     points: 1,
     title: "the material's direction is used with and without a direction toward a light",
-    look: "What do you do if `World::sample_light` returns `None`?",
+    look: "If `World::sample_light` returns `None`, only the first term is zero: do you still \
+           compute the second one?",
     section: "light/direct.md#without-a-light-sample",
     tests: &["If it returns `None`, the first term is zero."],
     questions: |rng| {
@@ -280,8 +284,8 @@ const OTHER_MATERIALS: Declaration = Declaration {
     id: "direct.other_materials",
     points: 1,
     title: "only matte surfaces look for direct light",
-    look: "If the correct result is 0: what do you return for a mirror, for glass and for a light? \
-        If it isn't, the surface is matte: check each factor of the formula.",
+    look: "If the correct result is 0, the surface may be a mirror, glass or a light: what do you \
+           return for these? Otherwise, it is matte: check each factor of the formula.",
     section: "light/direct.md#mirrors-look-for-no-light",
     tests: &[
         "Only matte surfaces look for direct light.",

@@ -76,7 +76,8 @@ const TRIANGLE: Declaration = Declaration {
     id: "lights.triangle",
     points: 1,
     title: "the density of directions to a triangle uses the triangle's own area",
-    look: "The given `area` is right for both shapes. Do you compute your own?",
+    look: "The given field `area` is right for both shapes, parallelograms and triangles. Do you \
+           use it, or do you compute the area yourself?",
     section: "light/lights.md#the-density-of-an-area-light",
     tests: &[
         "Returns the probability density, per solid angle, of a direction from a point to the \
@@ -94,8 +95,8 @@ const BEHIND: Declaration = Declaration {
     id: "lights.behind",
     points: 1,
     title: "a light's density is 0 from behind, and positive in front",
-    look: "Is the correct density 0? Then the point is behind the light: what is the sign of your \
-        cosine? If not, compare each factor of the formula with your code.",
+    look: "If the correct density is 0, the point is behind the light: what is the sign of your \
+           cosine? Otherwise, compare each factor of the formula with your code.",
     section: "light/lights.md#the-back-of-a-light-is-dark",
     tests: &["The result is zero if the direction misses the light, and from behind, …"],
     questions: |rng| {
@@ -113,8 +114,8 @@ const PAST: Declaration = Declaration {
     id: "lights.past",
     points: 1,
     title: "only a direction that hits the light has a density",
-    look: "Is the correct density 0? Then `intersect` finds nothing: what do you return? If not, \
-        compare each factor of the formula with your code.",
+    look: "If the correct density is 0, `intersect` finds nothing: what do you return then? \
+           Otherwise, compare each factor of the formula with your code.",
     section: "light/lights.md#past-the-light-there-is-no-density",
     tests: &[
         "The result is zero if the direction misses the light, and from behind, where the light \
@@ -135,7 +136,8 @@ const GRAZING: Declaration = Declaration {
     id: "lights.grazing",
     points: 1,
     title: "a light that is seen nearly edge-on has a high density",
-    look: "Is there a smallest cosine in your code?",
+    look: "The cosine can be very small, so the density can be very large. Do you raise small \
+           cosines to a minimum, or limit the density?",
     section: "light/lights.md#the-cosine-divides",
     tests: &[
         "Returns the probability density, per solid angle, of a direction from a point to the \
@@ -186,8 +188,9 @@ const DIRECTION: Declaration = Declaration {
 const PICK: Declaration = Declaration {
     id: "lights.pick",
     points: 2,
-    title: "each light is picked by its share of the power, in the order of the list",
-    look: "Add up the powers, one light after the other: in which light's part is `choice`?",
+    title: "lights are picked in proportion to their power, in the order of the list",
+    look: "Add up the shares of the power, one light after the other: which light's interval \
+           contains `choice`?",
     look_fits: &[Symptom::of("direction")],
     section: "light/lights.md#pick-a-light-by-its-power",
     tests: &[
@@ -333,7 +336,7 @@ const OVERLAP: Declaration = Declaration {
 struct View {
     /// The range of the cosine at the light.
     cosine: [f64; 2],
-    /// Positive from the front and negative from the back.
+    /// The sign of the cosine: 1 in front of the light and -1 behind it.
     sign: f64,
     /// The range of the distance, as a multiple of the light's first edge.
     distance: [f64; 2],
@@ -351,7 +354,7 @@ const CLOSE: View = View {
     distance: [0.005, 0.03],
     ..FRONT
 };
-/// From so far away, the light is small compared with the coordinates.
+/// A view from so far away that the light is small compared with the coordinates.
 const FAR: View = View {
     distance: [300.0, 3000.0],
     margin: 2e-5,
@@ -377,7 +380,7 @@ const VERY_EDGE_ON_BACK: View = View {
     sign: -1.0,
     ..VERY_EDGE_ON
 };
-/// For lights that are parallel to two axes.
+/// A view of a light that is parallel to two axes, from almost within its plane.
 const ALMOST_IN_ITS_PLANE: View = View {
     cosine: [2e-4, 9e-4],
     sign: 1.0,
@@ -459,7 +462,7 @@ fn several(rng: &mut Rng, count: usize, size: f64) -> Vec<FlatLight64> {
     lights
 }
 
-/// Returns a copy of a light that is moved and has another radiance.
+/// Returns a copy of a light with a different position and radiance.
 fn shifted(rng: &mut Rng, light: &FlatLight64, offset: DVec3) -> FlatLight64 {
     FlatLight64 {
         shape: FlatShape {
@@ -631,7 +634,8 @@ fn turned(call: &Toward) -> Toward {
 
 /// Returns the calls whose directions aren't close to the edge of any light.
 fn clear(lights: &[FlatLight64], calls: Vec<Toward>) -> Vec<Toward> {
-    /// Rounding moves a direction by about a thousandth of this.
+    /// The smallest distance between a direction and an edge. Rounding moves a direction by about a
+    /// thousandth of this.
     const CLEAR: f64 = 5e-4;
     // Lights without power have edges, too.
     let bright = lights.iter().map(|light| FlatLight64 {

@@ -23,9 +23,9 @@ const FROM_INSIDE: usize = 4;
 
 pub(super) const SAMPLES: Declaration = Declaration {
     id: "lights.sphere_samples",
-    title: "a sphere that is picked from the list samples its own direction",
-    look: "Which function samples a direction if the light that was picked is a sphere? And does \
-        a sphere take part in the choice?",
+    title: "if a sphere is picked, the direction is sampled toward that sphere",
+    look: "Which function samples a direction if the light that was picked is a sphere? And can \
+           your code pick a sphere in the first place?",
     section: "light/lights.md#what-to-return",
     tests: &[
         "`choice` picks the light: a light's share of `[0, 1)` is its share of the power, in the \

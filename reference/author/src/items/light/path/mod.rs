@@ -57,7 +57,8 @@ const SEEN: Declaration = Declaration {
     id: "path.seen",
     points: 1,
     title: "with 0 bounces, the ray sees only emitted light or the environment",
-    look: "What do you add for the first surface, and what if the ray hits nothing?",
+    look: "What do you add if the ray hits a light, and what if it hits nothing? With 0 bounces, \
+           nothing else is added.",
     section: "light/paths.md#the-first-surface-can-be-a-light",
     tests: &[
         "Estimates the radiance that arrives at the origin of a ray, by following one path.",
@@ -96,8 +97,8 @@ const ONE_BOUNCE: Declaration = Declaration {
     id: "path.one_bounce",
     points: 1,
     title: "with 1 bounce, the path is scattered at most once and adds direct light there",
-    look: "Write down what your loop adds at the first surface, and what at the second. Which term \
-        is missing or too much, or has the wrong factor?",
+    look: "Write down what your loop adds at the first surface, and what it adds at the second. Is \
+           a term missing, counted twice, or multiplied by the wrong factor?",
     section: "light/paths.md#what-to-return",
     tests: &[
         "With 1 bounce, direct light is added.",
@@ -121,9 +122,10 @@ const ONE_BOUNCE: Declaration = Declaration {
 const BOUNCES: Declaration = Declaration {
     id: "path.bounces",
     points: 2,
-    title: "a path is scattered as often as `bounces` and the roulette allow",
-    look: "If the question shown has more than 3 bounces, those with fewer are right: look at the \
-        roulette. If not, write down what your code adds at each surface, and each factor.",
+    title: "a path is scattered as often as `bounces` and Russian roulette allow",
+    look: "If the question shown has more than 3 bounces, your code is right with fewer: look at \
+           Russian roulette. Otherwise, write down what your code adds at each surface, and each \
+           factor.",
     section: "light/paths.md#what-to-return",
     tests: &["The path is scattered at most `bounces` times."],
     questions: |rng| {
@@ -257,7 +259,8 @@ const MIRROR: Declaration = Declaration {
     id: "path.mirror",
     points: 2,
     title: "mirrors show the lights and the sky, and a light is black from behind",
-    look: "After a mirror, `direct` has counted nothing yet. Which `pdf` tells you so?",
+    look: "At a mirror, `direct` returns zero, so the light that the path hits next must be \
+           counted. Which value of `pdf` tells you that?",
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \
@@ -330,8 +333,8 @@ const GLASS: Declaration = Declaration {
     id: "path.glass",
     points: 1,
     title: "glass shows what is behind it and inside it",
-    look: "Glass has no density either. Does the path continue on the side that it is scattered \
-           to?",
+    look: "Like a mirror, glass has no density. Does the path continue on the side that it is \
+           scattered to?",
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \
@@ -392,7 +395,7 @@ const ROULETTE: Declaration = Declaration {
     id: "path.roulette",
     points: 2,
     title: "from the fourth surface on, a path survives with probability q",
-    look: "At which bounce does your roulette begin, and what is compared with `survive`?",
+    look: "At which bounce does your roulette begin, and what do you compare `survive` with?",
     section: "light/paths.md#roulette-begins-at-bounce-three",
     tests: &["This is Russian roulette: see PBR, section 2.2.4."],
     questions: |rng| {
@@ -436,7 +439,8 @@ const SURVIVORS: Declaration = Declaration {
     id: "path.survivors",
     points: 2,
     title: "a survivor's throughput is divided by q, which is at least 0.05 and at most 0.95",
-    look: "What is q in a white room, and in a dark one? And what do you divide by?",
+    look: "Work out q in a white room and in a dark one: is it limited to the range from 0.05 to \
+           0.95? And do you divide a survivor's throughput by it?",
     section: "light/paths.md#survivors-carry-more",
     tests: &[
         "Here, q is the largest channel of the throughput after this bounce's attenuation, but at \
@@ -468,8 +472,9 @@ const SURVIVORS: Declaration = Declaration {
 const SIZES: Declaration = Declaration {
     id: "path.sizes",
     points: 1,
-    title: "a path continues from its surface in a small room and in a very large one",
-    look: "Where does your next ray start? `Surface::leave` knows how far rounding can move a point.",
+    title: "a path doesn't hit the surface that it leaves, in a room of any size",
+    look: "Where does your next ray start? Use `Surface::leave`, which takes into account how far \
+           rounding can move a point.",
     section: "light/paths.md#leave-the-surface",
     tests: &[
         "At each bounce, the path adds [`direct`] light and continues in the direction that …",
@@ -534,9 +539,10 @@ fn is_glass(surface: &Surface64) -> bool {
 /// Returns whether the radiance hardly changes if the ray starts slightly beside its origin. In
 /// long paths, rounding errors can grow at each bounce.
 fn is_stable(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3) -> bool {
-    /// Rounding to single precision moves a point by about 1e-7, relative to its coordinates.
+    /// The distance by which the origin is moved, relative to its coordinates. Rounding to single
+    /// precision moves a point by about 1e-7.
     const SHIFT: f64 = 3e-6;
-    /// Half the tolerance.
+    /// The largest relative change in the radiance: half the tolerance.
     const CHANGE: f64 = 5e-4;
     let (center, half) = room.extent();
     let shift = SHIFT * (center.length() + half.max_element());
@@ -550,7 +556,7 @@ fn is_stable(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3) -> b
     })
 }
 
-/// Returns the radiance along a ray if its path is scattered at most once less.
+/// Returns the radiance along a ray with the maximum number of bounces reduced by one.
 fn without_the_last(room: &Room, ray: &Ray64, numbers: &[Numbers64]) -> DVec3 {
     oracle::radiance(room, ray, &numbers[..numbers.len() - 1]).value
 }
@@ -570,7 +576,7 @@ fn decides(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3, surviv
     light == expected && is_lit(alive) && is_visible
 }
 
-/// Returns a room without a ceiling, with lights of which the back is seen, too.
+/// Returns a room without a ceiling, with lights that are also seen from behind.
 fn bright(rng: &mut Rng, environment: Environment64) -> Room {
     let mut quads: Vec<Quad> = walls(HALF, || matte(rng));
     quads.remove(3);
@@ -592,7 +598,7 @@ fn closed(rng: &mut Rng) -> Room {
     })
 }
 
-/// Returns a closed room with bright walls, of which two are mirrors, a glass block and one light.
+/// Returns a closed room with bright walls (two of them mirrors), a glass block and one light.
 fn shiny(rng: &mut Rng) -> Room {
     let mut walls = Vec::new();
     for index in 0..6 {
@@ -615,7 +621,7 @@ fn shiny(rng: &mut Rng) -> Room {
     Room::new(quads, DARK)
 }
 
-/// Returns a closed room with mirrors, a glass block and lights of which the back is seen, too.
+/// Returns a closed room with mirrors, a glass block and lights that are also seen from behind.
 fn with_backs_of_lights(rng: &mut Rng) -> Room {
     let mut quads = shiny(rng).quads().to_vec();
     for (axis, facing) in [(0, 1.0), (2, -1.0)] {

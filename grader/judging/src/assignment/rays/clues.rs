@@ -131,27 +131,27 @@ pub(super) const SPHERE: TaskClues = TaskClues {
             clue: "The ray hits the sphere, but your code returns a miss. Work out the discriminant and \
                 both roots by hand for the ray shown, and compare them with the values in your code. At \
                 least one root is in ray.range: what does your code do with it?",
-            section: "sphere.md#check-each-root-by-itself",
+            section: "sphere.md#check-each-root-separately",
         },
         SymptomClue {
             symptoms: &[Symptom::HIT],
             clue: "The ray misses the sphere, but your code returns a hit: there are no real roots, \
                 or neither root is in ray.range. Work out the discriminant and the roots for the ray shown: \
                 which comparison should have rejected the hit?",
-            section: "sphere.md#check-each-root-by-itself",
+            section: "sphere.md#check-each-root-separately",
         },
         SymptomClue {
             symptoms: &[Symptom::less("distance")],
             clue: "The distance is the smallest root in ray.range. Work out both roots for the \
                      ray shown: is your distance one of them, and is it in the range?",
-            section: "sphere.md#check-each-root-by-itself",
+            section: "sphere.md#check-each-root-separately",
         },
         SymptomClue {
             symptoms: &[Symptom::of("distance")],
             clue: "The distance is the smallest root in ray.range. Work out both roots for the ray \
                      shown: is your distance one of them, and is the other root smaller and also \
                      in the range?",
-            section: "sphere.md#check-each-root-by-itself",
+            section: "sphere.md#check-each-root-separately",
         },
         SymptomClue {
             symptoms: &[Symptom::of("length of the normal")],

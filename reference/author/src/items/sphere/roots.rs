@@ -119,7 +119,7 @@ pub(super) const RANGE_MAX: Declaration = Declaration {
     look: "Compare each root separately with both ends of ray.range. The ray can end before the \
            sphere, inside it or beyond it: which of the two roots are in the range of the ray \
            shown?",
-    section: "sphere.md#check-each-root-by-itself",
+    section: "sphere.md#check-each-root-separately",
     tests: &["`ray.range` includes both…"],
     questions: |rng| {
         questions(rng, &["distance"], EVERY_SIZE, |line| {
@@ -134,7 +134,7 @@ pub(super) const RANGE_WITHIN: Declaration = Declaration {
     title: "a ray misses if neither root is in its range, and hits otherwise",
     look: "Between the roots, the ray is inside the sphere and hits nothing. Beyond both, it has \
         left the sphere. A root is a hit if and only if it is in ray.range, even if it is tiny.",
-    section: "sphere.md#check-each-root-by-itself",
+    section: "sphere.md#check-each-root-separately",
     tests: &["`ray.range` includes both…"],
     questions: |rng| {
         questions(rng, &["distance"], EVERY_SIZE, |line| {

@@ -286,7 +286,7 @@ const OTHER_MATERIALS: Declaration = Declaration {
     title: "only matte surfaces look for direct light",
     look: "If the correct result is 0, the surface may be a mirror, glass or a light: what do you \
            return for these? Otherwise, it is matte: check each factor of the formula.",
-    section: "light/direct.md#mirrors-look-for-no-light",
+    section: "light/direct.md#no-light-sample-at-mirrors-and-glass",
     tests: &[
         "Only matte surfaces look for direct light.",
         "The result is zero for all others, because a direction toward a light is never exactly \

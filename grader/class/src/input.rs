@@ -12,7 +12,7 @@ use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::file_tree::{Node, hidden_names, list_folder};
+use crate::file_tree::{Node, list_folder};
 use crate::layout::{self, LayoutChoice, METADATA, RecognisedClass, UnmatchedPath};
 use crate::outcome::EntryOutcome;
 use crate::roster::Member;
@@ -81,10 +81,8 @@ impl Input {
             reject_incomplete(&mut class, &folder, unpacked.incomplete);
             unpacked.build_dir
         });
-        for name in hidden_names(&root.path).map_err(Error::user)? {
-            let why = "its name begins with a dot, so it is hidden";
-            class.unmatched.push(UnmatchedPath::new(name, why));
-        }
+        let hidden = layout::hidden_paths(&root.path).map_err(Error::user)?;
+        class.unmatched.extend(hidden);
         let of_several = if class.entries.is_empty() {
             layout::side_by_side(&root, handed_out)
         } else {

@@ -15,8 +15,9 @@ mod template;
 mod times;
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use grader::files::PathError;
 use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
@@ -30,14 +31,13 @@ use self::reader::Reader;
 use self::records::{SAKAI_MEMBERS, SAKAI_TIME};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::file_tree::{Node, names_inside};
+use crate::file_tree::{Node, hidden_names, names_inside};
 use crate::roster::Member;
 
 pub use crate::layout_kind::{Layout, LayoutChoice};
 pub use class_folder::find_class_folder;
 pub use gradescope::METADATA;
 pub use mixture::side_by_side;
-pub use names::strip_archive_extension;
 
 /// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -90,6 +90,13 @@ impl Layout {
     pub fn has_name(self, name: &str) -> bool {
         is_name(Platform::of(self), name)
     }
+}
+
+/// Returns the hidden files and folders in a folder. They don't belong to any submission.
+pub fn hidden_paths(folder: &Path) -> Result<Vec<UnmatchedPath>, PathError> {
+    let why = "its name begins with a dot, so it is hidden";
+    let names = hidden_names(folder)?.into_iter();
+    Ok(names.map(|name| UnmatchedPath::new(name, why)).collect())
 }
 
 /// Returns whether a platform writes a file with this name into a submission's folder.

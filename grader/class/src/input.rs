@@ -7,7 +7,7 @@ use std::path::Path;
 use grader::build::build_dir::{BuildDir, remove_abandoned};
 use grader::files::{self, AtPath};
 use grader::handed_out::HandedOut;
-use grader::submission::{Submission, SubmissionError, listed};
+use grader::submission::{Submission, SubmissionError, listed, strip_archive_extension};
 use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::entry::{Entry, Source};
@@ -57,15 +57,17 @@ impl Input {
             Some(unpacked) => unpacked.build_dir.path().join(CLASS_FOLDER),
             None => path.canonicalize().at("read", path).map_err(Error::user)?,
         };
-        let listed = list_folder(&folder).map_err(Error::user)?;
+        let mut listed = list_folder(&folder).map_err(Error::user)?;
         let archive = path.file_name().map(|name| name.to_string_lossy());
         let archive = archive.as_deref().filter(|_| unpacked.is_some());
+        if let Some(archive) = archive {
+            // If the files at the top of the archive are the class, nothing else names the class.
+            strip_archive_extension(archive).clone_into(&mut listed.name);
+        }
         let (root, note) = match (choice.layout, listed.children()) {
             // If the only folder isn't named like a submission in the chosen layout, it contains
             // the class.
-            (Some(layout), [only]) if only.is_folder() && !layout.has_name(&only.name) => {
-                (only, None)
-            }
+            (Some(layout), [only]) if layout.may_contain_class(only) => (only, None),
             _ => layout::find_class_folder(&listed, archive),
         };
         let root = root.clone();

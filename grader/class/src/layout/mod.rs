@@ -86,9 +86,13 @@ impl Layout {
         Some(list.path.clone())
     }
 
-    /// Returns whether a file or folder with this name fits this layout.
-    pub fn has_name(self, name: &str) -> bool {
-        is_name(Platform::of(self), name)
+    /// Returns whether a folder can't be a submission in this layout, so that it must contain the
+    /// class if it is the only folder. Any name can be the name of a clone.
+    pub fn may_contain_class(self, folder: &Node) -> bool {
+        let has_clones = || !is_repository(folder) && folder.children().iter().any(is_repository);
+        let is_submission =
+            is_name(Platform::of(self), &folder.name) && !(self == Layout::GitHub && has_clones());
+        folder.is_folder() && !is_submission
     }
 }
 
@@ -218,7 +222,13 @@ fn is_github_classroom(root: &Node) -> bool {
     let folders = || root.children().iter().filter(is_clone);
     let names: Vec<&str> = folders().map(|node| node.name.as_str()).collect();
     let has_results = || folders().all(|node| node.find(CLASSROOM50_RESULT).is_some());
-    root.name.ends_with(SUBMISSIONS_SUFFIX)
+    let title = root.name.strip_suffix(SUBMISSIONS_SUFFIX);
+    let title = title.unwrap_or_default();
+    let is_of_title = |name: &&str| {
+        let rest = name.strip_prefix(title);
+        rest.is_some_and(|account| account.starts_with('-'))
+    };
+    (!title.is_empty() && names.iter().any(is_of_title))
         || root.find(CLASSROOM50_SCORES).is_some()
         // A student can add this file but cannot give all folder names a common prefix.
         || (!common_prefix(&names, '-').is_empty() && has_results())

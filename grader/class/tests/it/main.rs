@@ -2,6 +2,7 @@
 
 mod anonymous;
 mod characters;
+mod clones;
 mod every_oddity;
 mod faulty_submissions;
 mod gradebooks;

@@ -1,6 +1,7 @@
 //! Tests the `class` binary with classes like those that platforms export.
 
 mod anonymous;
+mod attempts;
 mod characters;
 mod clones;
 mod every_oddity;

@@ -32,6 +32,7 @@ use self::records::{SAKAI_MEMBERS, SAKAI_TIME};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
 use crate::file_tree::{Node, hidden_names, names_inside};
+use crate::names::unique_name;
 use crate::roster::Member;
 
 pub use crate::layout_kind::{Layout, LayoutChoice};
@@ -261,20 +262,8 @@ fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();
     for entry in entries {
         let id: String = entry.id.nfc().collect();
-        entry.id = unique_name(&safe_folder_name(&id), &mut used);
+        entry.id = unique_name(&safe_folder_name(&id), "", &mut used);
     }
-}
-
-/// Returns the name, with a number appended if it is taken. Adds the result to `used`, in lower
-/// case.
-pub fn unique_name(wanted: &str, used: &mut BTreeSet<String>) -> String {
-    let mut name = wanted.to_owned();
-    let mut number = 2;
-    while !used.insert(name.to_lowercase()) {
-        name = format!("{wanted}-{number}");
-        number += 1;
-    }
-    name
 }
 
 /// The entries found in a folder, the paths that don't belong to any entry, and sentences about how

@@ -6,6 +6,8 @@ use std::io::{self, Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{DateTime, ZipWriter};
 
+use crate::names::unique_name;
+
 /// An archive that is being written in memory.
 pub struct ArchiveWriter {
     writer: ZipWriter<Cursor<Vec<u8>>>,
@@ -27,11 +29,8 @@ impl ArchiveWriter {
     /// Adds a file. If the name is taken, a number is appended to its stem. The file gets no
     /// modification time, so that the archive depends only on the files' contents.
     pub fn add(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
-        let numbered = (2..).map(|number| format!("{stem}-{number}.{end}"));
-        let mut names = std::iter::once(name.to_owned()).chain(numbered);
-        let free = names.find(|name| self.used.insert(name.to_lowercase()));
-        let free = free.expect("there are enough numbers");
+        let (stem, end) = name.split_at(name.rfind('.').unwrap_or(name.len()));
+        let free = unique_name(stem, end, &mut self.used);
         let options = SimpleFileOptions::default().last_modified_time(DateTime::default());
         self.writer.start_file(free, options)?;
         self.writer.write_all(bytes)

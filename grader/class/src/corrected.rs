@@ -5,13 +5,15 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use grader::handed_out::HandedOut;
+use grader::submission::{copied_names, strip_archive_extension};
 use judging::sanitize::sanitize_line;
 
-use crate::entry::{Entry, Person};
+use crate::entry::{Entry, EntryInfo, Person};
 use crate::error::Error;
 use crate::file_tree::list_folder;
-use crate::identity::find_submission;
-use crate::layout::{Layout, LayoutChoice, RecognisedClass, recognise, strip_archive_extension};
+use crate::identity::{find_submission, matching_submissions};
+use crate::layout::{Layout, LayoutChoice, RecognisedClass, hidden_paths, recognise};
+use crate::names::joined;
 use crate::paths::contains;
 use crate::store::Store;
 
@@ -45,21 +47,8 @@ pub fn replace_files(
     let mut used: BTreeMap<usize, String> = BTreeMap::new();
     for Entry { info, source, .. } in corrected.entries {
         let path = sanitize_line(&info.from, MAX_CHARS);
-        let all = class.entries.iter();
-        let all = all.map(|entry| (entry.id.as_str(), &entry.info));
-        let who = info.display_names();
-        // The original may be an archive that has been unpacked, or one of several files.
-        let is_named = |name: &str| name == info.from || strip_archive_extension(name) == who;
-        let is_named_path = |path: &Path| path.file_name()?.to_str().map(is_named);
-        let by_file = || {
-            class.entries.iter().position(|Entry { info, source, .. }| {
-                let mut paths = source.paths().into_iter();
-                is_named(&info.from) || paths.any(|path| is_named_path(path) == Some(true))
-            })
-        };
-        let index = find_submission(&who, &all.collect::<Vec<_>>(), &counts)
-            .or_else(|why| by_file().ok_or(why))
-            .map_err(|why| Error::user(format!("{shown}: {path}: {why}")))?;
+        let refused = |why| Error::user(format!("{shown}: {path}: {why}"));
+        let index = find_original(&class.entries, &info, &counts).map_err(refused)?;
         let entry = &mut class.entries[index];
         if let Some(other) = used.insert(index, path.clone()) {
             return Err(Error::user(format!(
@@ -72,11 +61,55 @@ pub fn replace_files(
         entry.info.is_corrected = true;
         entry.info.needs_staff = false;
     }
-    for mut file in corrected.unmatched {
+    let hidden = hidden_paths(folder).map_err(Error::user)?;
+    for mut file in corrected.unmatched.into_iter().chain(hidden) {
         file.name = format!("{shown}/{}", file.name);
         class.unmatched.push(file);
     }
     Ok(())
+}
+
+/// Returns the index of the submission that a corrected hand-in is for. Its name may also be that of
+/// a second download.
+fn find_original(
+    entries: &[Entry],
+    corrected: &EntryInfo,
+    counts: impl Fn(&str, &Person) -> bool,
+) -> Result<usize, String> {
+    let who = corrected.display_names();
+    // The original may be an archive that has been unpacked, or one of several files.
+    let by_file = |who: &str| {
+        let is_named = |name: &str| name == corrected.from || strip_archive_extension(name) == who;
+        let is_named_path = |path: &Path| path.file_name()?.to_str().map(is_named);
+        entries.iter().position(|Entry { info, source, .. }| {
+            let mut paths = source.paths().into_iter();
+            is_named(&info.from) || paths.any(|path| is_named_path(path) == Some(true))
+        })
+    };
+    if let Some(index) = by_file(&who) {
+        return Ok(index);
+    }
+    let all = entries.iter().map(|entry| (entry.id.as_str(), &entry.info));
+    let all = Vec::from_iter(all);
+    let mut names = copied_names(&who).into_iter().map(strip_archive_extension);
+    let of_name = |name: &str| match by_file(name) {
+        Some(index) => vec![index],
+        None => matching_submissions(name, &all, &counts),
+    };
+    let own = matching_submissions(&who, &all, &counts);
+    match names.find_map(|name| Some((name, of_name(name))).filter(|(_, of)| !of.is_empty())) {
+        Some((_, copied)) if !own.is_empty() && own != copied => {
+            let readings = own.iter().chain(&copied).map(|index| &all[*index].1.from);
+            Err(format!(
+                "it could be for {}, since {who:?} is also the name of a second download: rename \
+                 it to one of these names, or to the student's email address or account",
+                joined(readings, " or ")
+            ))
+        }
+        Some((_, copied)) if copied.len() == 1 => Ok(copied[0]),
+        Some((name, _)) if own.is_empty() => find_submission(name, &all, &counts),
+        _ => find_submission(&who, &all, &counts),
+    }
 }
 
 /// Rejects a run without corrected hand-ins if the last run had some. Otherwise, those submissions

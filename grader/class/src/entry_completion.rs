@@ -1,9 +1,10 @@
 //! Completes a class's entries from the roster and the platforms' gradebooks.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use grader::handed_out::HandedOut;
 use grader::policy::Policy;
+use grader::submission::copied_names;
 use judging::sanitize::sanitize_line;
 
 use crate::cli::Lists;
@@ -13,7 +14,7 @@ use crate::groups;
 use crate::late::warn_about_extensions;
 use crate::list_kind::ListKind;
 use crate::manual_points::ManualPointsList;
-use crate::names::joined;
+use crate::names::{are_equal, fold_name, joined};
 use crate::roster::{self, Member};
 
 /// The maximum length of a name in a message, in characters.
@@ -51,18 +52,22 @@ pub fn complete_entries(
         let people = entries.iter_mut().flat_map(|info| &mut info.people);
         people.for_each(|person| person.status.clear());
     }
+    let names = Vec::from_iter(entries.iter().map(|info| only_name(info)));
     fill_in(&rows, entries);
     let has_teams = groups::resolve_teams(&rows, entries);
     if groups::add_group_members(&rows, entries) || has_teams {
         fill_in(&rows, entries);
     }
+    let similar = resolve_copies(&names, entries);
     for info in entries.iter_mut() {
         groups::remove_repetitions(&mut info.people);
     }
     roster::set_submission_times(&rows, entries);
-    for info in entries.iter_mut() {
+    for (info, others) in entries.iter_mut().zip(similar) {
         let shared_team = groups::shared_team(&rows, info);
-        info.unclear_person = shared_team.or_else(|| shared_name(&rows, info));
+        let shared_name = || shared_name(&rows, info);
+        let unclear = shared_team.or_else(shared_name);
+        info.unclear_person = unclear.or_else(|| similar_name(info, &others));
         info.is_unlisted = info.unclear_person.is_none() && !is_listed(&rows, info);
     }
     let people: Vec<&Person> = entries.iter().flat_map(|info| &info.people).collect();
@@ -166,6 +171,69 @@ fn shared_name(rows: &[Member], info: &EntryInfo) -> Option<String> {
             info.from,
             person.display_name(),
             joined(namesakes, ", ")
+        )
+    })
+}
+
+/// Returns the name or account of an entry's only person if nothing else is known about the person.
+fn only_name(info: &EntryInfo) -> Option<String> {
+    let [person] = info.people.as_slice() else {
+        return None;
+    };
+    let is_only = person.number.is_empty() && person.identifiers().count() == 1;
+    is_only.then(|| person.display_name().to_owned())
+}
+
+/// Finds entries whose names may stand for the same person, such as `Ann Lee`, `Ann_Lee` and
+/// `Ann Lee (2)`. If only the original name is on a list, all of them are attempts by the same
+/// people. Otherwise, that is unclear. Returns the other names that each entry could have. `names`
+/// contains each entry's [`only_name`].
+fn resolve_copies(
+    names: &[Option<String>],
+    entries: &mut [&mut EntryInfo],
+) -> Vec<BTreeSet<String>> {
+    let is_known =
+        |info: &EntryInfo| info.team.is_some() || info.people.iter().any(|person| person.is_listed);
+    let known = Vec::from_iter(entries.iter().map(|info| is_known(info)));
+    let mut by_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (index, name) in names.iter().enumerate() {
+        let folded = name.as_deref().map(fold_name).unwrap_or_default();
+        by_name.entry(folded).or_default().push(index);
+    }
+    let mut unclear = vec![BTreeSet::new(); names.len()];
+    for (index, name) in names.iter().enumerate().filter(|(index, _)| !known[*index]) {
+        let Some(name) = name else { continue };
+        let originals = copied_names(name).into_iter().chain([name.as_str()]);
+        let originals = originals.filter_map(|own| by_name.get(&fold_name(own)));
+        // Submissions with the same name are attempts by one person.
+        let is_other = |own: &String| !are_equal(own, name);
+        let originals = originals.flatten().copied();
+        let originals = originals.filter(|other| names[*other].as_ref().is_some_and(is_other));
+        let (listed, others): (Vec<usize>, Vec<usize>) = originals.partition(|other| known[*other]);
+        let is_same = |other: &usize| entries[*other].people == entries[listed[0]].people;
+        if !listed.is_empty() && listed.iter().all(is_same) {
+            let original = &entries[listed[0]];
+            let (people, team) = (original.people.clone(), original.team.clone());
+            (entries[index].people, entries[index].team) = (people, team);
+            continue;
+        }
+        for other in listed.into_iter().chain(others) {
+            unclear[index].insert(entries[other].from.clone());
+            unclear[other].insert(entries[index].from.clone());
+        }
+    }
+    unclear
+}
+
+/// Returns a sentence about an entry whose name may stand for the same person as those of others.
+fn similar_name(info: &EntryInfo, others: &BTreeSet<String>) -> Option<String> {
+    (!others.is_empty()).then(|| {
+        format!(
+            "{}: this may be another submission by the person who handed in {}, or one by somebody \
+             else with a similar name: if it is the same person, remove all but one; otherwise, \
+             pass a list that contains each person's name or account, e.g. with --roster",
+            info.from,
+            joined(others, " and ")
         )
     })
 }

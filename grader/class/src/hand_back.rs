@@ -16,8 +16,7 @@ use crate::archive::ArchiveWriter;
 use crate::entry::{NUMBER, Person, WHO};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
-use crate::layout::unique_name;
-use crate::names::joined;
+use crate::names::{joined, unique_name};
 use crate::store::Store;
 
 /// The name of the archive in the output folder.
@@ -77,7 +76,7 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
             if row.has_private_texts() {
                 left_out.push(format!("{names}: {ONE_PAGE}"));
                 for (person, grade) in ready {
-                    let who = unique_name(&class.file_name(person), &mut used);
+                    let who = unique_name(&class.file_name(person), "", &mut used);
                     let own = with_counted(&page, &own_texts(row, person, grade));
                     store.write(format!("{FOLDER}/{who}_{PAGE}"), own)?;
                 }

@@ -10,8 +10,7 @@ use crate::entry::Person;
 use crate::error::Error;
 use crate::graded_class::GradedClass;
 use crate::identity::{Attempt, attempts_by_person};
-use crate::layout::unique_name;
-use crate::names::joined;
+use crate::names::{joined, unique_name};
 use crate::outcome::EntryOutcome;
 use crate::store::Store;
 
@@ -57,7 +56,7 @@ pub fn write_messages(
         let reasons: Option<Vec<String>> = attempts.iter().map(reason).collect();
         if let (Some(reasons), [(row, index), ..]) = (reasons, attempts.as_slice()) {
             let person = &class.rows[*row].result.info.people[*index];
-            let name = unique_name(&class.file_name(person), &mut used);
+            let name = unique_name(&class.file_name(person), "", &mut used);
             let text = render(person, &reasons, handed_out);
             store.write(format!("{FOLDER}/{name}.txt"), text)?;
             messages.push(attempts.iter().map(|(row, _)| *row).collect());

@@ -25,18 +25,18 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
     groups.into_values().collect()
 }
 
-/// Returns the index of the submission that `who` refers to: by the submission's id, by its file or
-/// folder, or by the name or an identifier of somebody who handed it in. If somebody has several
-/// submissions, `counts` returns whether the one with this id counts for them. `all` contains each
-/// submission's id and information.
-pub fn find_submission(
+/// Returns the indices of the submissions that `who` could refer to: by the submission's id, by its
+/// file or folder, or by the name or an identifier of somebody who handed it in. If somebody has
+/// several submissions, `counts` returns whether the one with this id counts for them. `all`
+/// contains each submission's id and information.
+pub fn matching_submissions(
     who: &str,
     all: &[(&str, &EntryInfo)],
     counts: impl Fn(&str, &Person) -> bool,
-) -> Result<usize, String> {
+) -> Vec<usize> {
     let by_id = all.iter().position(|(id, _)| are_equal(id, who));
     if let Some(index) = by_id.or_else(|| all.iter().position(|(_, info)| info.from == who)) {
-        return Ok(index);
+        return vec![index];
     }
     let is_theirs =
         |_: &EntryInfo, own: &Person| own.identifiers().any(|name| are_equal(name, who));
@@ -56,11 +56,22 @@ pub fn find_submission(
         let is_known = is_one_person && counting.len() == 1;
         Vec::from_iter(if is_known { counting } else { found })
     };
-    let mut found = find(&is_theirs);
+    let found = find(&is_theirs);
     if found.is_empty() {
-        found = find(&is_called);
+        find(&is_called)
+    } else {
+        found
     }
-    Err(match found.as_slice() {
+}
+
+/// Returns the index of the only submission that `who` could refer to, as described in
+/// [`matching_submissions`].
+pub fn find_submission(
+    who: &str,
+    all: &[(&str, &EntryInfo)],
+    counts: impl Fn(&str, &Person) -> bool,
+) -> Result<usize, String> {
+    Err(match matching_submissions(who, all, counts).as_slice() {
         [only] => return Ok(*only),
         [] => format!(
             "{who:?} doesn't match any submission or person in this class{}; --dry-run and \

@@ -7,12 +7,12 @@ use std::path::Path;
 use grader::build::build_dir::{BuildDir, remove_abandoned};
 use grader::files::{self, AtPath};
 use grader::handed_out::HandedOut;
-use grader::submission::{Submission, SubmissionError, listed};
+use grader::submission::{Submission, SubmissionError, listed, strip_archive_extension};
 use judging::sanitize::{sanitize, sanitize_line};
 
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::file_tree::{Node, hidden_names, list_folder};
+use crate::file_tree::{Node, list_folder};
 use crate::layout::{self, LayoutChoice, METADATA, RecognisedClass, UnmatchedPath};
 use crate::outcome::EntryOutcome;
 use crate::roster::Member;
@@ -57,15 +57,17 @@ impl Input {
             Some(unpacked) => unpacked.build_dir.path().join(CLASS_FOLDER),
             None => path.canonicalize().at("read", path).map_err(Error::user)?,
         };
-        let listed = list_folder(&folder).map_err(Error::user)?;
+        let mut listed = list_folder(&folder).map_err(Error::user)?;
         let archive = path.file_name().map(|name| name.to_string_lossy());
         let archive = archive.as_deref().filter(|_| unpacked.is_some());
+        if let Some(archive) = archive {
+            // If the files at the top of the archive are the class, nothing else names the class.
+            strip_archive_extension(archive).clone_into(&mut listed.name);
+        }
         let (root, note) = match (choice.layout, listed.children()) {
             // If the only folder isn't named like a submission in the chosen layout, it contains
             // the class.
-            (Some(layout), [only]) if only.is_folder() && !layout.has_name(&only.name) => {
-                (only, None)
-            }
+            (Some(layout), [only]) if layout.may_contain_class(only) => (only, None),
             _ => layout::find_class_folder(&listed, archive),
         };
         let root = root.clone();
@@ -81,10 +83,8 @@ impl Input {
             reject_incomplete(&mut class, &folder, unpacked.incomplete);
             unpacked.build_dir
         });
-        for name in hidden_names(&root.path).map_err(Error::user)? {
-            let why = "its name begins with a dot, so it is treated as a hidden file and ignored";
-            class.unmatched.push(UnmatchedPath::new(name, why));
-        }
+        let hidden = layout::hidden_paths(&root.path).map_err(Error::user)?;
+        class.unmatched.extend(hidden);
         let of_several = if class.entries.is_empty() {
             layout::side_by_side(&root, handed_out)
         } else {

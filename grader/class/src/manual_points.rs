@@ -24,7 +24,7 @@ pub const PSEUDONYM_PREFIX: &str = "anon-";
 const REMEDY: &str = "manual points need the columns student, task, delta, comment and author";
 
 /// Points that staff gave somebody for a task, and the reason.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct ManualPoints {
     /// The row number in the file, as in spreadsheets.
     pub row: usize,

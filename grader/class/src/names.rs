@@ -1,5 +1,8 @@
 //! Compares names and identifiers that platforms, file systems and people write differently.
 
+use std::collections::BTreeSet;
+use std::iter;
+
 use judging::sanitize::without_invisible;
 use unicode_normalization::UnicodeNormalization;
 use unicode_normalization::char::is_combining_mark;
@@ -59,7 +62,7 @@ pub fn can_become(listed: &str, file: &str) -> bool {
 pub fn are_alike(file: &str, listed: &str) -> bool {
     let wanted = letters(listed);
     let mut rest = Some(file);
-    std::iter::from_fn(|| {
+    iter::from_fn(|| {
         let name = rest?;
         rest = name.split_once('-').map(|(_, rest)| rest);
         Some(name)
@@ -97,6 +100,15 @@ pub fn is_number(text: &str) -> bool {
 pub fn number_at_end(text: &str) -> &str {
     let rest = text.trim_end_matches(|c: char| c.is_ascii_digit());
     &text[rest.len()..]
+}
+
+/// Returns the name of a file with this stem and ending. If it is taken, a number is appended to the
+/// stem. Adds the result to `used`, in lower case.
+pub fn unique_name(stem: &str, end: &str, used: &mut BTreeSet<String>) -> String {
+    let numbered = (2..).map(|number| format!("{stem}-{number}{end}"));
+    let mut names = iter::once(format!("{stem}{end}")).chain(numbered);
+    let free = names.find(|name| used.insert(name.to_lowercase()));
+    free.expect("there are enough numbers")
 }
 
 /// Returns a name's letters and digits, sorted. Accents are removed, because some platforms drop

@@ -2,6 +2,7 @@
 //! empty, so that they don't fill the disk. A file that cannot be unpacked is reported without
 //! affecting the others.
 
+use std::collections::BTreeSet;
 use std::error::Error as StdError;
 use std::fs;
 use std::io::ErrorKind;
@@ -71,7 +72,12 @@ fn unpack_files(
     files::create_dir_all(folder)?;
     let errors = listing.errors.iter();
     let mut problems: Vec<String> = errors.map(ToString::to_string).collect();
-    for path in listing.folders.iter().filter(|path| is_wanted(path)) {
+    let members = listing.members.iter();
+    let paths = members.map(|member| &member.path).chain(&listing.folders);
+    let clones = paths.filter_map(|path| git_folder(path));
+    let folders = listing.folders.iter().filter(|path| is_wanted(path));
+    let folders: BTreeSet<String> = folders.cloned().chain(clones).collect();
+    for path in &folders {
         let put = extract_to(folder, path, |target| files::create_dir_all(target));
         problems.extend(put?);
     }
@@ -152,6 +158,14 @@ fn select<'a>(
 
 fn is_wanted(path: &str) -> bool {
     !path.split('/').any(is_skipped_name)
+}
+
+/// Returns the path of the folder `.git` in a clone that contains the file or folder at `path`. This
+/// folder is created empty, since it is only needed to recognise the clone.
+fn git_folder(path: &str) -> Option<String> {
+    let path = format!("/{path}/");
+    let (clone, _) = path.split_once("/.git/")?;
+    is_wanted(clone).then(|| format!("{clone}/.git").trim_start_matches('/').to_owned())
 }
 
 /// Returns how many bytes of a file can be needed later. This is 0 for most files, since only their

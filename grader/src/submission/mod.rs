@@ -29,7 +29,7 @@ pub use archive::{Archive, ArchiveError, ArchiveLimits, Listing, Member};
 pub use choice::is_skipped_name;
 pub use error::{SubmissionError, TaskFileError, listed};
 pub use limit::Limit;
-pub use names::{is_archive_name, may_be_task_file};
+pub use names::{copied_names, is_archive_name, may_be_task_file, strip_archive_extension};
 
 /// The maximum length of a file to read, in bytes. The reference's files are about 10,000 bytes
 /// long.
@@ -65,7 +65,7 @@ impl Submission {
             return Submission::choose(name, folder::search(path, handed_out)?);
         }
         if path.is_file() {
-            let name = archive::without_extension(&name);
+            let name = strip_archive_extension(&name).to_owned();
             return Submission::choose(name, folder::search_archive(path, handed_out)?);
         }
         Err(match path.symlink_metadata() {

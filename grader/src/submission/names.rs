@@ -3,17 +3,21 @@
 //! without such additions.
 
 use unicode_normalization::UnicodeNormalization;
+use unicode_normalization::char::is_combining_mark;
 
 use crate::handed_out::HandedOut;
 
-/// Words that browsers, file managers and web storage put before or after the name of a copy, in
-/// the languages of common systems. A number is also treated as such a word.
-const COPY_WORDS: [&str; 20] = [
-    "copy", "of", "another", "kopie", "von", "copie", "de", "copia", "di", "kopi", "kopia",
-    "kopio", "kopya", "af", "av", "van", "st", "nd", "rd", "th",
-];
-/// More such words, which contain non-English letters.
-const OTHER_COPY_WORDS: [&str; 7] = [
+/// Words for a copy that browsers, file managers and web storage put before or after the name of a
+/// file, in the languages of common systems. A number is also treated as such a word.
+const COPY_WORDS: [&str; 15] = [
+    "copy",
+    "kopie",
+    "copie",
+    "copia",
+    "kopi",
+    "kopia",
+    "kopio",
+    "kopya",
     "cópia",
     "másolat",
     "копия",
@@ -22,6 +26,13 @@ const OTHER_COPY_WORDS: [&str; 7] = [
     "コピー",
     "のコピー",
 ];
+/// Words that are put next to these words or next to a number.
+const WORDS_NEAR_COPY: [&str; 12] = [
+    "of", "another", "von", "de", "di", "af", "av", "van", "st", "nd", "rd", "th",
+];
+/// The maximum length of a number that is added to the name of a copy. Longer numbers identify
+/// students.
+const MAX_DIGITS: usize = 2;
 /// Extensions, other than `rs`, of text files that could contain source code.
 const TEXT_EXTENSIONS: [&str; 14] = [
     "txt", "text", "rust", "bak", "old", "orig", "save", "tmp", "swp", "rtf", "doc", "docx", "odt",
@@ -62,7 +73,7 @@ pub(super) fn resemblance(name: &str, task_file: &str) -> Option<Resemblance> {
     if let Some(stem_of_name) = name.strip_suffix(&format!(".{extension}")) {
         let is_added = |word: &&str| {
             let word = word.to_lowercase();
-            let mut known = COPY_WORDS.iter().chain(&OTHER_COPY_WORDS);
+            let mut known = COPY_WORDS.iter().chain(&WORDS_NEAR_COPY);
             known.any(|known| *known == word) || word.bytes().all(|byte| byte.is_ascii_digit())
         };
         let mut others = words(stem_of_name)
@@ -103,6 +114,57 @@ pub fn is_archive_name(name: &str) -> bool {
         ARCHIVE_EXTENSIONS.contains(&&extension[..end.unwrap_or(extension.len())])
     };
     !name.starts_with(MACOS_METADATA) && extensions.any(is_archives)
+}
+
+/// Returns the name without the extension of an archive, such as `.zip` or `.tar.gz`.
+pub fn strip_archive_extension(name: &str) -> &str {
+    let is_archives = |end: &str| ARCHIVE_EXTENSIONS.contains(&&*end.to_lowercase());
+    let Some((stem, end)) = name.rsplit_once('.').filter(|(stem, _)| !stem.is_empty()) else {
+        return name;
+    };
+    let is_tar = stem.to_lowercase().ends_with(".tar");
+    match stem {
+        _ if !is_archives(end) => name,
+        stem if is_tar => &stem[..stem.len() - ".tar".len()],
+        stem => stem,
+    }
+}
+
+/// Returns the names that a name without an extension could be a copy or a second download of, the
+/// longest first: `Ann_Lee` for `Ann_Lee-2`, `Ann_Lee (1)`, `Ann_Lee - Copy` and `Copy of Ann_Lee`.
+/// Accounts such as `ann2` have a number of their own.
+pub fn copied_names(name: &str) -> Vec<&str> {
+    let is_separator = |c: char| !c.is_alphanumeric() && !is_combining_mark(c);
+    let is_copy_word = |word: &str| {
+        let word: String = word.nfc().collect::<String>().to_lowercase();
+        let is_number = word.len() <= MAX_DIGITS && word.bytes().all(|byte| byte.is_ascii_digit());
+        !word.is_empty() && (is_number || COPY_WORDS.contains(&word.as_str()))
+    };
+    let is_near_copy = |word: &str| {
+        let mut words = words(word).into_iter();
+        words.all(|word| is_copy_word(word) || WORDS_NEAR_COPY.contains(&word))
+    };
+    let mut names = Vec::new();
+    let mut rest = name.trim_end_matches(is_separator);
+    while let Some((before, last)) = rest.rsplit_once(is_separator) {
+        let is_copy = is_copy_word(last);
+        if !is_copy && (names.is_empty() || !is_near_copy(last)) {
+            break;
+        }
+        rest = before.trim_end_matches(is_separator);
+        names.extend(Some(rest).filter(|rest| !rest.is_empty()));
+    }
+    if let Some((_, after)) = rest
+        .split_once(is_separator)
+        .filter(|(word, _)| is_copy_word(word))
+    {
+        let after = after.trim_start_matches(is_separator);
+        let shorter = after
+            .split_once(is_separator)
+            .filter(|(word, _)| is_near_copy(word));
+        names.push(shorter.map_or(after, |(_, name)| name));
+    }
+    names
 }
 
 /// Splits a name into runs of letters and runs of digits.
@@ -147,6 +209,21 @@ mod tests {
     }
 
     #[test]
+    fn the_names_of_copies_lead_to_the_name_of_the_original() {
+        let copies =
+            "Ann_Lee-2 | Ann_Lee (1) | Ann_Lee(12) | Ann_Lee 2 | Ann_Lee_3 | Ann_Lee - Copy
+            | Ann_Lee copy 2 | Ann_Lee - Kopie (2) | Copy of Ann_Lee | Kopie von Ann_Lee (1)
+            | Ann_Lee (3rd copy) | Ann_Lee - co\u{301}pia | Ann_Lee のコピー";
+        for name in copies.split('|').map(str::trim) {
+            assert_eq!(copied_names(name).last(), Some(&"Ann_Lee"), "{name}");
+        }
+        assert_eq!(copied_names("Team 1 (2)"), ["Team 1", "Team"]);
+        for name in "Ann_Lee | ann2 | Lee_302 | van Lee | Lee de | 12 | Copy | (1) |".split('|') {
+            assert_eq!(copied_names(name.trim()), [""; 0], "{name}");
+        }
+    }
+
+    #[test]
     fn names_that_people_and_editors_give_are_similar() {
         let similar = "Camera.rs | CAMERA.RS | camera.RS | Camera (1).rs | camera_final.rs
             | camera_v2.rs | mycamera.rs | old_camera.rs | cameraNew.rs | camera.rs.txt
@@ -162,6 +239,14 @@ mod tests {
     }
 
     #[test]
+    fn a_name_is_without_the_extension_of_an_archive() {
+        let names = "alice.tar.gz alice.b.ZIP alice.tgz alice.TAR.bz2 alice.txt .zip";
+        let stems: Vec<&str> = names.split(' ').map(strip_archive_extension).collect();
+        let expected = ["alice", "alice.b", "alice", "alice", "alice.txt", ".zip"];
+        assert_eq!(stems, expected);
+    }
+
+    #[test]
     fn archives_are_recognised_by_their_names_in_any_case() {
         let archives = "a.zip|a.TAR.GZ|a.rar|a.7z|a.zip.txt|a.zip (1)|a.zip~|a (1).tar.zst";
         for name in archives.split('|') {
@@ -174,7 +259,7 @@ mod tests {
 
     fn copy_mark() -> impl Strategy<Value = (String, String)> {
         let number = "[0-9]{1,4}";
-        let word = prop::sample::select([&COPY_WORDS[..], &OTHER_COPY_WORDS[..]].concat());
+        let word = prop::sample::select([&COPY_WORDS[..], &WORDS_NEAR_COPY[..]].concat());
         prop_oneof![
             number.prop_map(|n| (String::new(), format!("({n})"))),
             number.prop_map(|n| (String::new(), format!("-{n}"))),

@@ -129,7 +129,7 @@ fn file_url(path: &Path) -> String {
 
 /// Percent-encodes all bytes except those that are unreserved in every part of a URL (RFC 3986,
 /// 2.3).
-fn percent_encoded(text: &str) -> String {
+pub fn percent_encoded(text: &str) -> String {
     let encoded = text.bytes().map(|byte| {
         let is_unreserved = byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
         if is_unreserved {

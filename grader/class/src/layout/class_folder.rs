@@ -22,7 +22,7 @@ pub fn find_class_folder<'a>(root: &'a Node, archive: Option<&str>) -> (&'a Node
         return (root, None);
     }
     let name = &only.name;
-    let is_sakais = archive.unwrap_or(&root.name).starts_with(SAKAI_ARCHIVE);
+    let is_sakais = root.name.starts_with(SAKAI_ARCHIVE);
     let is_packed = || archive.is_some_and(|archive| is_packed(name, archive));
     if is_gradescopes(only) || is_sakais || is_packed() {
         let note = format!("the submissions are in the folder {name}");

@@ -15,8 +15,9 @@ mod template;
 mod times;
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use grader::files::PathError;
 use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
@@ -30,14 +31,14 @@ use self::reader::Reader;
 use self::records::{SAKAI_MEMBERS, SAKAI_TIME};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::file_tree::{Node, names_inside};
+use crate::file_tree::{Node, hidden_names, names_inside};
+use crate::names::unique_name;
 use crate::roster::Member;
 
 pub use crate::layout_kind::{Layout, LayoutChoice};
 pub use class_folder::find_class_folder;
 pub use gradescope::METADATA;
 pub use mixture::side_by_side;
-pub use names::strip_archive_extension;
 
 /// The layout and the entries of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -86,10 +87,21 @@ impl Layout {
         Some(list.path.clone())
     }
 
-    /// Returns whether a file or folder with this name fits this layout.
-    pub fn has_name(self, name: &str) -> bool {
-        is_name(Platform::of(self), name)
+    /// Returns whether a folder can't be a submission in this layout, so that it must contain the
+    /// class if it is the only folder. Any name can be the name of a clone.
+    pub fn may_contain_class(self, folder: &Node) -> bool {
+        let has_clones = || !is_repository(folder) && folder.children().iter().any(is_repository);
+        let is_submission =
+            is_name(Platform::of(self), &folder.name) && !(self == Layout::GitHub && has_clones());
+        folder.is_folder() && !is_submission
     }
+}
+
+/// Returns the hidden files and folders in a folder. They don't belong to any submission.
+pub fn hidden_paths(folder: &Path) -> Result<Vec<UnmatchedPath>, PathError> {
+    let why = "its name begins with a dot, so it is treated as a hidden file and ignored";
+    let names = hidden_names(folder)?.into_iter();
+    Ok(names.map(|name| UnmatchedPath::new(name, why)).collect())
 }
 
 /// Returns whether a platform writes a file with this name into a submission's folder.
@@ -211,7 +223,13 @@ fn is_github_classroom(root: &Node) -> bool {
     let folders = || root.children().iter().filter(is_clone);
     let names: Vec<&str> = folders().map(|node| node.name.as_str()).collect();
     let has_results = || folders().all(|node| node.find(CLASSROOM50_RESULT).is_some());
-    root.name.ends_with(SUBMISSIONS_SUFFIX)
+    let title = root.name.strip_suffix(SUBMISSIONS_SUFFIX);
+    let title = title.unwrap_or_default();
+    let is_of_title = |name: &&str| {
+        let rest = name.strip_prefix(title);
+        rest.is_some_and(|account| account.starts_with('-'))
+    };
+    (!title.is_empty() && names.iter().any(is_of_title))
         || root.find(CLASSROOM50_SCORES).is_some()
         // A student can add this file but cannot give all folder names a common prefix.
         || (!common_prefix(&names, '-').is_empty() && has_results())
@@ -244,20 +262,8 @@ fn make_ids_unique(entries: &mut [Entry]) {
     let mut used = BTreeSet::new();
     for entry in entries {
         let id: String = entry.id.nfc().collect();
-        entry.id = unique_name(&safe_folder_name(&id), &mut used);
+        entry.id = unique_name(&safe_folder_name(&id), "", &mut used);
     }
-}
-
-/// Returns the name, with a number appended if it is taken. Adds the result to `used`, in lower
-/// case.
-pub fn unique_name(wanted: &str, used: &mut BTreeSet<String>) -> String {
-    let mut name = wanted.to_owned();
-    let mut number = 2;
-    while !used.insert(name.to_lowercase()) {
-        name = format!("{wanted}-{number}");
-        number += 1;
-    }
-    name
 }
 
 /// The entries found in a folder, the paths that don't belong to any entry, and sentences about how

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::iter;
 
+use grader::submission::strip_archive_extension;
 use judging::sanitize::sanitize_line;
 
 use super::canvas::ambiguous;
@@ -19,12 +20,6 @@ use crate::roster::read_downloaded;
 
 /// The maximum length of a list of titles in a message, in characters.
 const MAX_CHARS: usize = 400;
-/// The extensions of archives.
-const ARCHIVE_ENDS: [&str; 12] = [
-    ".tar.gz", ".tar.xz", ".tar.bz2", ".tar.zst", ".tgz", ".txz", ".tar", ".zip", ".rar", ".7z",
-    ".gz", ".xz",
-];
-
 /// A file or folder that, according to its name, belongs to a submission.
 pub(super) struct SubmissionNode<'a> {
     pub parts: Parts<'a>,
@@ -339,13 +334,6 @@ pub(super) fn common_prefix<'a>(names: &[&'a str], separator: char) -> &'a str {
     let ends = ends.map(|(at, sign)| at + sign.len());
     let end = ends.filter(|_| !others.is_empty()).find(is_shared);
     &first[..end.unwrap_or(0)]
-}
-
-/// Returns the name without the archive's extension.
-pub fn strip_archive_extension(name: &str) -> &str {
-    let lower = name.to_ascii_lowercase();
-    let end = ARCHIVE_ENDS.iter().find(|end| lower.ends_with(**end));
-    &name[..name.len() - end.map_or(0, |end| end.len())]
 }
 
 #[cfg(test)]

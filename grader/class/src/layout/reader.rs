@@ -9,7 +9,7 @@ use super::canvas::{attachment_name, without_number};
 use super::gradescope::read_metadata;
 use super::names::SubmissionNode;
 use super::platforms::{Platform, Record};
-use super::records::{SAKAI_ATTACHMENTS, SubmissionRecord, read_files_in_folder, read_receipt};
+use super::records::{Receipts, SAKAI_ATTACHMENTS, SubmissionRecord, read_files_in_folder};
 use super::template::Parts;
 use super::times::normalize_time;
 use super::{LayoutChoice, LayoutContents, UnmatchedPath};
@@ -66,12 +66,13 @@ impl Reader<'_> {
             let has_files = group.iter().any(|found| !found.is_text);
             *names_of.entry(number(parts)).or_default() += usize::from(has_files);
         }
+        let receipts = Receipts::read(platform, &groups)?;
         for (mut parts, group) in groups {
             let (texts, files): (Vec<_>, Vec<_>) =
                 group.into_iter().partition(|found| found.is_text);
             let record = match platform.record {
                 Record::None => SubmissionRecord::default(),
-                Record::Receipt => read_receipt(&mut parts, &texts)?,
+                Record::Receipt => receipts.record(&mut parts),
                 Record::FilesInFolder => read_files_in_folder(&parts, &files)?,
                 Record::Metadata => match records.remove(parts.get("submission")) {
                     Some(record) => record,

@@ -1,9 +1,12 @@
 //! Reads the people and times that platforms write into files: Blackboard's receipts, and the files
 //! that Sakai writes into each submission's folder.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use grader::files;
 
 use super::names::SubmissionNode;
+use super::platforms::{Platform, Record};
 use super::template::{Parts, read_members};
 use super::times::normalize_time;
 use crate::entry::{Entry, Person};
@@ -35,33 +38,64 @@ impl SubmissionRecord {
     }
 }
 
-/// Reads the first line of Blackboard's text file, `Name: Jane Doe (jdoe)`, where the word before
-/// the colon depends on the language. The assignment's title and the account may contain `_`, so
-/// only this line shows where the account begins.
-pub(super) fn read_receipt(
-    parts: &mut Parts,
-    texts: &[SubmissionNode],
-) -> Result<SubmissionRecord, Error> {
-    let text = read_text(texts.first().map(|text| text.node))?.unwrap_or_default();
-    let line = text.lines().next().and_then(|line| line.split_once(": "));
-    let name = line.and_then(|(_, name)| name.trim().strip_suffix(')')?.rsplit_once(" ("));
-    let whole = parts.get("whole_name");
-    let is_end = |account: &str| {
-        let title = whole.strip_suffix(account);
-        title.is_some_and(|title| title.is_empty() || title.ends_with('_'))
-    };
-    let Some((name, account)) = name.filter(|(_, account)| is_end(account)) else {
-        return Ok(SubmissionRecord::default());
-    };
-    parts.set("account", &whole[whole.len() - account.len()..]);
+/// The people in Blackboard's receipts, keyed by the beginning of the name of a submission's files,
+/// which several attempts can share. For each person, the account is the end of that beginning.
+#[derive(Debug, Default)]
+pub(super) struct Receipts<'a>(BTreeMap<&'a str, (&'a str, Person)>);
+
+impl<'a> Receipts<'a> {
+    /// Reads the receipts of all submissions.
+    pub fn read(
+        platform: &Platform,
+        groups: &BTreeMap<Parts<'a>, Vec<SubmissionNode<'a>>>,
+    ) -> Result<Self, Error> {
+        let mut receipts = Receipts::default();
+        for (parts, group) in groups.iter().filter(|_| platform.record == Record::Receipt) {
+            let text = group.iter().find(|found| found.is_text);
+            let text = read_text(text.map(|text| text.node))?.unwrap_or_default();
+            let whole = parts.get("whole_name");
+            let person = read_receipt(&text, whole);
+            receipts.0.extend(person.map(|person| (whole, person)));
+        }
+        Ok(receipts)
+    }
+
+    /// Returns the record of a submission, and corrects its account. An attempt without a receipt is
+    /// by the person whose other attempts begin with the same name. If there are none, the account
+    /// begins where it does in the other submissions, which have the same title.
+    pub fn record(&self, parts: &mut Parts<'a>) -> SubmissionRecord {
+        let whole = parts.get("whole_name");
+        if let Some((account, person)) = self.0.get(whole) {
+            parts.set("account", account);
+            return SubmissionRecord {
+                people: vec![person.clone()],
+                time: None,
+            };
+        }
+        let titles = self.0.iter();
+        let titles = titles.map(|(whole, (account, _))| whole.strip_suffix(account));
+        let titles: BTreeSet<&str> = titles.flatten().collect();
+        let account = titles.first().and_then(|title| whole.strip_prefix(title));
+        if let Some(account) = account.filter(|own| titles.len() == 1 && !own.is_empty()) {
+            parts.set("account", account);
+        }
+        SubmissionRecord::default()
+    }
+}
+
+/// Returns the account and the person in the first line of Blackboard's text file, `Name: Jane Doe
+/// (jdoe)`, where the word before the colon depends on the language. The assignment's title and the
+/// account may contain `_`, so only this line shows where the account begins in the name `whole`.
+fn read_receipt<'a>(text: &str, whole: &'a str) -> Option<(&'a str, Person)> {
+    let (_, name) = text.lines().next()?.split_once(": ")?;
+    let (name, account) = name.trim().strip_suffix(')')?.rsplit_once(" (")?;
+    let title = whole.strip_suffix(account)?;
     let person = Person {
         login: account.to_owned(),
         ..Person::named(name.trim())
     };
-    Ok(SubmissionRecord {
-        people: vec![person],
-        time: None,
-    })
+    let is_account = title.is_empty() || title.ends_with('_');
+    is_account.then_some((&whole[title.len()..], person))
 }
 
 /// Reads the files that Sakai writes into each folder.

@@ -241,3 +241,84 @@ fn a_corrected_hand_in_may_have_the_name_of_the_archive_that_it_replaces() {
         fs::remove_dir_all(class.path_beside("corrected")).unwrap();
     }
 }
+
+#[test]
+fn a_second_download_is_a_correction_too() {
+    let broken = "PK\x03\x04 and no more";
+    let class = TestClass::named("class")
+        .with("Ann Lee.zip", broken)
+        .with("bob.zip", broken);
+    let folder = class.path_beside("corrected").display().to_string();
+    for name in [
+        "Ann_Lee-2.zip",
+        "Ann Lee (1).zip",
+        "Ann Lee(1).zip",
+        "Ann Lee copy.zip",
+        "Ann Lee - Copy (2).zip",
+        "Copy of Ann Lee.zip",
+        "Ann_Lee.zip (1)",
+        "Ann Lee 2/handin.zip",
+    ] {
+        correct(&class, name, solution());
+        let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
+        let name = name.trim_end_matches("/handin.zip");
+        let expected = format!("\n      Ann Lee.zip (corrected: {name})");
+        assert_contains(&preview, &[all_files("Ann Lee") + &expected]);
+        fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+    }
+    let refused = |names: &[&str]| {
+        names
+            .iter()
+            .for_each(|name| correct(&class, name, solution()));
+        let error = class.refused_preview(&["--corrected", &folder]);
+        fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+        error
+    };
+    let error = refused(&["Ann Lee.zip", "Ann Lee (1).zip"]);
+    assert_contains(
+        &error,
+        &["Ann Lee.zip and Ann Lee (1).zip both contain corrections"],
+    );
+    assert_contains(&refused(&["bobb-2.zip"]), &["\"bobb-2\" doesn't match any"]);
+
+    correct(&class, "bob.zip", solution());
+    correct(&class, ".Ann Lee.zip", solution());
+    let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
+    assert_contains(
+        &preview,
+        &["corrected/.Ann Lee.zip: its name begins with a dot"],
+    );
+}
+
+#[test]
+fn a_second_download_that_could_be_somebody_elses_is_refused_with_both_readings() {
+    let broken = "PK\x03\x04 and no more";
+    let class = TestClass::named("pt-submissions")
+        .with("pt-ann/notes.txt", "")
+        .with("pt-ann-2/notes.txt", "");
+    let roster = class.write_beside("roster.csv", "name,username\nAnn Lee,ann\nAnn Ray,ann-2\n");
+    let folder = class.path_beside("corrected").display().to_string();
+    let options = ["--roster", &roster, "--corrected", &folder];
+    correct(&class, "ann-2.zip", solution());
+    let error = class.refused_preview(&options);
+    let expected = "ann-2.zip: it could be for pt-ann-2 or pt-ann, since \"ann-2\" is also the name \
+                    of a second download: rename it to one of these names";
+    assert_contains(&error, &[expected]);
+    fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+    correct(&class, "pt-ann-2.zip", solution());
+    let preview = class.preview_of(&class.input(), &options);
+    assert_contains(&preview, &["pt-ann-2 (corrected: pt-ann-2.zip)"]);
+
+    // Eve has two attempts.
+    let class = TestClass::named("class")
+        .with("eve.zip", broken)
+        .with("e1/x.txt", "");
+    let roster = class.write_beside("roster.csv", "name,username,sid\nEve Fox,eve,e1\n");
+    let folder = class.path_beside("corrected").display().to_string();
+    correct(&class, "Eve_Fox (1).zip", solution());
+    let error = class.refused_preview(&["--roster", &roster, "--corrected", &folder]);
+    assert_contains(
+        &error,
+        &["\"Eve_Fox\" could be e1 or eve: use one of these names"],
+    );
+}

@@ -1,7 +1,9 @@
 //! Tests the `class` binary with classes like those that platforms export.
 
 mod anonymous;
+mod attempts;
 mod characters;
+mod clones;
 mod every_oddity;
 mod faulty_submissions;
 mod gradebooks;

@@ -20,7 +20,6 @@ use super::limited_reader::{ByteBudget, LimitedReader};
 use crate::machine::disk::{self, Operation};
 use crate::machine::files::is_about_file;
 
-pub(super) use paths::without_extension;
 pub(super) use search::search;
 
 use paths::{check_special, duplicate_paths, normalize_path};

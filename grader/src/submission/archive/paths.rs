@@ -60,15 +60,3 @@ pub(super) fn check_special(path: &str) -> Result<(), ArchiveError> {
         Err(ArchiveError::NotRegular(display_name(path)))
     }
 }
-
-/// Returns the archive's name without its extension.
-pub(in crate::submission) fn without_extension(file: &str) -> String {
-    let endings = [".tar.gz", ".tgz", ".tar", ".zip"];
-    let lower = file.to_ascii_lowercase();
-    let ending = endings.iter().find(|ending| lower.ends_with(**ending));
-    let length = file.len() - ending.map_or(0, |ending| ending.len());
-    match &file[..length] {
-        "" => file.to_owned(),
-        stem => stem.to_owned(),
-    }
-}

@@ -1,5 +1,6 @@
 //! The table of all submissions.
 
+use grader::workspace::book::percent_encoded;
 use maud::{Markup, html};
 
 use super::{header, sanitized, section, wide};
@@ -77,12 +78,5 @@ fn notes(row: &ClassRow) -> Markup {
 /// Returns the link to a report. An id may contain letters from any language, which are
 /// percent-encoded.
 pub(super) fn report_link(id: &str) -> String {
-    let byte = |byte: u8| match byte {
-        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {
-            char::from(byte).to_string()
-        }
-        other => format!("%{other:02X}"),
-    };
-    let id: String = id.bytes().map(byte).collect();
-    format!("students/{id}/report.html")
+    format!("students/{}/report.html", percent_encoded(id))
 }

@@ -110,13 +110,6 @@ fn a_given_file_in_an_archive_is_noted_only_if_it_was_changed() {
 }
 
 #[test]
-fn a_name_is_without_the_extension_of_an_archive() {
-    let names = "alice.tar.gz alice.b.ZIP alice.tgz alice.txt .zip";
-    let stems: Vec<String> = names.split(' ').map(without_extension).collect();
-    assert_eq!(stems, ["alice", "alice.b", "alice", "alice.txt", ".zip"]);
-}
-
-#[test]
 fn paths_are_relative_and_without_dots() {
     for (path, normalized) in [
         ("a/./b", "a/b"),

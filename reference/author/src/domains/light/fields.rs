@@ -69,7 +69,7 @@ pub fn direction(rng: &mut Rng, class: usize) -> DVec3 {
         2 => rng.uniform(0.101, 0.998),
         3 => rng.log_uniform(0.0101, 0.099),
         4 => rng.log_uniform(1.01e-3, 9.9e-3),
-        5 => rng.log_uniform(1e-8, 9.9e-4),
+        5 => rng.log_uniform(1e-12, 9.9e-4),
         _ => 0.0,
     };
     let around = if rng.coin() {

@@ -65,6 +65,7 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
         PICKED_FORM,
         PICKED_SIDE,
         PICKED_RADIANCE,
+        PICKED_COLOR,
         PICKED_DISTANCE,
         PICKED_COSINE,
         PICKED_OCTANT,
@@ -74,7 +75,6 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
     calls: rows_of!(LightsSample),
     not_asked: &[
         WITHIN_THE_SCENE,
-        NOT_THAT_SLANTED,
         not_asked(
             &["lights"],
             &["none"],
@@ -405,11 +405,11 @@ const DISTANCE_IN_EDGES: Aspect<Row<AreaLightPdf>> = Aspect {
 /// The number of lights whose density is positive.
 const LIGHTS_AHEAD: Aspect<Row<LightsPdf>> = Aspect {
     name: "lights ahead",
-    classes: &["none", "1", "2", "3 or more"],
+    classes: &["none", "1", "2", "3 to 8", "9 or more"],
     class: |row| {
         let sights = sights(&row.subject, &row.input);
         let lit = sights.iter().filter(|sight| sight.is_lit()).count();
-        Some(class_up_to(&[0, 1, 2], lit))
+        Some(class_up_to(&[0, 1, 2, 8], lit))
     },
 };
 
@@ -527,6 +527,20 @@ const PICKED_RADIANCE: Aspect<Row<LightsSample>> = Aspect {
             Light64::Sphere(light) => light.radiance,
         };
         Some(magnitude_class(radiance.max_element()))
+    },
+};
+
+/// The colour of the picked light, by how many channels it has.
+const PICKED_COLOR: Aspect<Row<LightsSample>> = Aspect {
+    name: "channels of the picked light",
+    classes: &["1", "2", "3"],
+    class: |row| {
+        let radiance = match pick(row)?.light {
+            Light64::Flat(light) => light.radiance,
+            Light64::Sphere(light) => light.radiance,
+        };
+        let channels = radiance.cmpgt(DVec3::ZERO).bitmask().count_ones();
+        (channels as usize).checked_sub(1)
     },
 };
 

@@ -271,6 +271,7 @@ impl<F: Function<Input = DirectionPair>> Aspect<Row<F>> {
             "are both above",
             "are on two sides",
             "are both below",
+            "both graze the surface",
         ],
         class: |row| {
             let DirectionPair { out, incoming } = row.input;
@@ -280,6 +281,7 @@ impl<F: Function<Input = DirectionPair>> Aspect<Row<F>> {
                 _ if out == -incoming => 1,
                 _ if out == incoming * Vec3::new(-1.0, -1.0, 1.0) => 2,
                 _ if out == incoming * Vec3::new(1.0, 1.0, -1.0) => 3,
+                _ if heights.iter().all(|height| (1e-30..0.1).contains(height)) => 7,
                 _ if heights.iter().all(|height| *height > 0.0) => 4,
                 _ if heights.iter().all(|height| *height < 0.0) => 6,
                 _ => 5,
@@ -377,6 +379,7 @@ const BESIDE_THE_FRACTION: Aspect<Row<GlassScatter>> = Aspect {
         "the fraction is 0",
         "below a fraction of less than 2e-3",
         "both are 0",
+        "above a fraction of more than 0.99",
     ],
     class: |row| {
         let (out, ior) = (row.input.out.as_dvec3(), f64::from(row.subject.ior));
@@ -387,6 +390,7 @@ const BESIDE_THE_FRACTION: Aspect<Row<GlassScatter>> = Aspect {
             0.0 if ior == 1.0 => 7,
             _ if ior == 1.0 => 5,
             ..0.0 if fraction < 2e-3 => 6,
+            0.0.. if fraction > 0.99 => 8,
             ..-0.03 => 0,
             ..0.0 => 1,
             ..0.03 => 2,

@@ -402,10 +402,10 @@ const DIRECT_Y: Aspect<DirectCall> = Aspect {
 /// The maximum number of bounces.
 const BOUNCES: Aspect<PathCall> = Aspect {
     name: "bounces",
-    classes: &["0", "1", "2", "3", "4 to 7", "8 to 32", "more"],
+    classes: &["0", "1", "2", "3", "4 to 7", "8 to 32", "33 to 64", "more"],
     class: |call| {
         Some(class_up_to(
-            &[0, 1, 2, 3, 7, 32],
+            &[0, 1, 2, 3, 7, 32, 64],
             call.input.bounces as usize,
         ))
     },

@@ -90,8 +90,16 @@ const PICK: Declaration = Declaration {
         "Numbers at the border between two pixels are not tested.",
     ],
     questions: |rng| {
+        // Most questions start with the call that the previous one ends with.
+        let mut last = None;
         let maps = every_brightness(rng).into_iter();
-        maps.map(|map| samples(rng, map)).collect()
+        let questions = maps.map(|map| {
+            let same = last.filter(|call| is_clear(&oracle(&map), call));
+            let calls = sample_calls(rng, &map, CALLS);
+            last = calls.last().copied();
+            sampled(map, [Vec::from_iter(same), calls].concat())
+        });
+        questions.collect()
     },
     ..Declaration::in_group(MAPS)
 };
@@ -269,8 +277,16 @@ const PDF: Declaration = Declaration {
         "Directions close to a pole (sin θ < 0.03) and those at the edge of a pixel are not tested.",
     ],
     questions: |rng| {
+        // Most questions start with the direction that the previous one ends with.
+        let mut last = None;
         let maps = every_brightness(rng).into_iter();
-        maps.map(|map| pdfs(rng, map, |_| true)).collect()
+        let questions = maps.map(|map| {
+            let same = last.filter(|same| oracle(&map).pdf(*same).margin > EDGE);
+            let calls = pdf_calls(rng, &map, |_| true);
+            last = calls.last().copied();
+            densities_at(map, [Vec::from_iter(same), calls].concat())
+        });
+        questions.collect()
     },
     ..Declaration::in_group(MAPS)
 };
@@ -404,12 +420,16 @@ fn sample_calls(rng: &mut Rng, map: &MapImage, count: usize) -> Vec<MapSample> {
                 choice: fields::number(rng),
                 random: fields::number_pair(rng),
             };
-            let share = map64.shares()[picked(&map64, call.choice)];
-            let border = (BORDER * share).max(ROUNDING);
-            (sample(&map64, &call).margin > border).then_some(call)
+            is_clear(&map64, &call).then_some(call)
         })
     };
     (0..count).map(call).collect()
+}
+
+/// Returns whether a call isn't close to the border between two pixels.
+fn is_clear(map: &Map64, call: &MapSample) -> bool {
+    let share = map.shares()[picked(map, call.choice)];
+    sample(map, call).margin > (BORDER * share).max(ROUNDING)
 }
 
 fn sample(map: &Map64, call: &MapSample) -> WithMargin<Option<DVec3>> {
@@ -440,7 +460,12 @@ fn direction(rng: &mut Rng) -> DVec3 {
 
 /// Returns a question about the densities of directions that fulfil a condition.
 fn pdfs(rng: &mut Rng, map: MapImage, condition: fn(f64) -> bool) -> ExamQuestion {
-    let map64 = oracle(&map);
+    let calls = pdf_calls(rng, &map, condition);
+    densities_at(map, calls)
+}
+
+fn pdf_calls(rng: &mut Rng, map: &MapImage, condition: fn(f64) -> bool) -> Vec<DVec3> {
+    let map64 = oracle(map);
     let direction = |_| {
         rng.retry(|rng| {
             let direction = direction(rng);
@@ -448,7 +473,11 @@ fn pdfs(rng: &mut Rng, map: MapImage, condition: fn(f64) -> bool) -> ExamQuestio
             (pdf.margin > EDGE && condition(pdf.value)).then_some(direction)
         })
     };
-    let calls: Vec<DVec3> = (0..CALLS).map(direction).collect();
+    (0..CALLS).map(direction).collect()
+}
+
+fn densities_at(map: MapImage, calls: Vec<DVec3>) -> ExamQuestion {
+    let map64 = oracle(&map);
     let rows = densities(calls.iter().map(|direction| map64.pdf(*direction).value));
     let calls = calls.into_iter().map(local).collect();
     let question = LightQuestion::EnvironmentPdf(Table::of_list(map, calls));

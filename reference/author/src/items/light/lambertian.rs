@@ -50,10 +50,14 @@ const EVALUATE: Declaration = Declaration {
         "See PBR, section 9.2, whose f doesn't include the cosine.",
     ],
     questions: |rng| {
+        // Each question ends with the call that the next one starts with.
+        let same = related(rng, above, [ABOUT_THE_NORMAL]);
         surfaces(rng, |rng, matte| {
             let pairs = [
+                same.clone(),
                 pairs(rng, above, above),
                 related(rng, above, [SAME, ABOUT_THE_NORMAL]),
+                same.clone(),
             ];
             vec![evaluations(matte, pairs.concat())]
         })
@@ -119,7 +123,12 @@ const GRAZING: Declaration = Declaration {
     tests: &["The result is zero unless both directions are above the surface (z > 0)."],
     questions: |rng| {
         surfaces(rng, |rng, matte| {
-            let pairs = [pairs(rng, above, grazing), pairs(rng, grazing, above)].concat();
+            let pairs = [
+                pairs(rng, above, grazing),
+                pairs(rng, grazing, above),
+                pairs(rng, grazing, grazing),
+            ]
+            .concat();
             vec![evaluations(matte, pairs.clone()), pdfs(matte, pairs)]
         })
     },

@@ -48,8 +48,8 @@ pub(super) fn matte(rng: &mut Rng) -> Material64 {
 /// Returns a light with a random colour. Some lights are very dim, and some are very bright.
 pub(super) fn emitter(rng: &mut Rng) -> Material64 {
     let brightness = match rng.index(4) {
-        0 => rng.log_uniform(1e-3, 0.05),
-        1 => rng.log_uniform(5e3, 2e5),
+        0 => rng.log_uniform(1e-6, 0.05),
+        1 => rng.log_uniform(5e3, 2e6),
         _ => rng.log_uniform(0.05, 500.0),
     };
     Material64::Emitter {
@@ -146,9 +146,15 @@ pub(super) fn block(center: DVec3, half: DVec3, material: Material64) -> Vec<Qua
     sides
 }
 
-/// Returns an environment with the same random radiance from all directions.
+/// Returns an environment with the same random radiance from all directions. Some are very dim, and
+/// some are very bright.
 pub(super) fn sky(rng: &mut Rng) -> Environment64 {
-    Environment64::Constant(color(rng) * 2.0)
+    let brightness = match rng.index(3) {
+        0 => rng.log_uniform(1e-6, 1e-3),
+        1 => rng.log_uniform(1e3, 1e6),
+        _ => 2.0,
+    };
+    Environment64::Constant(color(rng) * brightness)
 }
 
 /// Returns an environment map with random pixels, whose brightness is very uneven. Some are black.
@@ -156,6 +162,7 @@ fn map(rng: &mut Rng) -> Environment64 {
     let size = uvec2(8, 4);
     let pixel = |_| match rng.index(5) {
         0 => Vec3::ZERO,
+        1 => (tint(rng) * rng.log_uniform(50.0, 1e5)).as_vec3(),
         _ => (tint(rng) * rng.log_uniform(0.02, 50.0)).as_vec3(),
     };
     let pixels: Vec<Vec3> = (0..size.element_product()).map(pixel).collect();

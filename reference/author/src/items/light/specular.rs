@@ -1,8 +1,8 @@
 //! The items about mirrors and glass.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use judging::exam::ExamQuestion;
 use judging::symptom::Symptom;
 use protocol::light::LightQuestion;
@@ -103,10 +103,15 @@ const ENTERING: Declaration = Declaration {
         "If out.z > 0, the path is outside, where the index is 1, and the result has z < 0.",
     ],
     questions: |rng| {
+        // Each question ends with the direction that the next one starts with.
+        let same = vec![above(rng)];
         media(rng, DENSE, |rng, medium| {
-            let mut out = directions_that(rng, medium, above, any);
-            out.extend(few(rng, medium, grazing, any));
-            refraction(medium, out)
+            let out = directions_that(rng, medium, above, any);
+            let grazing = few(rng, medium, grazing, any);
+            refraction(
+                medium,
+                [&same, &out, &grazing, &same].map(Vec::as_slice).concat(),
+            )
         })
     },
     ..Declaration::in_group(SPECULAR)
@@ -219,7 +224,9 @@ const FRESNEL_ENTERING: Declaration = Declaration {
             let mut out = directions_that(rng, medium, above, any);
             out.extend(directions_that(rng, medium, slanted, any));
             out.extend(few(rng, medium, grazing, any));
-            out.extend([DVec3::Z, fields::direction(rng, 1)]);
+            out.extend([fields::direction(rng, 1), DVec3::Z]);
+            // The next question is about the same direction first.
+            out.insert(0, DVec3::Z);
             fresnel(medium, out)
         })
     },
@@ -298,8 +305,10 @@ const MIRROR: Declaration = Declaration {
     ],
     questions: |rng| {
         let colors = fields::reflectances(rng).into_iter();
+        // Each question ends with the direction that the next one starts with.
+        let same = any_above(rng);
         let question = |reflectance: DVec3| {
-            let out = list(rng, any_above);
+            let out = [vec![same], list(rng, any_above), vec![same]].concat();
             let rows = out
                 .iter()
                 .map(|out| specular::mirror_scatter(reflectance, *out));
@@ -459,14 +468,19 @@ fn total(out: DVec3, ior: f64) -> bool {
     !refracted(out, ior)
 }
 
-/// Returns up to two directions for which little is reflected.
-fn faint(rng: &mut Rng, medium: Medium, draw: fn(&mut Rng) -> DVec3) -> Vec<DVec3> {
+/// Returns up to two directions whose reflected fraction is in this range.
+fn with_fraction(
+    rng: &mut Rng,
+    medium: Medium,
+    draw: fn(&mut Rng) -> DVec3,
+    range: Range<f64>,
+) -> Vec<DVec3> {
     let ior = medium.ior.into();
     let direction = |_| {
         rng.attempt(1_000, |rng| {
             let out = draw(rng);
-            let is_faint = (1e-4..1.9e-3).contains(&specular::fresnel(out, ior));
-            (is_faint && is_clear(out, ior)).then_some(out)
+            let is_wanted = range.contains(&specular::fresnel(out, ior));
+            (is_wanted && is_clear(out, ior)).then_some(out)
         })
     };
     (0..2).filter_map(direction).collect()
@@ -505,7 +519,7 @@ fn few(
 /// critical angle itself is close to the surface or the normal.
 fn critical_distance(ior: f64) -> f64 {
     let cosine = critical_cosine(ior);
-    (0.2 * cosine.min(1.0 - cosine)).clamp(5e-4, 0.02)
+    (0.2 * cosine.min(1.0 - cosine)).clamp(5e-4, 2e-3)
 }
 
 /// Returns the cosine of the critical angle.
@@ -525,7 +539,7 @@ fn near_critical(
     let (critical, distance) = (critical_cosine(ior), critical_distance(ior));
     let direction = |_| {
         rng.attempt(1_000, |rng| {
-            let height = critical + rng.sign() * rng.uniform(distance, 2.8 * distance);
+            let height = critical + rng.sign() * rng.log_uniform(distance, 10.0 * distance);
             let flat = above(rng).truncate().normalize();
             let height = height.clamp(0.0, 1.0);
             let out = single((flat * (1.0 - height * height).sqrt()).extend(side * height));
@@ -588,7 +602,9 @@ fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
         for (draw, side) in [(any_above as fn(&mut Rng) -> DVec3, 1.0), (any_below, -1.0)] {
             out.extend(few(rng, medium, draw, refracted));
             out.extend(near_critical(rng, medium, side, refracted));
-            out.extend(faint(rng, medium, draw));
+            for range in [1e-4..1.9e-3, 0.9952..0.9975] {
+                out.extend(with_fraction(rng, medium, draw, range));
+            }
             out.push(side * DVec3::Z);
         }
         glass_samples(rng, medium, out, judged)
@@ -634,7 +650,12 @@ fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]
             }));
         }
     }
-    let calls = rng.shuffled(calls);
+    // The next question is about the same call first, which refracts for every index.
+    let same = GlassSample {
+        out: Vec3::Z,
+        random: 0.9,
+    };
+    let calls = [vec![same], rng.shuffled(calls), vec![same]].concat();
     let rows = calls
         .iter()
         .map(|call| specular::glass_scatter(ior, call.out.as_dvec3(), call.random.into()));

@@ -129,11 +129,27 @@ const BOTH: Declaration = Declaration {
          was sampled.",
     ],
     questions: |rng| {
-        rooms(rng, with_shining_ceiling, |rng, room| {
-            (0..2 * CALLS)
-                .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
-                .collect()
-        })
+        let lit = |rng: &mut Rng, room: &Room, count: usize| -> Vec<DirectCase> {
+            let case = |_| direct_case(rng, room, |_, _, light| is_lit(light));
+            (0..count).map(case).collect()
+        };
+        let mut questions = rooms(rng, with_shining_ceiling, |rng, room| {
+            lit(rng, room, 2 * CALLS)
+        });
+        // Light can be very bright or very dim, and walls can be very dark.
+        let extremes = [(1e7, 1.0), (1e-6, 1.0), (1.0, 1e-4)];
+        questions.extend(extremes.map(|(brightness, albedo)| {
+            let mut quads = walls(HALF, || Material64::Lambertian {
+                albedo: albedo * color(rng),
+            });
+            let radiance = brightness * color(rng);
+            let ceiling = Material64::Emitter { radiance };
+            quads[3] = panel(HALF.y * DVec3::Y, 1, -1.0, HALF, ceiling);
+            let room = Room::new(quads, DARK);
+            let cases = lit(rng, &room, CALLS);
+            question(&room, cases)
+        }));
+        questions
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)

@@ -10,7 +10,7 @@ use protocol::light::LightQuestion;
 use protocol::light::lights::{FlatLight, LightList, LightSample, ListedLight, Toward};
 
 use super::groups::{LIGHT_DENSITIES, LIGHT_SAMPLES};
-use super::{MARGIN, color, densities, optional_directions, single, table};
+use super::{MARGIN, color, densities, optional_directions, random_pair, single, table};
 use crate::domains::fields::{FURTHEST, direction as random_direction};
 use crate::domains::light::fields::{self, BELOW_ONE};
 use crate::domains::light::lights::{AREA_LIGHT_PDF, LIGHTS_PDF, LIGHTS_SAMPLE};
@@ -202,10 +202,17 @@ const PICK: Declaration = Declaration {
     questions: |rng| {
         let counts = [2, 3, 7, 40, 100];
         let sizes = every_size(rng);
+        // Most questions start with the call that the previous one ends with.
+        let mut last = None;
         let questions = counts.into_iter().zip(sizes).map(|(count, size)| {
             let lights = several(rng, count, size);
-            let samples = samples(rng, &lights, 2 * CALLS, Option::is_some);
-            sampled(&lights, samples)
+            let all = Lights64::new(lights.iter().copied());
+            let same = last.filter(|call| is_clear(&all, call));
+            let mut calls = Vec::from_iter(same);
+            calls.extend(samples(rng, &lights, 2 * CALLS, Option::is_some));
+            calls.extend(past_rounding(rng, &lights));
+            last = calls.last().copied();
+            sampled(&lights, calls)
         });
         questions.collect()
     },
@@ -234,11 +241,29 @@ const FACES_AWAY: Declaration = Declaration {
                 let lights = several(rng, count, size);
                 let mut mixed = samples(rng, &lights, CALLS, Option::is_none);
                 mixed.extend(samples(rng, &lights, CALLS / 2, Option::is_some));
+                mixed.extend(past_rounding(rng, &lights));
                 sampled(&lights, rng.shuffled(mixed))
             })
             .collect();
         let nowhere = samples(rng, &[], 3, Option::is_none);
         questions.push(sampled(&[], nowhere));
+        // A light that is seen almost exactly edge-on still faces the point.
+        let size = size(rng, 3);
+        let light = parallel_to_axes(rng, size);
+        let views = [ALMOST_IN_ITS_PLANE, ALMOST_IN_ITS_PLANE_BEHIND];
+        let calls = [views, views, views].concat().into_iter().map(|view| {
+            rng.retry(|rng| {
+                let random = random_pair(rng);
+                let from = toward_point(rng, &light, view, light.point(random.as_dvec2()))?.from;
+                Some(LightSample {
+                    from,
+                    choice: super::random(rng),
+                    random,
+                })
+            })
+        });
+        let calls = calls.collect();
+        questions.push(sampled(&[light], calls));
         questions
     },
     ..Declaration::in_group(LIGHT_SAMPLES)
@@ -258,6 +283,8 @@ const SHARES: Declaration = Declaration {
     questions: |rng| {
         let counts = [1, 2, 3, 8, 40, 100];
         let sizes = every_size(rng);
+        // Most questions start with the call that the previous one ends with.
+        let mut last = None;
         let mut questions: Vec<ExamQuestion> = counts
             .into_iter()
             .zip(sizes)
@@ -274,7 +301,10 @@ const SHARES: Declaration = Declaration {
                     let calls = calls_of_list(rng, &lights)?;
                     Some((lights, calls))
                 });
-                list_densities(&lights, calls)
+                let same = clear(&lights, Vec::from_iter(last));
+                // This one leads to a light.
+                last = Some(calls[0]);
+                list_densities(&lights, [same, calls, Vec::from_iter(last)].concat())
             })
             .collect();
         let calls = (0..3).map(|_| Toward {
@@ -305,9 +335,10 @@ const OVERLAP: Declaration = Declaration {
         let questions = orders.into_iter().map(|is_reversed| {
             let size = size(rng, 3);
             let front = light(rng, RECTANGLES[0], size);
-            let away = front.shape.normal() * -rng.uniform(0.5, 1.5) * size;
+            let away = front.shape.normal() * -rng.uniform(0.02, 0.1) * size;
             let behind = shifted(rng, &front, away);
-            let mut lights = vec![front, behind, shifted(rng, &front, 2.0 * away)];
+            let mut lights = vec![front, behind];
+            lights.extend((2..12).map(|n| shifted(rng, &front, f64::from(n) * away)));
             if is_reversed {
                 lights.reverse();
             }
@@ -413,8 +444,32 @@ fn light(rng: &mut Rng, form: usize, size: f64) -> FlatLight64 {
     };
     FlatLight64 {
         shape,
-        radiance: single(color(rng) * rng.log_uniform(0.05, 500.0)),
+        radiance: single(any_color(rng) * rng.log_uniform(0.05, 500.0)),
     }
+}
+
+/// Returns a random colour. Some have only one channel, and some only two.
+fn any_color(rng: &mut Rng) -> DVec3 {
+    let axis = DVec3::AXES[rng.index(3)];
+    match rng.index(6) {
+        0 => color(rng) * axis,
+        1 => color(rng) * (1.0 - axis),
+        _ => color(rng),
+    }
+}
+
+/// Returns a call whose choice is just below 1, past the sum of shares that are rounded down.
+fn past_rounding(rng: &mut Rng, lights: &[FlatLight64]) -> Option<LightSample> {
+    let all = Lights64::new(lights.iter().copied());
+    rng.attempt(100, |rng| {
+        let [call] = samples(rng, lights, 1, Option::is_some).try_into().ok()?;
+        let call = LightSample {
+            choice: BELOW_ONE,
+            ..call
+        };
+        let is_wanted = is_clear(&all, &call) && sample(&all, &call).value.is_some();
+        is_wanted.then_some(call)
+    })
 }
 
 /// Returns a rectangle that is parallel to two axes.
@@ -434,10 +489,11 @@ fn parallel_to_axes(rng: &mut Rng, size: f64) -> FlatLight64 {
 /// Returns a random size of a light in this class of lengths.
 fn size(rng: &mut Rng, class: usize) -> f64 {
     let decade = 10_f64.powi(class as i32 - 3);
-    decade * rng.log_uniform(2.0, 9.0)
+    let least = if class == 0 { 0.1 } else { 2.0 };
+    decade * rng.log_uniform(least, 9.0)
 }
 
-/// Returns a size in each class of lengths, from a few thousandths to a few hundreds, in random
+/// Returns a size in each class of lengths, from a ten-thousandth to a few hundreds, in random
 /// order.
 fn every_size(rng: &mut Rng) -> Vec<f64> {
     let sizes = (0..6).map(|class| size(rng, class)).collect();
@@ -480,12 +536,16 @@ fn one_light(
     calls: impl Fn(&mut Rng, &FlatLight64) -> Option<Vec<Toward>>,
 ) -> Vec<ExamQuestion> {
     let sizes = every_size(rng);
+    // Most questions start with the call that the previous one ends with.
+    let mut last = None;
     let question = |(&form, size)| {
         let (light, calls) = rng.retry(|rng| {
             let light = light(rng, form, size);
             Some((light, calls(rng, &light)?))
         });
-        one_light_densities(&light, calls)
+        let same = clear(&[light], Vec::from_iter(last));
+        last = calls.last().copied();
+        one_light_densities(&light, [same, calls].concat())
     };
     forms.iter().zip(sizes).map(question).collect()
 }
@@ -680,7 +740,7 @@ fn samples(
             } else {
                 // In front of a light or behind it, close to its normal or to its plane.
                 let light = lights[rng.index(lights.len())];
-                let view = [FRONT, BACK, EDGE_ON, EDGE_ON_BACK][rng.index(4)];
+                let view = [FRONT, CLOSE, BACK, EDGE_ON, EDGE_ON_BACK][rng.index(5)];
                 let target = light.point(random.as_dvec2());
                 toward_point(rng, &light, view, target)?.from.as_dvec3()
             };

@@ -150,12 +150,12 @@ const BOUNCES: Declaration = Declaration {
         }));
         // Between two mirrors, paths are even longer.
         let corridor = corridor(rng);
-        let cases = [40, 40, 80].map(|bounces| {
+        let cases = [(40, 32), (40, 32), (100, 64), (100, 64)].map(|(bounces, period)| {
             path_case_along(rng, &corridor, bounces, |ray, numbers, light| {
                 let radiance =
                     |numbers: &[Numbers64]| oracle::radiance(&corridor, ray, numbers).value;
-                let (first, rest) = numbers.split_at(32);
-                let repeated = [first, &first[..rest.len().min(32)]].concat();
+                let (first, rest) = numbers.split_at(period);
+                let repeated = [first, &first[..rest.len()]].concat();
                 is_lit(light) && radiance(first) != light && radiance(&repeated) != light
             })
         });
@@ -582,7 +582,13 @@ fn bright(rng: &mut Rng, environment: Environment64) -> Room {
     quads.remove(3);
     for (axis, facing) in [(1, -1.0), (0, 1.0), (2, -1.0)] {
         let center = rng.point(1.2);
-        let light = emitter(rng);
+        // One of the lights is very dim.
+        let light = match axis {
+            0 => Material64::Emitter {
+                radiance: color(rng) * rng.log_uniform(1e-6, 1e-4),
+            },
+            _ => emitter(rng),
+        };
         quads.push(panel(center, axis, facing, DVec3::splat(0.5), light));
     }
     Room::new(quads, environment)

@@ -16,9 +16,9 @@ pub const UNKNOWN_PANIC: &str = "What does that line require? For the question s
                                  which value doesn't meet the requirement.";
 
 /// The clue for an answer that is NaN or contains NaN.
-pub const NOT_A_NUMBER: &str = "Your answer is NaN, which comes from 0 / 0, from ∞ − ∞, or from the square root \
-                                of a negative number. Print the numbers that you divide or take the root of: \
-                                which of them is 0 or negative?";
+pub const NOT_A_NUMBER: &str = "Your answer is NaN, which usually comes from 0 / 0, from ∞ − ∞, or from the square \
+                                root of a negative number. Print the values that your answer is computed \
+                                from: which is the first one that isn't an ordinary number?";
 
 /// Returns the clue for an item without an answer. `called` is the method that gave none, if it is
 /// known.
@@ -97,9 +97,13 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
             "The result is too large for the type of these integers. Convert them to `f32`, or to \
              a larger type, before you calculate with them."
         }
+        PanicKind::Arithmetic if message.starts_with("attempt to subtract") => {
+            "`usize` and `u32` can't be negative, and the second number is larger than the first here. \
+             Convert both to `f32` before you subtract, or stop before this happens."
+        }
         PanicKind::Arithmetic => {
-            "`usize` and `u32` can't be negative, and an integer can't be divided by zero. Which \
-             of the numbers here can be 0?"
+            "An integer can't be divided by zero. What makes the divisor 0 here, and what should your code \
+             do in this case?"
         }
         PanicKind::NoValue => {
             "That line assumes that there is a value. When is there none, and what should your \
@@ -140,15 +144,15 @@ mod tests {
     }
 
     #[test]
-    fn only_a_result_below_zero_or_a_division_is_blamed_on_a_zero() {
-        for (message, can_be_zero) in [
-            ("attempt to subtract with overflow", true),
-            ("attempt to divide by zero", true),
-            ("attempt to add with overflow", false),
-            ("attempt to multiply with overflow", false),
+    fn the_clue_on_integers_fits_the_operation() {
+        for (message, part) in [
+            ("attempt to subtract with overflow", "can't be negative"),
+            ("attempt to divide by zero", "divided by zero"),
+            ("attempt to add with overflow", "too large"),
+            ("attempt to multiply with overflow", "too large"),
         ] {
             let clue = of_panic(message).unwrap();
-            assert_eq!(clue.contains("zero"), can_be_zero, "{message}: {clue}");
+            assert!(clue.contains(part), "{message}: {clue}");
         }
     }
 

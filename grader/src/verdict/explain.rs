@@ -102,8 +102,8 @@ fn add_symptom_clue(
     };
     line.clue_section = match first {
         Some(first) => first.where_to_read().cloned(),
-        // A recognised mistake has its own section.
-        None if line.section != item.section => None,
+        // A recognised mistake has its own section, which may be the item's.
+        None if !line.hints.is_empty() || line.section != item.section => None,
         None => of_symptom.and_then(|(_, section)| section),
     };
 }

@@ -39,6 +39,19 @@ pub(super) const SPECULAR: TaskClues = TaskClues {
             section: "light/glass.md#what-to-return",
         },
         SymptomClue {
+            symptoms: &[Symptom::of("attenuation")],
+            clue: "The attenuation is 1 for reflected paths, and the squared ratio of the indices for refracted \
+                paths. The Fresnel fraction isn't part of it, since it already decides how many paths go each \
+                way.",
+            section: "light/glass.md#chosen-by-chance-and-not-weighted-again",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::of("pdf")],
+            clue: "Mirrors and glass choose between single directions, so they have no density: `pdf` is \
+                `None`.",
+            section: "light/glass.md#a-mirror-has-no-density",
+        },
+        SymptomClue {
             symptoms: &[Symptom::of("direction"), Symptom::reversed("direction")],
             clue: "Which of your functions should this direction come from: `reflect` or `refract`? Call it \
                 with the `out` shown, and compare its result with yours.",
@@ -59,7 +72,7 @@ pub(super) const LIGHTS: TaskClues = TaskClues {
             symptoms: &[Symptom::less(SOME_OR_NONE)],
             clue: "The light that `choice` picks doesn't face away, but your code returns `None`. Which light \
                 does your code pick, and what is the sign of its cosine for the point shown?",
-            section: "light/lights.md#the-picked-light-may-face-away",
+            section: "light/lights.md#pick-a-light-by-its-power",
         },
         SymptomClue {
             symptoms: &[Symptom::more(SOME_OR_NONE)],
@@ -96,10 +109,7 @@ pub(super) const DIRECT: TaskClues = TaskClues {
 
 /// The clues for paths.
 pub(super) const PATH: TaskClues = TaskClues {
-    sections_on_panics: &[(
-        PanicKind::NoValue,
-        "light/paths.md#a-surface-that-scatters-nothing",
-    )],
+    sections_on_panics: &[(PanicKind::NoValue, "light/paths.md#what-is-counted-where")],
     by_symptom: &[SymptomClue {
         symptoms: &[Symptom::of("value")],
         clue: "Follow your path for the question shown. At each surface, write down what your code adds and \

@@ -57,10 +57,10 @@ pub(super) const TRIANGLE: TaskClues = TaskClues {
     by_symptom: &[
         SymptomClue {
             symptoms: &[Symptom::MISS],
-            clue: "The ray hits the triangle, but your code returns a miss. Work out u, v, w = 1 − u − v \
-                and t by hand for the ray shown, and compare them with the values in your code: which \
-                comparison rejects them?",
-            section: "triangle.md#three-equations-for-three-unknowns",
+            clue: "The ray hits the triangle: the determinant isn't zero, u, v and w = 1 − u − v are at least \
+                0, and t is in ray.range. Which line of your code returns `None` here? Work out by hand \
+                the number that it tests, and compare.",
+            section: "triangle.md#the-contract",
         },
         SymptomClue {
             symptoms: &[Symptom::HIT],
@@ -89,8 +89,8 @@ pub(super) const TRIANGLE: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::of("normal")],
             clue: "The normal is w · n0 + u · n1 + v · n2, with the normals given at the corners: w = 1 \
-                − u − v belongs to p0, u to p1 and v to p2.",
-            section: "triangle.md#interpolate-the-given-normals",
+                − u − v is 1 at p0, u is 1 at p1 and v is 1 at p2. Is this true of your three weights?",
+            section: "triangle.md#each-weight-belongs-to-its-corner",
         },
         SymptomClue {
             symptoms: &[Symptom::reversed("normal")],
@@ -100,9 +100,9 @@ pub(super) const TRIANGLE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("uv")],
-            clue: "The uv is w · uv0 + u · uv1 + v · uv2: w = 1 − u − v belongs to p0, u to p1 and v to \
-                p2.",
-            section: "triangle.md#the-weights-are-not-the-texture-coordinates",
+            clue: "The uv is w · uv0 + u · uv1 + v · uv2: w = 1 − u − v is 1 at p0, u is 1 at p1 and v is 1 \
+                at p2. Is this true of your three weights?",
+            section: "triangle.md#each-weight-belongs-to-its-corner",
         },
         SymptomClue {
             symptoms: &[Symptom::of("origin")],
@@ -173,7 +173,7 @@ pub(super) const SPHERE: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::of("uv")],
             clue: "The given Sphere::uv expects the unit-length direction from the centre to the \
-                hit.",
+                hit. Do you pass that, and is the method still as it was given?",
             section: "sphere.md#the-uv-function-needs-a-unit-direction",
         },
         SymptomClue {

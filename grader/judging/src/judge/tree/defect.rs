@@ -184,8 +184,9 @@ impl TreeDefect {
                 size,
                 listed,
             } => {
-                let end = u64::from(*start) + u64::from(*size);
-                format!("leaf {leaf} holds primitives {start} to {end} of {listed}")
+                format!(
+                    "leaf {leaf} has start {start} and size {size}, but only {listed} are listed"
+                )
             }
             TreeDefect::Partition {
                 primitive,

@@ -93,7 +93,7 @@ const LARGE_END: Layout<'static> = Layout {
 
 pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
-    title: "a short row of primitives is split at the best plane",
+    title: "a row of primitives is split at the best plane",
     look: "Here one partition is much cheaper than all others. Work out its cost by hand from the \
            areas and the counts of its sides: does your code try this partition, does it compute \
            this cost, and does it split the root this way?",

@@ -92,8 +92,8 @@ const ENTERING: Declaration = Declaration {
     id: "specular.refract_entering",
     points: 2,
     title: "a path that enters a denser medium is bent toward the normal",
-    look: "Which side is `out` on, and which of the two indices is on that side? Work out one \
-           example with Snell's law.",
+    look: "x and y of the result are those of `out` times minus the index on the side of `out`, \
+           divided by the other index. z then follows from the length. Which of the three is wrong?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#the-refracted-direction",
     tests: &[
@@ -121,9 +121,10 @@ const LEAVING: Declaration = Declaration {
     id: "specular.refract_leaving",
     points: 2,
     title: "a path that leaves a denser medium is bent away from the normal",
-    look: "If `out` is inside, the ratio of the indices is inverted, and the result points up.",
+    look: "If `out` is inside, the ratio of the indices is inverted, and the result points up. Which of \
+           the three components is wrong in your code?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
-    section: "light/glass.md#the-side-decides-the-ratio",
+    section: "light/glass.md#the-refracted-direction",
     tests: &["If out.z < 0, the path is inside, and the result has z > 0."],
     questions: |rng| {
         media(rng, DENSE, |rng, medium| {
@@ -211,8 +212,9 @@ const FRESNEL_ENTERING: Declaration = Declaration {
     id: "specular.fresnel_entering",
     points: 2,
     title: "outside, the reflected fraction follows the Fresnel equations at every angle",
-    look: "Work out both ratios at 60°: the result is the mean of their squares.",
-    section: "light/glass.md#the-mean-of-two-squares",
+    look: "Work out both ratios at 60°, and compare them with those in your code. The result is the \
+           mean of their squares.",
+    section: "light/glass.md#how-much-is-reflected",
     tests: &[
         "Returns the fraction of unpolarised light that the surface of a medium with index of \
          refraction `ior` reflects, according to the Fresnel equations.",
@@ -237,7 +239,8 @@ const FRESNEL_LEAVING: Declaration = Declaration {
     id: "specular.fresnel_leaving",
     points: 2,
     title: "inside, the reflected fraction is that of the refracted direction outside",
-    look: "Which cosine belongs to which index if the path is inside?",
+    look: "Both cosines are positive, even inside. Which of them belongs to which index if the path is \
+           inside?",
     section: "light/glass.md#each-side-has-its-own-angle",
     tests: &[
         "`out` can be on either side of the surface, as for [`refract`].",
@@ -329,7 +332,9 @@ const GLASS_CHOICE: Declaration = Declaration {
     id: "specular.glass_choice",
     points: 2,
     title: "glass reflects if the random number is below `fresnel`, and refracts otherwise",
-    look: "Which of the two directions do you choose if `random` is less than `fresnel`?",
+    look: "Which of the two directions do you choose if `random` is less than `fresnel`? And is that \
+           fraction the one that your own `fresnel` returns?",
+    look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#below-the-fraction-means-reflected",
     tests: &[
         "Chooses between reflection and refraction with a random number in `[0, 1)`: the path is \
@@ -344,8 +349,8 @@ const GLASS_RADIANCE: Declaration = Declaration {
     id: "specular.glass_radiance",
     points: 2,
     title: "refraction scales radiance by the squared index ratio, and reflection doesn't",
-    look: "Which index is on the side of `out`, and which is on the side that the light comes \
-           from?",
+    look: "Refracted paths are scaled by the squared ratio of the indices and by nothing else. Which \
+           index is on the side of `out`, and which is on the side that the light comes from?",
     section: "light/glass.md#the-ratio-of-indices-is-squared",
     tests: &[
         "If the path is reflected, `attenuation` is 1: the fraction of the light that is \

@@ -46,8 +46,8 @@ const SMALL_LIGHT: Declaration = Declaration {
     id: "direct.small_light",
     points: 2,
     title: "sampling the light finds a small light where nothing is in the way",
-    look: "The term of the light sample is evaluate × radiance / (light pdf + scattering pdf), all \
-           for the direction toward the light. Which of these values is wrong in your code?",
+    look: "Each of the two terms is evaluate × radiance / (light pdf + scattering pdf), all for its \
+           own direction. Work out both for the question shown: which of them is wrong in your code?",
     section: "light/direct.md#two-ways-to-find-a-light",
     tests: &[
         "Estimates the direct light that a surface scatters back along the path, from one \

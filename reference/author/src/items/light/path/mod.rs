@@ -24,8 +24,10 @@ use crate::seed::Rng;
 
 /// The number of calls in a question.
 const CALLS: usize = 16;
-/// The items of other tasks that paths need.
-const NEEDS: &[Group] = &[
+/// The items of other tasks that paths between matte surfaces need.
+const NEEDS: &[Group] = &[MATTE, MATTE_SAMPLES, LIGHT_SAMPLES, LIGHT_DENSITIES, DIRECT];
+/// The items that paths need if they also meet mirrors or glass.
+const NEEDS_WITH_SPECULAR: &[Group] = &[
     MATTE,
     MATTE_SAMPLES,
     SPECULAR,
@@ -59,7 +61,7 @@ const SEEN: Declaration = Declaration {
     title: "with 0 bounces, the ray sees only emitted light or the environment",
     look: "What do you add if the ray hits a light, and what if it hits nothing? With 0 bounces, \
            nothing else is added.",
-    section: "light/paths.md#the-first-surface-can-be-a-light",
+    section: "light/paths.md#what-is-counted-where",
     tests: &[
         "Estimates the radiance that arrives at the origin of a ray, by following one path.",
         "See Kajiya, \"The Rendering Equation\", SIGGRAPH 1986, and PBR, section 13.4.",
@@ -123,9 +125,9 @@ const BOUNCES: Declaration = Declaration {
     id: "path.bounces",
     points: 2,
     title: "a path is scattered as often as `bounces` and Russian roulette allow",
-    look: "If the question shown has more than 3 bounces, your code is right with fewer: look at \
-           Russian roulette. Otherwise, write down what your code adds at each surface, and each \
-           factor.",
+    look: "Follow the question shown from surface to surface. Each surface counts as a bounce, even \
+           a mirror. Write down what your code adds there, and each factor: from bounce 3 on, Russian \
+           roulette is one of them.",
     section: "light/paths.md#what-to-return",
     tests: &["The path is scattered at most `bounces` times."],
     questions: |rng| {
@@ -162,7 +164,7 @@ const BOUNCES: Declaration = Declaration {
         questions.push(question(&corridor, cases.into()));
         questions
     },
-    needs: NEEDS,
+    needs: NEEDS_WITH_SPECULAR,
     ..Declaration::ALONE
 };
 
@@ -325,7 +327,7 @@ const MIRROR: Declaration = Declaration {
         questions.push(question(&room, cases));
         questions
     },
-    needs: NEEDS,
+    needs: NEEDS_WITH_SPECULAR,
     ..Declaration::ALONE
 };
 
@@ -387,7 +389,7 @@ const GLASS: Declaration = Declaration {
             },
         )
     },
-    needs: NEEDS,
+    needs: NEEDS_WITH_SPECULAR,
     ..Declaration::ALONE
 };
 
@@ -431,7 +433,7 @@ const ROULETTE: Declaration = Declaration {
         }));
         questions
     },
-    needs: NEEDS,
+    needs: NEEDS_WITH_SPECULAR,
     ..Declaration::ALONE
 };
 

@@ -158,12 +158,17 @@ pub(super) fn sky(rng: &mut Rng) -> Environment64 {
 }
 
 /// Returns an environment map with random pixels, whose brightness is very uneven. Some are black.
+/// Some maps are very bright as a whole.
 fn map(rng: &mut Rng) -> Environment64 {
     let size = uvec2(8, 4);
+    let brightness = if rng.coin() {
+        rng.log_uniform(1e2, 2e3)
+    } else {
+        1.0
+    };
     let pixel = |_| match rng.index(5) {
         0 => Vec3::ZERO,
-        1 => (tint(rng) * rng.log_uniform(50.0, 1e5)).as_vec3(),
-        _ => (tint(rng) * rng.log_uniform(0.02, 50.0)).as_vec3(),
+        _ => (tint(rng) * rng.log_uniform(0.02, 50.0) * brightness).as_vec3(),
     };
     let pixels: Vec<Vec3> = (0..size.element_product()).map(pixel).collect();
     Environment64::Map(Map64::new(size, &pixels))

@@ -94,7 +94,7 @@ fn packed_clones_are_read_like_their_folder() {
         (&classroom50, &none[..], "  Ann Lee: all"),
         (&github, &none[..], "  ann: all"),
         (&github, &["--layout", "github"][..], "  ann: all"),
-        (&flat, &none[..], "choose one with --layout gitlab"),
+        (&flat, &none[..], "pass --layout gitlab"),
         (&flat, &gitlab[..], "  ann: all"),
         (&tutorials, &none[..], "--layout tutorials"),
         (

@@ -317,7 +317,7 @@ fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
         let class = paths.iter().copied().fold(class, with_clone);
         // The layout isn't guessed.
         let error = class.refused_preview(&[]);
-        assert_contains(&error, &["pass --layout folders"]);
+        assert_contains(&error, &["--layout folders"]);
         assert_eq!(
             error.contains("--layout gitlab or"),
             !paths[0].contains('/')

@@ -43,19 +43,19 @@ pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
     let known_count = known.len();
     let mut recorded = known;
     for form in in_other_forms {
-        let mut own = recorded
-            .iter()
-            .filter(|own| own.mistake.id == form.mistake.id);
+        if recorded.iter().any(|other| other.covers(&form)) {
+            continue;
+        }
+        let is_own = |other: &&RecordedMistake| other.mistake.id == form.mistake.id;
+        let mut own = recorded.iter().filter(is_own);
         ensure!(
             !form.times_out() || own.any(RecordedMistake::times_out),
             "the mistake {} runs out of time in another form of the reference's code, but not in the \
-             reference's own. On a faster machine, it may not, so the exam would be different there. \
+             reference's own. On a faster machine, it might not, and then the exam would be different. \
              Change the form in forms.toml or remove it",
             form.mistake.id
         );
-        if !recorded.iter().any(|other| other.covers(&form)) {
-            recorded.push(form);
-        }
+        recorded.push(form);
     }
 
     let mistakes = recorded.iter().map(|recorded| KnownMistake {

@@ -173,7 +173,7 @@ pub(super) const SPHERE: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::of("uv")],
             clue: "The given Sphere::uv expects the unit-length direction from the centre to the \
-                hit. Do you pass that, and is the method still as it was given?",
+                hit. Are you passing that, and is the given method unchanged?",
             section: "sphere.md#the-uv-function-needs-a-unit-direction",
         },
         SymptomClue {

@@ -194,8 +194,8 @@ pub(super) const TIGHT: Declaration = Declaration {
     id: "build.tight",
     title: "no box is larger than necessary",
     look: "A node's box is the union of its primitives' boxes. It is too large if it starts at the \
-           origin instead of BBox::EMPTY, if it is the parent's box, or if start and size leave \
-           out a primitive that it was made for.",
+           origin instead of BBox::EMPTY, if it is the parent's box, or if its start and size \
+           leave out one of its own primitives.",
     look_fits: &[Symptom::of("box too large")],
     section: "building.md#start-each-box-empty",
     tests: &["The box of a node…"],

@@ -332,8 +332,8 @@ const GLASS_CHOICE: Declaration = Declaration {
     id: "specular.glass_choice",
     points: 2,
     title: "glass reflects if the random number is below `fresnel`, and refracts otherwise",
-    look: "Which of the two directions do you choose if `random` is less than `fresnel`? And is that \
-           fraction the one that your own `fresnel` returns?",
+    look: "Which of the two directions do you choose if `random` is less than `fresnel`? And is \
+           that the `fresnel` that your own function returns?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/glass.md#below-the-fraction-means-reflected",
     tests: &[

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-/// Formats a number with at most one decimal place. That is more precise than a pixel, and gives
+/// Formats a number with at most one decimal place. That is more precise than a pixel and gives
 /// the same text on every machine.
 pub fn number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;

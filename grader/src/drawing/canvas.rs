@@ -38,11 +38,11 @@ pub(super) enum Anchor {
 /// A mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mark {
-    /// A disc at the expected answer.
+    /// A disc that marks the expected answer.
     Right,
-    /// A cross at a wrong submitted answer.
+    /// A cross that marks a wrong answer.
     Wrong,
-    /// A ring at the origin of a ray.
+    /// A ring that marks the origin of a ray.
     Origin,
 }
 

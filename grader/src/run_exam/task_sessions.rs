@@ -51,7 +51,7 @@ pub struct TaskSessions<'a> {
 }
 
 impl<'a> TaskSessions<'a> {
-    /// Creates the sessions. Their processes are started for the first item.
+    /// Creates the sessions. Their processes aren't started until the first item.
     pub fn new(build: &'a Build) -> Self {
         TaskSessions {
             build,

@@ -127,7 +127,7 @@ impl ExitReason {
     /// memory runs out. The cause is outside the process, because its own limits use other signals
     /// and a confined probe cannot send this signal to itself.
     pub fn is_external_kill(self) -> bool {
-        /// The number of SIGKILL on every system.
+        /// The number of the signal SIGKILL, which is the same on every system.
         const KILL: i32 = 9;
         self == ExitReason::Signal(KILL)
     }

@@ -122,12 +122,11 @@ pub fn strip_archive_extension(name: &str) -> &str {
     let Some((stem, end)) = name.rsplit_once('.').filter(|(stem, _)| !stem.is_empty()) else {
         return name;
     };
-    let is_tar = stem.to_lowercase().ends_with(".tar");
-    match stem {
-        _ if !is_archives(end) => name,
-        stem if is_tar => &stem[..stem.len() - ".tar".len()],
-        stem => stem,
+    if !is_archives(end) {
+        return name;
     }
+    let is_tar = stem.to_lowercase().ends_with(".tar");
+    &stem[..stem.len() - if is_tar { ".tar".len() } else { 0 }]
 }
 
 /// Returns the names that a name without an extension could be a copy or a second download of, the

@@ -401,7 +401,7 @@ fn wrong_answers(
 }
 
 /// Returns the score of an item whose task's method is still the one that was handed out. `method`
-/// is the line of the method in the file. Whatever the item's answers are, the method isn't written
+/// is its line number in the file. The answers don't matter, because nobody has written the method
 /// yet.
 pub fn unwritten_score(item: &Item, file: &str, method: u32, handed_out: &HandedOut) -> ItemScore {
     ItemScore {

@@ -19,7 +19,7 @@ const ATTACK_FILE: &str = "attack.rs";
 const EXPECT_FILE: &str = "expect.toml";
 /// The file that describes the entries without files of their own.
 const PACKAGED_FILE: &str = "packaged.toml";
-/// The prefix of the lines in which a file describes its entry.
+/// The prefix of the lines that describe an entry.
 const DESCRIPTION: &str = "//!";
 /// A function that converts a value to a different type via a soundness hole in the language.
 const HOLE: &str = include_str!("hole.rs");

@@ -66,7 +66,7 @@ fn grades_again_after_any_change() {
     fs::remove_dir_all(folder).unwrap();
 }
 
-/// Returns the lines of an output, except the notice and any empty lines.
+/// Returns the lines of an output, except for the notice and any empty lines.
 fn lines_of_grading(text: &str) -> Vec<&str> {
     let lines = text.lines().filter(|line| !line.is_empty());
     lines.filter(|line| !line.contains(NOTICE)).collect()

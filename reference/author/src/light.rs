@@ -33,7 +33,7 @@ impl LightFiles {
             return Ok(generated);
         }
         for file in &mut generated {
-            // The grader's copy stays as it is.
+            // The grader's own copy keeps its stubs.
             if let Some(name) = task_file(&file.path, &LIGHT) {
                 let path = root.join(LIGHT.reference).join(name);
                 let text = projection::solution(&files::read_to_string(&path)?)

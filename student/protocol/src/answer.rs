@@ -19,17 +19,17 @@ pub enum Answer {
     /// The answer to `BBoxHit`: for each query, the part of its `times` interval that the ray
     /// spends inside the box, or `None` if it is never inside.
     Spans(Vec<ElementOutcome<Option<Interval>>>),
-    /// The answer to a function that always returns a direction.
+    /// The answer of a function that always returns a direction.
     Directions(Vec<ElementOutcome<LocalDirection>>),
-    /// The answer to a function that may return no direction.
+    /// The answer of a function that may return no direction.
     OptionalDirections(Vec<ElementOutcome<Option<LocalDirection>>>),
-    /// The answer to a function that samples how a material continues a path.
+    /// The answer of a function that samples how a material continues a path.
     Scattered(Vec<ElementOutcome<Scattered>>),
-    /// The answer to a function that returns a value for each colour channel.
+    /// The answer of a function that returns a value for each colour channel.
     Colors(Vec<ElementOutcome<Color>>),
-    /// The answer to a function that returns a probability density.
+    /// The answer of a function that returns a probability density.
     Densities(Vec<ElementOutcome<Density>>),
-    /// The answer to a function that returns a fraction of the light.
+    /// The answer of a function that returns a fraction of the light.
     Fractions(Vec<ElementOutcome<Fraction>>),
     /// The answer to `Build`: the tree.
     Tree(ElementOutcome<Tree>),
@@ -146,7 +146,7 @@ impl<T> ElementOutcome<T> {
         }
     }
 
-    /// Returns whether the code isn't written yet.
+    /// Returns whether the code has yet to be written.
     pub fn is_unwritten(&self) -> bool {
         match self {
             ElementOutcome::Panicked(panic) => panic.is_unimplemented(),

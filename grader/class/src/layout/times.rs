@@ -1,4 +1,4 @@
-//! Converts times from the names and files in exports to formats that policies can read.
+//! Converts the times in an export's file names and files to formats that policies can read.
 
 use crate::names::is_number;
 

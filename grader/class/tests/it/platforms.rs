@@ -115,7 +115,7 @@ fn reads_brightspace_attempts_in_folders_and_flat() {
     assert_snapshot!(class.preview());
 }
 
-/// Sakai removes letters that aren't Latin from the names of folders, but not from its list.
+/// Sakai strips non-Latin letters from folder names, but not from its list.
 fn sakai(folder: &str) -> TestClass {
     let class = TestClass::named("bulk_download");
     let path = |name: &str| format!("{folder}/{name}");

@@ -17,11 +17,11 @@ pub enum Threshold {
     Field(&'static str, Tolerance),
     /// Length of a direction vector in a table.
     UnitLength,
-    /// Depth at one position of a picture.
+    /// Depth at one position in a picture.
     PictureDepth,
-    /// Normal at one position of a picture.
+    /// Normal at one position in a picture.
     PictureNormal,
-    /// Texture coordinates at one position of a picture.
+    /// Texture coordinates at one position in a picture.
     PictureUv,
     /// Number of wrong positions in a picture.
     PicturePositions,

@@ -28,7 +28,7 @@ fn right(item: &Item) -> Vec<Answer> {
     item.questions.iter().map(right_answer).collect()
 }
 
-/// Returns the answers of code that hits nothing.
+/// Returns the answers of code that never reports a hit.
 fn missed(item: &Item) -> Vec<Answer> {
     let miss = |right: Answer| match right {
         Answer::Spans(all) => Answer::Spans(vec![ElementOutcome::Value(None); all.len()]),

@@ -17,7 +17,7 @@ pub(super) fn text(lights: &[ListedLight]) -> String {
     }
 }
 
-/// Describes a map by its size, and says whether it is black.
+/// Describes a map by its size and says whether it is black.
 pub(super) fn map_text(map: &MapImage) -> String {
     let is_black = map.pixels.iter().all(|pixel| *pixel == Vec3::ZERO);
     let kind = if is_black { "a black map" } else { "a map" };

@@ -15,8 +15,8 @@ const CELL_HEIGHT: f64 = 22.0;
 /// The opacity of a cell with the expected count.
 const EXPECTED_TINT: f64 = 0.25;
 
-/// Draws the counts of the directions in all cells. `shown` is the index of the direction that the
-/// page shows, whose length may be wrong.
+/// Draws the number of directions in each cell. `shown` is the index of the direction that the page
+/// shows, whose length may be wrong.
 pub(super) fn draw(answer: &[ElementOutcome<LocalDirection>], shown: usize) -> Drawing {
     let counts = cell_counts(answer);
     let rows = counts.len();

@@ -98,8 +98,8 @@ const FOLDER_FLAGS: OFlags = OFlags::RDONLY
     .union(OFlags::DIRECTORY)
     .union(OFlags::CLOEXEC);
 
-/// Returns the opened file if it is a regular file. The type is checked after opening, so that the
-/// file cannot be replaced in between.
+/// Returns the opened file if it is a regular file. The type is checked after opening, so that
+/// nobody can replace the file in between.
 fn regular_file(opened: rustix::io::Result<OwnedFd>) -> io::Result<Option<File>> {
     let file = match opened {
         Ok(file) => File::from(file),

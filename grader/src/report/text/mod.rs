@@ -79,7 +79,7 @@ pub struct ReportParts {
     pub details: Vec<Detail>,
 }
 
-/// A part of a report below its table.
+/// A part of a report that follows its table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Detail {
     /// The task that the part is about, if any.

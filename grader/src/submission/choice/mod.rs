@@ -285,8 +285,8 @@ fn ambiguous(path: &Path, files: &[&str], copies: Vec<&str>) -> SubmissionError 
     }
 }
 
-/// Returns the error to report when task files are unmodified although changed copies of them
-/// exist. The error names each file once.
+/// Returns the error to report when task files are unmodified even though changed copies of
+/// them exist. The error names each file once.
 fn starter_beside_copies(
     path: &Path,
     starters: BTreeSet<&str>,

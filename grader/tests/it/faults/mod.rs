@@ -1,4 +1,4 @@
-//! Faults of the machine or of the grader, which never cost a student points. The grader prints the
+//! Faults in the machine or in the grader, which never cost a student points. The grader prints the
 //! reason, exits with 3 and writes no score. An interrupted run never leaves a file that looks
 //! complete.
 

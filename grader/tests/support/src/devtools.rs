@@ -158,7 +158,7 @@ impl Tab {
         }
     }
 
-    /// Evaluates an expression until it is true. Panics with the value of `state` if it stays
+    /// Evaluates an expression repeatedly until it is true. Panics with the value of `state` if it stays
     /// false.
     pub fn wait_until(&mut self, expression: &str, state: &str) {
         let deadline = Instant::now() + WAIT_TIMEOUT;

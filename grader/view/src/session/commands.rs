@@ -33,7 +33,7 @@ pub enum Command {
     Samples(u32),
     /// Moves the camera.
     Move(Movement),
-    /// Moves the camera to a side of the scene.
+    /// Moves the camera to one side of the scene.
     Side(Side),
     /// Returns to the scene's own camera.
     OwnCamera,

@@ -118,9 +118,7 @@ impl Session {
         }
         let checkup = self.tree.as_ref().filter(|tree| tree.index.has_nodes());
         for kind in checkup.into_iter().flat_map(|tree| &tree.checkup.kinds) {
-            let (first, rest) = kind.title.split_at(1);
-            let title = format!("{}{rest}", first.to_lowercase());
-            let text = format!("Defects in the tree: {title} ({}).", kind.count);
+            let text = format!("The tree has defects. {} ({}).", kind.title, kind.count);
             add(text, self.line_of(build));
         }
         if let Some(why) = &self.tree_fault {

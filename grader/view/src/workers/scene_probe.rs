@@ -202,8 +202,8 @@ impl<'a> SceneProbe<'a> {
         }
     }
 
-    /// Sends a request to the program. After a fault or an abandoned request, the program is ended
-    /// and restarted when needed.
+    /// Sends a request to the program. After a fault or an abandoned request, the program is killed
+    /// and restarted when it is needed again.
     fn ask(
         &mut self,
         work: &ScheduledJob,

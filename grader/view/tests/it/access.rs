@@ -185,7 +185,7 @@ fn an_error_of_the_user_says_what_to_do() {
     }
 }
 
-/// A CI system executes commands found in a log.
+/// CI systems execute commands that appear in their logs.
 #[test]
 fn no_name_in_an_error_is_a_command_in_a_log() {
     let name = "::error::a ##[set-env name=a]b";

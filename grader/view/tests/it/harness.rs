@@ -275,7 +275,7 @@ impl Viewer {
         assert_eq!(self.send(command), 204, "{command}");
     }
 
-    /// Waits for an expected state by requesting updates as the page does.
+    /// Waits for an expected state by polling for updates, as the page does.
     #[track_caller]
     pub fn wait_for(&self, is_expected: impl Fn(&Value) -> bool) -> Value {
         let deadline = Instant::now() + TIMEOUT;

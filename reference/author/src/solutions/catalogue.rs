@@ -190,8 +190,8 @@ struct Form {
     changes: Vec<Change>,
 }
 
-/// Makes the known mistakes in the other forms of the reference's code. A solution's id is that of
-/// the mistake. A mistake that changes the same code as the form cannot be made in it.
+/// Applies the known mistakes to the other forms of the reference's code. Each solution has the id
+/// of its mistake. A mistake isn't applied to a form that changes the same code.
 pub(super) fn mistakes_in_other_forms(
     root: &Path,
     catalogue: &[Mistake],

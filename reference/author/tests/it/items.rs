@@ -21,7 +21,7 @@ use protocol::{Question, Ray, Shape};
 
 use crate::harness::{SEEDS, exam_of, root};
 
-/// Returns an exam of each assignment.
+/// Returns one exam for each assignment.
 fn exam_of_each() -> [(&'static Assignment, Exam); 2] {
     let light = assemble(&authoring::LIGHT, "test", Seed(SEEDS[0]));
     let light = light.expect("the practice exam can be read");

@@ -4,7 +4,7 @@
 /// An environment map, and how to sample its bright parts more often.
 pub struct Environment {
     map: EnvironmentMap,
-    /// For each row, the weight of all earlier rows. One more entry is the total weight.
+    /// For each row, the weight of all earlier rows, followed by the total weight.
     rows: Vec<f64>,
     /// For each row, the weights of the pixels before each column, and of the row.
     columns: Vec<Vec<f64>>,

@@ -32,7 +32,7 @@ pub fn radiance(world: &World, ray: Ray, sampler: &Sampler, bounces: u32) -> Vec
 }
 
 impl Path {
-    /// Counts the light that the ray hits, and returns the surface.
+    /// Counts the light that the ray hits and returns the surface.
     fn hit<'a>(&mut self, world: &'a World) -> Option<Surface<'a>> {
         let surface = world.hit(&self.ray);
         if !self.is_counted {
@@ -45,7 +45,7 @@ impl Path {
         surface
     }
 
-    /// Adds direct light, and returns the next ray if the path goes on.
+    /// Adds direct light and returns the next ray if the path goes on.
     fn scatter(
         &mut self,
         world: &World,

@@ -82,7 +82,7 @@ impl TestClass {
         self.with_files_of("grader/starter", folder)
     }
 
-    /// Adds a submission that ignores the offset in a pixel.
+    /// Adds a submission that ignores the offset within a pixel.
     pub fn with_offset_mistake(self, folder: &str) -> Self {
         let file = format!("{folder}/camera.rs");
         let class = self.with_reference(folder);

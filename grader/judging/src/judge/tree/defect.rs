@@ -151,8 +151,8 @@ impl TreeDefect {
         }
     }
 
-    /// Returns whether there is too little or too much of the wrong part or property, if that can
-    /// be determined.
+    /// Returns whether the wrong part or property is too small or too large, if that can be
+    /// determined.
     pub fn side(&self) -> Option<Side> {
         match self {
             TreeDefect::NoNodes { .. } | TreeDefect::NotSplit { .. } => Some(Side::Less),

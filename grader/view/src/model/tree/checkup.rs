@@ -101,7 +101,7 @@ impl TreeCheckup {
         checkup
     }
 
-    /// Counts a defect, and lists it unless enough defects of its kind have already been listed.
+    /// Counts a defect and lists it unless enough defects of its kind have already been listed.
     fn add(&mut self, title: &'static str, defect: impl FnOnce() -> ListedDefect) {
         let known = self.kinds.iter().position(|kind| kind.title == title);
         let known = known.unwrap_or_else(|| {

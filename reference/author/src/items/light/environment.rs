@@ -353,8 +353,8 @@ fn colorful(rng: &mut Rng, size: UVec2) -> MapImage {
     }
 }
 
-/// Returns maps in a few sizes: one is dim everywhere, and in one, the sun is about as bright as all
-/// other pixels together.
+/// Returns maps in a few sizes: one is dim everywhere, and in another, the sun is about as bright
+/// as all the other pixels together.
 fn every_brightness(rng: &mut Rng) -> Vec<MapImage> {
     let mut maps =
         [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)].map(|size| colorful(rng, size));

@@ -120,7 +120,7 @@ fn luminance(DVec3 { x, y, z }: DVec3) -> f64 {
     0.2126 * x + 0.7152 * y + 0.0722 * z
 }
 
-/// Returns the distance from a random number to the nearest of some borders.
+/// Returns the distance from a random number to the nearest border.
 pub fn nearest_border(number: f64, borders: impl IntoIterator<Item = f64>) -> f64 {
     let distances = borders.into_iter().map(|border| (number - border).abs());
     distances.fold(f64::INFINITY, f64::min)

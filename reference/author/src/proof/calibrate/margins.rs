@@ -99,10 +99,10 @@ impl Margins {
         self.keep_nearest(purpose, sample);
     }
 
-    /// Adds a mistake's deciding deviations in one exam, one for each item that it must fail. Items
-    /// that barely catch the mistake are only considered if no other item catches it clearly. This
-    /// is because the lists of items are generated, so they also contain items that test something
-    /// else.
+    /// Adds the deviations that decide whether one exam catches a mistake, one for each item that
+    /// it must fail. Items that barely catch the mistake are only considered if no other item
+    /// catches it clearly: the lists of items are generated, so they also contain items that test
+    /// something else.
     pub fn add_mistake_of_exam(&mut self, samples: Vec<DeviationSample>) {
         let is_clear = |sample: &DeviationSample| sample.deviation.value >= MIN_MARGIN;
         let is_caught = samples.iter().any(is_clear);

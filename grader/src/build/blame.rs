@@ -170,7 +170,8 @@ fn how_to_restore(file: &TaskFile, changed: Option<ChangedDeclaration>) -> Strin
         None => format!(
             "\n\n{RESTORE_LABEL}anything you have changed or removed in {} that other files rely \
              on, such as a field, a method or a `derive`. If you have defined a type that the \
-             given code already provides (`Ray`, for example), use the given one instead.",
+             given code already provides (`Ray`, for example), use the given one instead. Threads \
+             share your types, so they can't contain a `Cell`, a `RefCell` or an `Rc`.",
             file.name
         ),
     }

@@ -72,13 +72,18 @@ pub fn first_step(
         }
         VerdictKind::NotCompiled => compile_step(score, info.file, &item.message),
         VerdictKind::Blocked => format!("{} {}", item.id, item.message),
-        VerdictKind::Passed
+        kind @ (VerdictKind::Passed
         | VerdictKind::Failed
         | VerdictKind::NoAnswer
-        | VerdictKind::Pending => {
+        | VerdictKind::Pending) => {
             let called = item.called.map(|called| info.method_name(called));
             let names = called.unwrap_or_else(|| info.method_names("or"));
-            format!("fix {names} in {place}")
+            // The mistake itself can be in code that this method calls or relies on.
+            let result = match kind {
+                VerdictKind::NoAnswer => "no answer",
+                _ => "a wrong answer",
+            };
+            format!("find out why {names} gives {result} ({place})")
         }
     };
     let what = format!("{}: {}", item.id, item.message);

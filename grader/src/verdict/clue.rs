@@ -44,8 +44,9 @@ pub fn of_fault(fault: &Fault, called: Option<&str>, task: &TaskInfo) -> String 
             Some(clue) => clue.to_owned(),
             None => {
                 format!(
-                    "Does {method} in {file} call itself? Find the call that can receive the same \
-                     arguments as its caller. If no method calls itself, look for a very large array."
+                    "Does {method} in {file} call itself, perhaps through another function? Find the call that \
+                     can receive the same arguments as its caller. If there is no such call, look for \
+                     a very large array."
                 )
             }
         },
@@ -99,7 +100,8 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
         }
         PanicKind::Arithmetic if message.starts_with("attempt to subtract") => {
             "`usize` and `u32` can't be negative, and the second number is larger than the first here. \
-             Convert both to `f32` before you subtract, or stop before this happens."
+             Should the difference be an `f32`? Then convert both numbers first. Is it an index? Then \
+             treat this case separately."
         }
         PanicKind::Arithmetic => {
             "An integer can't be divided by zero. What makes the divisor 0 here, and what should your code \

@@ -91,7 +91,7 @@ pub fn judged(question: &ExamQuestion, element: usize) -> String {
         let quantities = table.judged.iter().map(|quantity| quantity.text(record));
         let quantities: Vec<(String, String)> = quantities.collect();
         Some(match &quantities[..] {
-            [(_, value)] => value.clone(),
+            [(_, value)] if record.names().len() == 1 => value.clone(),
             all => {
                 let all = all.iter().map(|(name, value)| format!("{name} {value}"));
                 all.collect::<Vec<_>>().join(", ")

@@ -129,9 +129,9 @@ pub(super) const SPHERE: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::MISS],
             clue: "The ray hits the sphere, but your code returns a miss. Work out the discriminant and \
-                both roots by hand for the ray shown, and compare them with the values in your code. At \
-                least one root is in ray.range: what does your code do with it?",
-            section: "sphere.md#check-each-root-separately",
+                both roots by hand for the ray shown: the discriminant is at least 0, and at least one root is \
+                in ray.range. Which line of your code returns `None` here?",
+            section: "sphere.md#the-quadratic-equation",
         },
         SymptomClue {
             symptoms: &[Symptom::HIT],
@@ -316,10 +316,8 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
          all primitives in the leaves? If it finds a hit, is that hit compared the right way \
          round, kept, and returned?",
     ),
-    sections_on_crashes: &[
-        "traversal.md#an-empty-tree-has-no-nodes",
-        "traversal.md#deep-trees",
-    ],
+    section_if_stack_overflows: Some("traversal.md#the-algorithm"),
+    sections_on_crashes: &["traversal.md#deep-trees"],
     section_on_kept_state: Some("traversal.md#keep-nothing-between-two-rays"),
     by_symptom: &[
         SymptomClue {
@@ -338,10 +336,10 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::less("distance")],
-            clue: "Your distance is less than the correct one. If a primitive is hit there, it is \
-                in no leaf, or in a leaf that must not be entered, or the hit is nearer than \
-                ray.range.min: why was it tested?",
-            section: "traversal.md#test-exactly-the-primitives-of-the-leaf",
+            clue: "Your distance is less than the correct one. Is a primitive hit there? If so, it is in no \
+                leaf, in a leaf that must not be entered, or nearer than ray.range.min. If not, \
+                why isn't your distance that of a primitive's hit?",
+            section: "traversal.md#the-algorithm",
         },
         SymptomClue {
             symptoms: &[Symptom::of("distance")],

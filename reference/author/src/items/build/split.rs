@@ -91,6 +91,21 @@ const LARGE_END: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
+/// A large primitive beside the best gap, and no plane of sixteen buckets close by that separates
+/// the same primitives. A builder that stores the cost of one plane with the next plane splits at
+/// the wrong side of the large primitive.
+const NARROW: Layout<'static> = Layout {
+    clumps: &[
+        (0.4385, 0.4385, 1),
+        (0.0, 0.1, 3),
+        (0.5615, 0.6, 7),
+        (1.0, 1.0, 1),
+    ],
+    first_size: 1.2,
+    size: 0.02,
+    alignment: Alignment::Loose,
+};
+
 pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
     title: "a row of primitives is split at the best plane",
@@ -172,14 +187,21 @@ fn in_clumps() -> Vec<Draw> {
     /// The factors by which the layouts' primitive counts are multiplied. One layout with a gap
     /// then has over 1,024 primitives.
     const TIMES: [usize; 12] = [1, 5, 2, 20, 1, 96, 1, 5, 2, 20, 1, 50];
-    let layouts = [CLUMPS, GAP, HEAVY_END, LARGE_END].into_iter().enumerate();
-    let along_axes =
-        layouts.flat_map(|(number, layout)| (0..3).map(move |axis| (number, layout, axis)));
-    let draw = |(index, (number, layout, axis)): (usize, (usize, Layout<'static>, usize))| -> Draw {
+    /// The layouts and their leaf sizes. All primitives together never fit in a leaf.
+    const LAYOUTS: [(Layout<'static>, usize); 5] = [
+        (CLUMPS, 8),
+        (GAP, 8),
+        (HEAVY_END, 8),
+        (LARGE_END, 8),
+        (NARROW, 10),
+    ];
+    let along_axes = (0..LAYOUTS.len()).flat_map(|number| (0..3).map(move |axis| (number, axis)));
+    let draw = |(index, (number, axis)): (usize, (usize, usize))| -> Draw {
+        let (layout, leaf_size) = LAYOUTS[number];
         let times = TIMES[index % TIMES.len()];
         let clumps = layout.clumps.iter();
         let clumps: Vec<_> = clumps.map(|&(from, to, n)| (from, to, times * n)).collect();
-        let alignment = if number == 3 {
+        let alignment = if number >= 3 {
             Alignment::Loose
         } else {
             ALIGNMENTS[(number + axis) % ALIGNMENTS.len()]
@@ -191,7 +213,11 @@ fn in_clumps() -> Vec<Draw> {
                 ..layout
             };
             let is_mirrored = (number + axis).is_multiple_of(2);
-            UnplacedQuestion::new(row(rng, &layout, axis, is_mirrored), 8 * times, axis)
+            UnplacedQuestion::new(
+                row(rng, &layout, axis, is_mirrored),
+                times * leaf_size,
+                axis,
+            )
         })
     };
     along_axes.enumerate().map(draw).collect()

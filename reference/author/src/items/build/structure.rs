@@ -193,9 +193,9 @@ pub(super) const CONTAINS: Declaration = Declaration {
 pub(super) const TIGHT: Declaration = Declaration {
     id: "build.tight",
     title: "no box is larger than necessary",
-    look: "A node's box is the union of its primitives' boxes. It is too large if it starts at the \
-           origin instead of BBox::EMPTY, if it is the parent's box, or if its start and size \
-           leave out one of its own primitives.",
+    look: "A node's box is the union of its primitives' boxes, with nothing added. Does it start as \
+           BBox::EMPTY, and not at the origin? Is it the node's own box, not its parent's? Do start \
+           and size include all of its primitives?",
     look_fits: &[Symptom::of("box too large")],
     section: "building.md#start-each-box-empty",
     tests: &["The box of a node…"],

@@ -68,7 +68,7 @@ pub(super) const ASPECT_RATIO: Declaration = Declaration {
     look: "vertical_fov gives the sensor's height, and the width is aspect_ratio · height. The \
         film has film.x columns and film.y rows: for a point (x, y) on the film, x / film.x is a \
         fraction of the width, and y / film.y is a fraction of the height.",
-    section: "camera.md#the-size-of-the-sensor",
+    section: "camera.md#from-pixel-to-sensor",
     tests: &["The sensor is the…"],
     questions: |rng| {
         let films = [

@@ -43,11 +43,10 @@ pub(super) const BESIDE: Declaration = Declaration {
 pub(super) const RADIUS: Declaration = Declaration {
     id: "sphere.radius",
     title: "a sphere of any radius is hit like any other",
-    look: "Work out both roots by hand for the ray shown: the square of the radius is part of the \
-           quadratic's c. Spheres can be tiny, and so can distances: which of the two roots is the \
-           first one in ray.range?",
+    look: "Work out both roots by hand for the ray shown. Spheres can be tiny, and so can distances: \
+           which of the two roots is the smallest one in ray.range, and which distance do you return?",
     look_fits: &[Symptom::of("distance")],
-    section: "sphere.md#the-radius-is-not-always-one",
+    section: "sphere.md#the-near-root-can-be-out-of-range",
     tests: &["Returns the ray's…", "`distance` is the…"],
     questions: |rng| {
         let all = [

@@ -53,8 +53,8 @@ pub(super) const UV: Declaration = Declaration {
 pub(super) const UV_RADIUS: Declaration = Declaration {
     id: "sphere.uv_radius",
     title: "uv does not depend on the radius",
-    look: "Sphere::uv needs a direction of length one, but the vector from the centre to the hit \
-           is as long as the radius.",
+    look: "Sphere::uv needs the direction from the centre to the hit, with length one: is your vector \
+           as long as the radius, or does it point the other way?",
     look_fits: &[Symptom::of("uv")],
     section: "sphere.md#the-uv-function-needs-a-unit-direction",
     tests: &["`uv` is computed…"],

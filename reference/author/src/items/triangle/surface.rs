@@ -48,7 +48,7 @@ pub(super) const UV: Declaration = Declaration {
     look: "The uv is w · uv0 + u · uv1 + v · uv2, where uv0, uv1 and uv2 are given at p0, p1 and \
            p2, and w = 1 − u − v. The barycentric u and v are only its weights.",
     look_fits: &[Symptom::of("uv")],
-    section: "triangle.md#the-weights-are-not-the-texture-coordinates",
+    section: "triangle.md#each-weight-belongs-to-its-corner",
     tests: &["`normal` and `uv`…"],
     questions: |rng| questions(rng, &["uv"], EVERY_SIZE, is_from_the_front),
     ..Declaration::in_group(groups::TRIANGLE_SURFACE)

@@ -20,6 +20,11 @@ const CELLS: [usize; 2] = [8, 8];
 /// band 0, and so on, modulo 8.
 const PARTS: [usize; 3] = [1, 8, 64];
 
+/// The number of bands that each axis is divided into, and of sectors around it. Each is about as
+/// wide as the mean distance between the exam's directions along the axis, so directions that pile
+/// up or leave gaps are found even if all [`CELLS`] get their shares.
+const SLICES: usize = 8192;
+
 /// The number of directions in each cell.
 pub type Counts = [[u32; CELLS[1]]; CELLS[0]];
 
@@ -41,22 +46,28 @@ impl Spread<'_> {
         })
     }
 
-    /// Returns the largest χ² of the numbers of directions in the cells, for all sizes of parts.
-    /// Infinite if there are no directions.
+    /// Returns the largest χ² of the numbers of directions in the cells, for all sizes of parts, and
+    /// in the slices. Infinite if there are no directions.
     fn chi_squared(&self) -> f64 {
-        let all = PARTS.map(|parts| self.chi_squared_of_parts(parts));
-        all.into_iter().fold(0.0, f64::max)
+        let cells = PARTS.map(|parts| self.chi_squared_of_parts(parts));
+        let slices = [0, 1, 2].map(|axis| self.chi_squared_of_slices(axis));
+        let all = cells.into_iter().chain(slices.into_iter().flatten());
+        all.fold(0.0, f64::max)
     }
 
     fn chi_squared_of_parts(&self, parts: usize) -> f64 {
-        let counts = counts_of_parts(self.answer, parts);
-        let counts = counts.as_flattened();
-        let expected = self.expected();
-        let terms = counts
-            .iter()
-            .map(|count| (f64::from(*count) - expected).powi(2) / expected);
-        let sum: f64 = terms.sum();
-        if sum.is_nan() { f64::INFINITY } else { sum }
+        chi_squared(counts_of_parts(self.answer, parts).as_flattened())
+    }
+
+    /// Returns χ² of the numbers of directions in the bands along an axis, and in the sectors around
+    /// it, scaled to the number of cells: the distance from its mean is divided by its standard
+    /// deviation, and multiplied by that of the cells' χ².
+    fn chi_squared_of_slices(&self, axis: usize) -> [f64; 2] {
+        let freedom = |count: usize| (count - 1) as f64;
+        let [cells, slices] = [CELLS[0] * CELLS[1], SLICES].map(freedom);
+        let scaled =
+            |counts: Vec<u32>| cells + (chi_squared(&counts) - slices) * (cells / slices).sqrt();
+        counts_of_slices(self.answer, axis).map(scaled)
     }
 
     /// Returns the number of directions in each cell if they are spread evenly.
@@ -150,19 +161,49 @@ fn counts_of_parts(answer: &[ElementOutcome<LocalDirection>], parts: usize) -> C
     counts
 }
 
+/// Returns the number of directions in each band along an axis, and in each sector around it.
+fn counts_of_slices(answer: &[ElementOutcome<LocalDirection>], axis: usize) -> [Vec<u32>; 2] {
+    let mut counts = [vec![0; SLICES], vec![0; SLICES]];
+    for outcome in answer {
+        if let Some(LocalDirection { direction }) = outcome.value() {
+            for (counts, fraction) in counts.iter_mut().zip(fractions(*direction, axis)) {
+                counts[part(fraction, SLICES)] += 1;
+            }
+        }
+    }
+    counts
+}
+
+/// Returns χ² of numbers that should all be equal. Infinite if all are zero.
+fn chi_squared(counts: &[u32]) -> f64 {
+    let counts = counts.iter().map(|count| f64::from(*count));
+    let expected = counts.clone().sum::<f64>() / counts.len() as f64;
+    let sum: f64 = counts
+        .map(|count| (count - expected).powi(2) / expected)
+        .sum();
+    if sum.is_nan() { f64::INFINITY } else { sum }
+}
+
 /// Returns the band and the sector of the cell that contains a direction, if each band and each
 /// sector has this many parts.
 fn cell(direction: Vec3, parts: usize) -> [usize; 2] {
+    let fractions = fractions(direction, 1);
+    [0, 1].map(|index| part(fractions[index], parts * CELLS[index]) % CELLS[index])
+}
+
+/// Returns how far a direction is along an axis, from its negative end to its positive one, and how
+/// far around it, as fractions. Around +y, the angle is counted from +x toward +z.
+fn fractions(direction: Vec3, axis: usize) -> [f64; 2] {
     let direction = direction.as_dvec3();
-    let turn = direction.z.atan2(direction.x).rem_euclid(TAU) / TAU;
-    let fractions = [(direction.y + 1.0) / 2.0, turn];
-    [0, 1].map(|axis| {
-        let count = parts * CELLS[axis];
-        // Casts saturate, so a direction on the last border, or without a length, is in some cell
-        // too.
-        let part = (fractions[axis] * count as f64) as usize;
-        part.min(count - 1) % CELLS[axis]
-    })
+    let [along, first, second] = [0, 2, 1].map(|step| direction[(axis + step) % 3]);
+    let turn = second.atan2(first).rem_euclid(TAU) / TAU;
+    [(along + 1.0) / 2.0, turn]
+}
+
+/// Returns which of `count` equal parts of `[0, 1)` contains a fraction.
+fn part(fraction: f64, count: usize) -> usize {
+    // Casts saturate, so a direction on the last border, or without a length, is in some part too.
+    ((fraction * count as f64) as usize).min(count - 1)
 }
 
 #[cfg(test)]
@@ -222,6 +263,24 @@ mod tests {
         // Even from afar, but with only 16 different heights.
         let steps = spread_by(|x, y| on_sphere(((16.0 * x).floor() - 7.5) / 8.0, y));
         assert!(got(&steps).contains("uneven within the cells"));
+    }
+
+    #[test]
+    fn directions_that_pile_up_within_the_cells_are_uneven() {
+        let got = |answer: &[_]| judged(answer).expect("the directions are uneven");
+        let rings = spread_by(|x, y| on_sphere((1.0 - 2.0 * x).clamp(-0.99, 0.99), y));
+        assert!(got(&rings).contains("uneven within the cells"));
+        let degrees = spread_by(|x, y| on_sphere(1.0 - 2.0 * x, (360.0 * y).floor() / 360.0));
+        assert!(got(&degrees).contains("uneven within the cells"));
+        // A spiral of 1024 points.
+        let spiral = spread_by(|x, _| {
+            let index = (1024.0 * x).floor();
+            on_sphere(
+                1.0 - (2.0 * index + 1.0) / 1024.0,
+                (0.618_034 * index).fract(),
+            )
+        });
+        assert!(got(&spiral).contains("uneven within the cells"));
     }
 
     #[test]

@@ -70,8 +70,8 @@ pub(super) const LIGHTS: TaskClues = TaskClues {
     by_symptom: &[
         SymptomClue {
             symptoms: &[Symptom::less(SOME_OR_NONE)],
-            clue: "The light that `choice` picks doesn't face away, but your code returns `None`. Which light \
-                does your code pick, and what is the sign of its cosine for the point shown?",
+            clue: "The light that `choice` picks doesn't face away, but your code returns `None`. Which of your \
+                conditions leads there, and is it about the list, the light that is picked, or its cosine?",
             section: "light/lights.md#pick-a-light-by-its-power",
         },
         SymptomClue {

@@ -14,6 +14,7 @@ use super::{Row, rows_of};
 use crate::domains::fields::class_up_to;
 use crate::domains::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::light::environment::Map64;
+use crate::oracle::light::luminance;
 
 /// The domain of `uniform_sphere`.
 pub static UNIFORM_SPHERE: FunctionDomain<Row<UniformSphere>> = FunctionDomain {
@@ -36,7 +37,7 @@ pub static UNIFORM_SPHERE: FunctionDomain<Row<UniformSphere>> = FunctionDomain {
 /// The domain of `Environment::sample`.
 pub static MAP_SAMPLE: FunctionDomain<Row<EnvironmentSample>> = FunctionDomain {
     function: "Environment::sample",
-    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK],
+    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK, Aspect::PEAK],
     aspects: &[
         Aspect::PIXEL_ROW,
         Aspect::PIXEL_COLUMN,
@@ -74,13 +75,14 @@ pub static MAP_SAMPLE: FunctionDomain<Row<EnvironmentSample>> = FunctionDomain {
 /// The domain of `Environment::pdf`.
 pub static MAP_PDF: FunctionDomain<Row<EnvironmentPdf>> = FunctionDomain {
     function: "Environment::pdf",
-    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK],
+    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK, Aspect::PEAK],
     aspects: &[
         Aspect::PIXEL_ROW,
         Aspect::PIXEL_COLUMN,
         Aspect::PIXEL_SHARE,
         Aspect::PIXEL_COLOR,
         Aspect::PIXEL_RADIANCE,
+        DENSITY,
         SINE,
         LONGITUDE,
     ],
@@ -179,6 +181,20 @@ impl<F: Function<Subject = MapImage, Input: OnMap>> Aspect<Row<F>> {
         },
     };
 
+    /// The luminance of the brightest pixel, divided by the mean.
+    pub const PEAK: Self = Aspect {
+        name: "brightest pixel over the mean",
+        classes: &["up to 10", "up to 1,000", "beyond"],
+        class: |row| {
+            let pixels = row.subject.pixels.iter();
+            let luminances: Vec<f64> = pixels.map(|it| luminance(it.as_dvec3())).collect();
+            let sum: f64 = luminances.iter().sum();
+            let brightest = luminances.iter().copied().fold(0.0, f64::max);
+            let ratio = brightest * luminances.len() as f64 / sum;
+            (sum > 0.0).then(|| [10.0, 1e3].iter().filter(|limit| ratio > **limit).count())
+        },
+    };
+
     /// The pixel's row.
     pub const PIXEL_ROW: Self = Aspect {
         name: "row",
@@ -225,6 +241,17 @@ fn place_class(index: u32, count: u32) -> usize {
         _ => 3,
     }
 }
+
+/// The density of the direction.
+const DENSITY: Aspect<Row<EnvironmentPdf>> = Aspect {
+    name: "density",
+    classes: MAGNITUDES,
+    class: |row| {
+        let map = Map64::new(row.subject.size, &row.subject.pixels);
+        let density = map.pdf(row.input.direction.as_dvec3()).value;
+        Some(magnitude_class(density))
+    },
+};
 
 /// The sine of the angle between the direction and the nearer pole.
 const SINE: Aspect<Row<EnvironmentPdf>> = Aspect {

@@ -45,6 +45,7 @@ pub static LIGHTS_PDF: FunctionDomain<Row<LightsPdf>> = FunctionDomain {
         Aspect::RAY_DIRECTION,
         LIGHTS_AHEAD,
         SHARE_AHEAD,
+        SPHERE_AHEAD,
     ],
     pairs: &[],
     calls: rows_of!(LightsPdf),
@@ -69,6 +70,8 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
         PICKED_DISTANCE,
         PICKED_COSINE,
         PICKED_OCTANT,
+        PICKED_SPHERE,
+        INSIDE,
         WITHOUT_POWER,
     ],
     pairs: &[],
@@ -104,6 +107,24 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
             &["sphere"],
             &["`None`"],
             "A sphere that is seen from outside never faces away.",
+        ),
+        not_asked(
+            &["distance in radii"],
+            OUTSIDE,
+            &["`None`"],
+            "A sphere that is seen from outside never faces away.",
+        ),
+        not_asked(
+            &["distance in radii"],
+            INSIDE_A_SPHERE,
+            &["some", "direction", "unit_direction"],
+            "From inside, there is no direction to a sphere.",
+        ),
+        not_asked(
+            &["point"],
+            INSIDE_THE_PICKED,
+            &["some", "direction", "unit_direction"],
+            "From inside, there is no direction to a sphere.",
         ),
         not_asked(
             &["share of the picked light"],
@@ -423,6 +444,51 @@ const SHARE_AHEAD: Aspect<Row<LightsPdf>> = Aspect {
     },
 };
 
+/// The classes of distances from the centre of a sphere.
+const RADII: &[&str] = &[
+    "below 1",
+    "1 to 1.001",
+    "1.001 to 1.05",
+    "1.05 to 300",
+    "above 300",
+];
+
+/// The distances outside a sphere.
+const OUTSIDE: &[&str] = RADII.split_at(1).1;
+
+/// The distance inside a sphere.
+const INSIDE_A_SPHERE: &[&str] = &[RADII[0]];
+
+/// Returns the class of a point's distance from the centre of a sphere, in radii.
+fn radii_class(sphere: &SphericalLight64, point: Vec3) -> usize {
+    let radii = point.as_dvec3().distance(sphere.center) / sphere.radius;
+    let limits = [1.0, 1.001, 1.05, 300.0];
+    limits.iter().filter(|limit| radii > **limit).count()
+}
+
+/// Converts the spheres in a list to double precision.
+fn spheres(list: &LightList) -> impl Iterator<Item = SphericalLight64> {
+    list.lights.iter().filter_map(|light| match double(light) {
+        Light64::Sphere(light) => Some(light),
+        Light64::Flat(_) => None,
+    })
+}
+
+/// The distance of a sphere that has a density or that the point is inside of.
+const SPHERE_AHEAD: Aspect<Row<LightsPdf>> = Aspect {
+    name: "distance in radii",
+    classes: RADII,
+    class: |row| {
+        let Toward { from, direction } = row.input;
+        let pdf = |light: &SphericalLight64| light.pdf(from.as_dvec3(), direction.as_dvec3()).value;
+        let ahead = spheres(&row.subject).find(|light| {
+            let is_inside = radii_class(light, from) == 0;
+            is_inside || pdf(light) > 0.0
+        });
+        Some(radii_class(&ahead?, from))
+    },
+};
+
 /// Returns the sum of the lights' powers.
 fn power(list: &LightList) -> f64 {
     list.lights.iter().map(|light| double(light).power()).sum()
@@ -567,6 +633,44 @@ const PICKED_OCTANT: Aspect<Row<LightsSample>> = Aspect {
     name: "octant",
     classes: OCTANTS,
     class: |row| octant(pick(row)?.to_light?),
+};
+
+/// The distance of the picked sphere.
+const PICKED_SPHERE: Aspect<Row<LightsSample>> = Aspect {
+    name: "distance in radii",
+    classes: RADII,
+    class: |row| match pick(row)?.light {
+        Light64::Sphere(light) => Some(radii_class(&light, row.input.from)),
+        Light64::Flat(_) => None,
+    },
+};
+
+/// The classes of points, by whether they are inside a sphere.
+const POINTS: &[&str] = &[
+    "outside all spheres",
+    "inside the picked sphere",
+    "inside a sphere that isn't picked",
+];
+
+/// The points to which the picked light doesn't emit.
+const INSIDE_THE_PICKED: &[&str] = &[POINTS[1]];
+
+/// Whether the point is inside a sphere.
+const INSIDE: Aspect<Row<LightsSample>> = Aspect {
+    name: "point",
+    classes: POINTS,
+    class: |row| {
+        let is_inside = |light: &SphericalLight64| radii_class(light, row.input.from) == 0;
+        let is_inside_picked = match pick(row)?.light {
+            Light64::Sphere(light) => is_inside(&light),
+            Light64::Flat(_) => false,
+        };
+        Some(match spheres(&row.subject).any(|light| is_inside(&light)) {
+            _ if is_inside_picked => 1,
+            true => 2,
+            false => 0,
+        })
+    },
 };
 
 /// Whether the list contains lights without power.

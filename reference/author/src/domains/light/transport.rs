@@ -31,6 +31,9 @@ pub static DIRECT: FunctionDomain<DirectCall> = FunctionDomain {
         SURFACE,
         SIDE,
         LIGHT_SAMPLE,
+        BLOCKER,
+        SAMPLE_HEIGHT,
+        SAMPLE_PDF,
         SCATTERED,
         SCATTERED_HEIGHT,
         LIGHT_PDF,
@@ -71,6 +74,7 @@ pub static RADIANCE: FunctionDomain<PathCall> = FunctionDomain {
         FIRST_TWO,
         LENGTH,
         SPECULAR,
+        FIRST_SCATTERED,
     ],
     pairs: &[["environment", FIRST.name]],
     calls: path_calls,
@@ -156,11 +160,11 @@ impl<C: InRoom> Aspect<C> {
     /// Half of the room's longest side.
     pub const ROOM_SIZE: Self = Aspect {
         name: "size of the room",
-        classes: &["up to 0.1", "up to 10", "up to 1,000"],
+        classes: &["up to 0.001", "up to 0.1", "up to 10", "up to 1,000"],
         class: |call| {
             let (_, half) = call.room().extent();
             Some(
-                [0.1, 10.0]
+                [0.001, 0.1, 10.0]
                     .iter()
                     .filter(|limit| half.max_element() > **limit)
                     .count(),
@@ -292,6 +296,48 @@ const LIGHT_SAMPLE: Aspect<DirectCall> = Aspect {
     },
 };
 
+/// What is in the way of the direction toward a light.
+const BLOCKER: Aspect<DirectCall> = Aspect {
+    name: "in the way of the light",
+    classes: &["matte", "mirror", "glass", "light, from behind"],
+    class: |call| {
+        let surface = matte(call)?;
+        let direction = sampled(call)?;
+        let hit = call
+            .room
+            .hit(&ray(surface, direction), Some(surface))
+            .value?;
+        // The front of a light isn't in the way.
+        [0, 1, 2, 4]
+            .iter()
+            .position(|class| *class == surface_class(&hit))
+    },
+};
+
+/// The cosine of the direction toward a light that isn't blocked.
+const SAMPLE_HEIGHT: Aspect<DirectCall> = Aspect {
+    name: "cosine of the light sample",
+    classes: &["above 0.1", "above 1e-3", "smaller"],
+    class: |call| {
+        let surface = matte(call)?;
+        let direction = sampled(call).filter(|it| found(call, surface, *it) > 0)?;
+        let cosine = surface.frame.to_local(direction).z;
+        Some([0.1, 1e-3].iter().filter(|limit| cosine < **limit).count())
+    },
+};
+
+/// The light pdf of the direction toward a light that isn't blocked.
+const SAMPLE_PDF: Aspect<DirectCall> = Aspect {
+    name: "light pdf of the light sample",
+    classes: &["up to 1", "up to 100", "up to 10,000", "beyond"],
+    class: |call| {
+        let surface = matte(call)?;
+        let direction = sampled(call).filter(|it| found(call, surface, *it) > 0)?;
+        let pdf = call.room.sources().pdf(surface.position, direction).value;
+        Some([1.0, 1e2, 1e4].iter().filter(|limit| pdf > **limit).count())
+    },
+};
+
 /// The light that the scattered direction finds.
 const SCATTERED: Aspect<DirectCall> = Aspect {
     name: "scattered direction",
@@ -332,17 +378,30 @@ fn scattered(call: &DirectCall) -> DVec3 {
     lambertian::sample_cosine_hemisphere(call.input.direct.as_dvec2())
 }
 
+/// Returns the direction toward a light, if there is one above the surface.
+fn sampled(call: &DirectCall) -> Option<DVec3> {
+    let surface = matte(call)?;
+    let numbers = Numbers64::from(&call.input);
+    let sample = call.room.sources().sample(surface.position, &numbers);
+    let is_above = |direction: &DVec3| surface.frame.to_local(*direction).z > 0.0;
+    sample.value.filter(is_above)
+}
+
+/// Returns the ray from a surface in a direction.
+fn ray(surface: &Surface64, dir: DVec3) -> Ray64 {
+    Ray64 {
+        origin: surface.position,
+        dir,
+        min: 0.0,
+        max: f64::INFINITY,
+    }
+}
+
 /// Returns 0 if no light arrives at a surface from a direction, 1 if it is the light of a shape,
 /// and 2 if it is that of the environment.
 fn found(call: &DirectCall, surface: &Surface64, direction: DVec3) -> usize {
     let is_dark = emitted(&call.room, surface, direction).value == DVec3::ZERO;
-    let ray = Ray64 {
-        origin: surface.position,
-        dir: direction,
-        min: 0.0,
-        max: f64::INFINITY,
-    };
-    let hit = call.room.hit(&ray, Some(surface)).value;
+    let hit = call.room.hit(&ray(surface, direction), Some(surface)).value;
     match hit {
         _ if is_dark => 0,
         Some(_) => 1,
@@ -465,6 +524,19 @@ const SPECULAR: Aspect<PathCall> = Aspect {
         let runs = call.surfaces.split(|surface| !is_specular(surface));
         let longest = runs.map(<[Surface64]>::len).max();
         Some(class_up_to(&[0, 1, 8], longest.unwrap_or(0)))
+    },
+};
+
+/// The cosine of the direction that a matte first surface scatters to.
+const FIRST_SCATTERED: Aspect<PathCall> = Aspect {
+    name: "first scattered cosine",
+    classes: &["above 0.1", "above 3e-3", "smaller"],
+    class: |call| {
+        let first = call.surfaces.first()?;
+        let numbers = numbers_of_path(&call.input);
+        let random = numbers.first().filter(|_| surface_class(first) == 0)?;
+        let cosine = lambertian::sample_cosine_hemisphere(random.scatter).z;
+        Some([0.1, 3e-3].iter().filter(|limit| cosine < **limit).count())
     },
 };
 

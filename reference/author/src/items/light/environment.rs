@@ -1,5 +1,7 @@
 //! The items about environment maps.
 
+use std::ops::Range;
+
 use glam::{DVec3, UVec2, Vec2, Vec3, uvec2};
 use judging::exam::{ExamQuestion, Key};
 use judging::symptom::{SPREAD, Symptom};
@@ -235,8 +237,10 @@ const BLACK: Declaration = Declaration {
         let mut questions = Vec::new();
         for size in sizes {
             let mut map = colorful(rng, size);
+            // Most pixels are black, but in the largest map only some.
+            let share = if size.x == 10 { 0.15 } else { 0.6 };
             for pixel in &mut map.pixels {
-                if rng.uniform(0.0, 1.0) < 0.6 {
+                if rng.uniform(0.0, 1.0) < share {
                     *pixel = Vec3::ZERO;
                 }
             }
@@ -296,7 +300,7 @@ const SIZES: Declaration = Declaration {
     points: 1,
     title: "maps of any size are sampled, from two pixels to two hundred thousand",
     look: "Check whether you swap the width and the height anywhere. If only large maps or dim \
-           pixels fail, check that all sums are in `f64`.",
+           pixels fail, check that all sums are in `f64` and that nothing is limited.",
     look_fits: &[
         Symptom::of("direction"),
         Symptom::reversed("direction"),
@@ -325,6 +329,7 @@ const SIZES: Declaration = Declaration {
         let map = large(rng);
         questions.push(samples(rng, map.clone()));
         questions.push(pdfs(rng, map, |_| true));
+        questions.extend(sunny(rng));
         questions
     },
     ..Declaration::in_group(MAPS)
@@ -390,15 +395,59 @@ fn pixel(rng: &mut Rng) -> Vec3 {
 /// single precision aren't exact enough. Many neighbours have the same colour, so that the exam
 /// stays small.
 fn large(rng: &mut Rng) -> MapImage {
-    let size = uvec2(640, 320);
+    striped(rng, uvec2(640, 320), 150..4500)
+}
+
+/// Returns a map in which between `run.start` and `run.end` neighbours have the same colour.
+fn striped(rng: &mut Rng, size: UVec2, run: Range<u32>) -> MapImage {
     let mut pixels = Vec::new();
     while pixels.len() < size.element_product() as usize {
         let pixel = color(rng) * rng.log_uniform(0.5, 5.0);
-        let count = rng.integer(150, 4500) as usize;
+        let count = rng.integer(run.start, run.end) as usize;
         pixels.resize(pixels.len() + count, pixel.as_vec3());
     }
     pixels.truncate(size.element_product() as usize);
     MapImage { size, pixels }
+}
+
+/// Returns questions about maps with a sun that is more than a thousand times as bright as the mean,
+/// which includes the sun. In a medium-sized map, the other pixels are still picked.
+fn sunny(rng: &mut Rng) -> Vec<ExamQuestion> {
+    let mut medium = striped(rng, uvec2(64, 32), 20..100);
+    add_sun(rng, &mut medium, 2.0..10.0);
+    let mut large = large(rng);
+    add_sun(rng, &mut large, 1.0..20.0);
+    let mut questions = vec![samples(rng, medium.clone())];
+    questions.extend([medium, large].map(|map| {
+        let calls = [toward_the_sun(rng, &map), pdf_calls(rng, &map, |_| true)].concat();
+        densities_at(map, rng.shuffled(calls))
+    }));
+    questions
+}
+
+/// Makes a pixel that isn't close to a pole as bright as all the other pixels together, times a
+/// factor in this range.
+fn add_sun(rng: &mut Rng, map: &mut MapImage, factor: Range<f64>) {
+    let count = map.pixels.len();
+    let sum: Vec3 = map.pixels.iter().sum();
+    let sun = count / 4 + rng.index(count / 2);
+    let factor = rng.log_uniform(factor.start, factor.end) as f32;
+    map.pixels[sun] = factor * sum.max_element() * color(rng).lerp(DVec3::ONE, 0.8).as_vec3();
+}
+
+/// Returns directions to different points in the pixel that most samples pick.
+fn toward_the_sun(rng: &mut Rng, map: &MapImage) -> Vec<DVec3> {
+    let map64 = oracle(map);
+    let direction = |_| {
+        rng.retry(|rng| {
+            let sample = map64.sample(rng.uniform(0.0, 1.0), random_pair(rng).as_dvec2());
+            let direction = single(sample.value?);
+            let index = map64.index(direction);
+            let is_sun = map64.shares()[index.value] > 0.4;
+            (is_sun && index.margin > EDGE).then_some(direction)
+        })
+    };
+    (0..CALLS).map(direction).collect()
 }
 
 fn oracle(map: &MapImage) -> Map64 {

@@ -106,7 +106,8 @@ const BELOW: Declaration = Declaration {
                 related(rng, above, [OPPOSITE, THROUGH_THE_SURFACE]),
                 related(rng, below, [SAME, OPPOSITE, ABOUT_THE_NORMAL]),
             ];
-            let mixed = rng.shuffled(both.concat());
+            let mut mixed = rng.shuffled(both.concat());
+            mixed.extend(with_another_out(rng));
             vec![evaluations(matte, mixed.clone()), pdfs(matte, mixed)]
         })
     },
@@ -230,6 +231,18 @@ fn related<const N: usize>(
             out: out.as_vec3(),
             incoming: (DVec3::from_array(signs) * out).as_vec3(),
         }
+    });
+    pairs.into()
+}
+
+/// Returns pairs of directions that have the same `incoming` as the pair before, but `out` is on the
+/// other side.
+fn with_another_out(rng: &mut Rng) -> Vec<DirectionPair> {
+    let incoming = above(rng).as_vec3();
+    let sides: [fn(&mut Rng) -> DVec3; 4] = [above, below, above, below];
+    let pairs = sides.map(|side| DirectionPair {
+        out: side(rng).as_vec3(),
+        incoming,
     });
     pairs.into()
 }

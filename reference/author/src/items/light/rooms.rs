@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DVec3, Vec2, Vec3, dvec2, uvec2};
+use glam::{DVec3, UVec2, Vec2, Vec3, dvec2, uvec2};
 use protocol::Ray;
 use protocol::light::environment::MapImage;
 use protocol::light::transport::{self as functions, DirectSample, PathStart};
+use protocol::sampler::Sampler;
 
 use super::{MARGIN, color, random, random_pair};
 use crate::oracle::Ray64;
@@ -210,7 +211,23 @@ pub(super) fn direct_case(
         0 => toward_a_light(rng, room, surface),
         _ => Some(random_pair(rng)),
     };
-    direct_case_with(rng, room, margin(room), direct, wanted)
+    let pairs = |rng: &mut Rng, surface: &Surface64| {
+        let direct = direct(rng, surface)?;
+        Some([random_pair(rng), direct])
+    };
+    direct_case_with(rng, room, margin(room), pairs, wanted)
+}
+
+/// Like [`direct_case`], but the lights can look so small that all directions toward them are close
+/// to their edges.
+#[track_caller]
+pub(super) fn far_case(
+    rng: &mut Rng,
+    room: &Room,
+    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
+) -> DirectCase {
+    let pairs = |rng: &mut Rng, _: &Surface64| Some([random_pair(rng), random_pair(rng)]);
+    direct_case_with(rng, room, 1e-4, pairs, wanted)
 }
 
 /// Like [`direct_case`], but the scattered direction is almost along the surface.
@@ -220,11 +237,48 @@ pub(super) fn grazing_case(
     room: &Room,
     wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
 ) -> DirectCase {
-    let direct = |rng: &mut Rng, _: &Surface64| {
-        let below_one = 1.0 - rng.log_uniform(6e-8, 9e-7) as f32;
-        Some(random_pair(rng).with_x(below_one))
+    let pairs = |rng: &mut Rng, _: &Surface64| Some([random_pair(rng), along_the_surface(rng)]);
+    direct_case_with(rng, room, 1e-4, pairs, wanted)
+}
+
+/// Like [`grazing_case`], but the direction toward the light is almost along the surface, too. The
+/// room is one of those that [`beside_a_light`] returns.
+#[track_caller]
+pub(super) fn both_grazing_case(
+    rng: &mut Rng,
+    room: &Room,
+    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
+) -> DirectCase {
+    let pairs = |rng: &mut Rng, _: &Surface64| {
+        // Small numbers lead to the lower edge of the light.
+        let low = rng.log_uniform(2e-3, 0.2) as f32;
+        Some([random_pair(rng).with_y(low), along_the_surface(rng)])
     };
-    direct_case_with(rng, room, 1e-4, direct, wanted)
+    direct_case_with(rng, room, 1e-5, pairs, |surface, numbers, light| {
+        let sample = room.sources().sample(surface.position, numbers).value;
+        let is_low = |direction| (4e-4..9e-4).contains(&surface.frame.to_local(direction).z);
+        sample.is_some_and(is_low) && wanted(surface, numbers, light)
+    })
+}
+
+/// Returns random numbers for which a surface scatters almost along itself.
+fn along_the_surface(rng: &mut Rng) -> Vec2 {
+    let below_one = 1.0 - rng.log_uniform(6e-8, 9e-7) as f32;
+    random_pair(rng).with_x(below_one)
+}
+
+/// Returns a floor on which a low light stands, like a glowing skirting board. Heights above the
+/// floor, which is at y = 0, are hardly rounded.
+pub(super) fn beside_a_light(rng: &mut Rng, environment: Environment64) -> Room {
+    let half = DVec3::new(8.0, 0.1, 8.0);
+    let floor = Material64::Lambertian { albedo: color(rng) };
+    let radiance = color(rng) * rng.log_uniform(0.5, 50.0);
+    let light = Material64::Emitter { radiance };
+    let quads = vec![
+        panel(DVec3::ZERO, 1, 1.0, half, floor),
+        panel(DVec3::new(half.x, half.y, 0.0), 0, -1.0, half, light),
+    ];
+    Room::new(quads, environment)
 }
 
 /// Returns the random numbers for which a surface scatters toward a random point on a light. Returns
@@ -242,25 +296,27 @@ fn toward_a_light(rng: &mut Rng, room: &Room, surface: &Surface64) -> Option<Vec
     (direction.z > 0.0).then(|| dvec2(x, turn - turn.floor()).as_vec2())
 }
 
-/// Returns a case with at least this margin. `direct` returns the random numbers for the scattered
-/// direction.
+/// Returns a case with at least this margin. `pairs` returns the random numbers for the point on the
+/// light and for the scattered direction.
 #[track_caller]
 fn direct_case_with(
     rng: &mut Rng,
     room: &Room,
     margin: f64,
-    direct: impl Fn(&mut Rng, &Surface64) -> Option<Vec2>,
+    pairs: impl Fn(&mut Rng, &Surface64) -> Option<[Vec2; 2]>,
     wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
 ) -> DirectCase {
     rng.retry(|rng| {
         let ray = random_ray(rng, room);
         let hit = room.hit(&Ray64::from(&ray), None);
         let surface = hit.value?;
+        let light = random(rng);
+        let [on_light, direct] = pairs(rng, &surface)?;
         let call = DirectSample {
             ray,
-            light: random(rng),
-            on_light: random_pair(rng),
-            direct: direct(rng, &surface)?,
+            light,
+            on_light,
+            direct,
         };
         let numbers = Numbers64::from(&call);
         let direct = transport::direct(room, &surface, &numbers);
@@ -295,15 +351,51 @@ pub(super) fn path_case_along(
     bounces: u32,
     wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
 ) -> PathCase {
+    let seed = |rng: &mut Rng| rng.integer(0, 1 << 30);
+    path_case_with(rng, room, bounces, margin(room), seed, wanted)
+}
+
+/// Like [`path_case_along`], but the first surface, if it is matte, scatters almost along itself.
+#[track_caller]
+pub(super) fn grazing_path_case(
+    rng: &mut Rng,
+    room: &Room,
+    bounces: u32,
+    wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
+) -> PathCase {
+    path_case_with(rng, room, bounces, 1e-4, grazing_seed, wanted)
+}
+
+/// Returns a seed with which a matte first surface scatters almost along itself: the cosine is
+/// between 2.4e-4 and 2.8e-3. About one in 120,000 seeds is like this.
+fn grazing_seed(rng: &mut Rng) -> u32 {
+    let start = rng.integer(0, 1 << 30);
+    let is_grazing = |seed: &u32| {
+        let numbers = Sampler::new((*seed).into(), UVec2::ZERO, 0).numbers(0);
+        numbers.scatter.x > 1.0 - 8e-6
+    };
+    (start..).find(is_grazing).unwrap_or(start)
+}
+
+/// Returns a case with at least this margin. `seed` returns the seed of the random numbers.
+#[track_caller]
+fn path_case_with(
+    rng: &mut Rng,
+    room: &Room,
+    bounces: u32,
+    margin: f64,
+    seed: impl Fn(&mut Rng) -> u32,
+    wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
+) -> PathCase {
     rng.retry(|rng| {
         let ray = random_ray(rng, room);
         let ray64 = Ray64::from(&ray);
-        let seed = rng.integer(0, 1 << 30);
+        let seed = seed(rng);
         let call = PathStart { ray, seed, bounces };
         let numbers = numbers_of_path(&call);
         let radiance = transport::radiance(room, &ray64, &numbers);
         let hit = room.hit(&ray64, None);
-        let is_clear = radiance.margin.min(hit.margin) > margin(room);
+        let is_clear = hit.margin > self::margin(room) && radiance.margin > margin;
         let light = radiance.value;
         let is_wanted = is_clear && wanted(&ray64, &numbers, light);
         is_wanted.then_some(PathCase { call, light })

@@ -251,6 +251,7 @@ const FRESNEL_LEAVING: Declaration = Declaration {
             let mut out = directions_that(rng, medium, below, refracted);
             out.extend(near_critical(rng, medium, -1.0, refracted));
             out.extend([DVec3::NEG_Z, -fields::direction(rng, 1)]);
+            out.extend(on_both_sides(rng, medium));
             fresnel(medium, out)
         })
     },
@@ -506,6 +507,18 @@ fn directions_that(
         })
     };
     (0..CALLS).map(direction).collect()
+}
+
+/// Returns a direction outside, its mirror image inside, and the first one again. Light is
+/// refracted from both.
+fn on_both_sides(rng: &mut Rng, medium: Medium) -> Vec<DVec3> {
+    let ior = medium.ior.into();
+    let outside = rng.retry(|rng| {
+        let out = above(rng);
+        let is_refracted = |out| is_clear(out, ior) && refracted(out, ior);
+        (is_refracted(out) && is_refracted(-specular::reflect(out))).then_some(out)
+    });
+    vec![outside, -specular::reflect(outside), outside]
 }
 
 /// Returns half as many directions as [`directions_that`].

@@ -116,7 +116,7 @@ pub fn numbers_of_path(call: &PathStart) -> Vec<Numbers64> {
 }
 
 /// Returns the luminance of a colour. See ITU-R Recommendation BT.709.
-fn luminance(DVec3 { x, y, z }: DVec3) -> f64 {
+pub fn luminance(DVec3 { x, y, z }: DVec3) -> f64 {
     0.2126 * x + 0.7152 * y + 0.0722 * z
 }
 

@@ -6,9 +6,8 @@ use super::super::groups::{
     DIRECT_MAPS, LIGHT_DENSITIES, LIGHT_SAMPLES, MAPS, MATTE, MATTE_SAMPLES,
 };
 use super::super::rooms::{direct_case, is_lit, matte, under_a_map};
-use super::{CALLS, LIT_AND_DARK, rooms, scattered};
+use super::{CALLS, LIT_AND_DARK, rooms, scattered, seen};
 use crate::items::Declaration;
-use crate::oracle::Ray64;
 use crate::oracle::light::room::{Room, Surface64};
 use crate::oracle::light::transport as oracle;
 
@@ -62,13 +61,7 @@ pub(super) const MAP: Declaration = Declaration {
 
 /// Returns whether the light that arrives at a surface from a direction comes from the environment.
 fn shows_the_map(room: &Room, surface: &Surface64, direction: DVec3) -> bool {
-    let ray = Ray64 {
-        origin: surface.position,
-        dir: direction,
-        min: 0.0,
-        max: f64::INFINITY,
-    };
     let is_above = surface.frame.to_local(direction).z > 0.0;
-    let is_free = room.hit(&ray, Some(surface)).value.is_none();
+    let is_free = seen(room, surface, direction).is_none();
     is_above && is_free && is_lit(oracle::emitted(room, surface, direction).value)
 }

@@ -9,11 +9,13 @@ use protocol::light::LightQuestion;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
 use super::rooms::{
-    DARK, DirectCase, HALF, direct_case, emitter, grazing_case, is_lit, least_cosine, matte, moved,
-    panel, sky, subject, tilted, walls, with_shining_ceiling,
+    DARK, DirectCase, HALF, beside_a_light, both_grazing_case, direct_case, emitter, far_case,
+    grazing_case, is_lit, least_cosine, matte, moved, panel, sky, subject, tilted, walls,
+    with_shining_ceiling,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
+use crate::oracle::Ray64;
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
@@ -56,7 +58,7 @@ const SMALL_LIGHT: Declaration = Declaration {
         "[`World::light_pdf`] returns the light pdf.",
     ],
     questions: |rng| {
-        rooms(
+        let mut questions = rooms(
             rng,
             |rng| {
                 let mut quads = walls(HALF, || matte(rng));
@@ -67,7 +69,12 @@ const SMALL_LIGHT: Declaration = Declaration {
                 Room::new(quads, DARK)
             },
             LIT_AND_DARK,
-        )
+        );
+        // Farther away, the light looks even smaller, so its density is very high.
+        let far = below_a_far_light(rng);
+        let case = |_| far_case(rng, &far, |_, _, light| is_lit(light));
+        questions.push(question(&far, (0..CALLS).map(case).collect()));
+        questions
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -149,6 +156,16 @@ const BOTH: Declaration = Declaration {
             let cases = lit(rng, &room, CALLS);
             question(&room, cases)
         }));
+        // Almost along a floor, both terms are small, but neither is zero.
+        let low = beside_a_light(rng, DARK);
+        let case = |_| {
+            both_grazing_case(rng, &low, |surface, numbers, light| {
+                is_lit(light)
+                    && surface.position.x < 4.0
+                    && scatters_to_a_light(&low, surface, numbers)
+            })
+        };
+        questions.push(question(&low, (0..CALLS).map(case).collect()));
         questions
     },
     needs: NEEDS,
@@ -167,30 +184,35 @@ const BLOCKED: Declaration = Declaration {
         "A direction adds nothing if the sum of its densities is zero, or if `evaluate` is zero.",
     ],
     questions: |rng| {
-        rooms(
-            rng,
-            |rng| {
-                let mut quads = walls(HALF, || matte(rng));
-                let light = emitter(rng);
-                let half = dvec3(0.6, 0.0, 0.6);
-                quads.push(panel(dvec3(0.0, 1.9, 0.0), 1, -1.0, half, light));
-                let light = emitter(rng);
-                quads.push(panel(dvec3(-1.5, 1.5, -1.0), 1, -1.0, half, light));
-                let screen = matte(rng);
-                quads.push(panel(dvec3(0.3, 0.9, 0.2), 1, 1.0, half, screen));
-                Room::new(quads, DARK)
-            },
-            |rng, room| {
-                let mut cases = LIT_AND_DARK(rng, room);
-                // The direction toward a light is blocked, but scattering finds a light.
+        // In a tiny room, things are close together.
+        let tiny = (1e-4, DVec3::ZERO);
+        let places = [vec![tiny], places(rng)].concat();
+        rooms_at(rng, &places, with_screens, |rng, room| {
+            let mut cases = LIT_AND_DARK(rng, room);
+            // The direction toward a light is blocked, but scattering finds a light.
+            cases.extend((0..CALLS / 2).map(|_| {
+                direct_case(rng, room, |surface, numbers, light| {
+                    is_lit(light) && blocker(room, surface, numbers).is_some()
+                })
+            }));
+            let kinds: [fn(&Surface64) -> bool; 4] = [
+                |it| matches!(it.material, Material64::Lambertian { .. }),
+                |it| matches!(it.material, Material64::Mirror { .. }),
+                |it| matches!(it.material, Material64::Glass { .. }),
+                // The back of another light.
+                |it| matches!(it.material, Material64::Emitter { .. }),
+            ];
+            for is_kind in kinds {
                 cases.extend((0..CALLS / 2).map(|_| {
-                    direct_case(rng, room, |surface, numbers, light| {
-                        is_lit(light) && is_blocked(room, surface, numbers)
+                    direct_case(rng, room, |surface, numbers, _| {
+                        blocker(room, surface, numbers)
+                            .as_ref()
+                            .is_some_and(is_kind)
                     })
                 }));
-                cases
-            },
-        )
+            }
+            cases
+        })
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -384,14 +406,25 @@ fn scatters_to_a_light(room: &Room, surface: &Surface64, numbers: &Numbers64) ->
     is_lit(light) && room.sources().pdf(surface.position, direction).value > 0.0
 }
 
-/// Returns whether there is a direction toward a light, above the surface, but no light arrives from
-/// there.
-fn is_blocked(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool {
-    let sample = room.sources().sample(surface.position, numbers).value;
-    sample.is_some_and(|direction| {
-        let is_above = surface.frame.to_local(direction).z > 0.0;
-        is_above && !is_lit(oracle::emitted(room, surface, direction).value)
-    })
+/// Returns what is in the way of the direction toward a light, if that direction is above the
+/// surface.
+fn blocker(room: &Room, surface: &Surface64, numbers: &Numbers64) -> Option<Surface64> {
+    let direction = room.sources().sample(surface.position, numbers).value?;
+    let is_above = surface.frame.to_local(direction).z > 0.0;
+    let is_dark = !is_lit(oracle::emitted(room, surface, direction).value);
+    let seen = seen(room, surface, direction);
+    seen.filter(|_| is_above && is_dark)
+}
+
+/// Returns what is seen from a surface in a direction.
+fn seen(room: &Room, surface: &Surface64, direction: DVec3) -> Option<Surface64> {
+    let ray = Ray64 {
+        origin: surface.position,
+        dir: direction,
+        min: 0.0,
+        max: f64::INFINITY,
+    };
+    room.hit(&ray, Some(surface)).value
 }
 
 /// Cases that get light, and as many that get none if the room has any.
@@ -409,13 +442,50 @@ fn open(rng: &mut Rng) -> Vec<Quad> {
     vec![all[2], all[0], all[4]]
 }
 
-/// Returns one question for each of two rooms. The first is tiny or far from the origin, and the
-/// second is large or of an ordinary size.
+/// Returns a room with two lights, and things of different materials below them.
+fn with_screens(rng: &mut Rng) -> Room {
+    let mut quads = walls(HALF, || matte(rng));
+    let half = dvec3(0.6, 0.0, 0.6);
+    let light = emitter(rng);
+    quads.push(panel(dvec3(0.0, 1.9, 0.0), 1, -1.0, half, light));
+    // The front of this light is up, so it is dark from below.
+    quads.push(panel(dvec3(-1.0, 0.2, -1.2), 1, 1.0, half, light));
+    let light = emitter(rng);
+    quads.push(panel(dvec3(-1.5, 1.5, -1.0), 1, -1.0, half, light));
+    let reflectance = color(rng);
+    let screens = [
+        (dvec3(0.3, 0.9, 0.2), matte(rng)),
+        (dvec3(1.0, 0.4, -0.9), Material64::Mirror { reflectance }),
+        (dvec3(-0.7, 0.7, 0.9), Material64::Glass { ior: 1.5 }),
+    ];
+    quads.extend(screens.map(|(center, material)| panel(center, 1, 1.0, half, material)));
+    Room::new(quads, DARK)
+}
+
+/// Returns a floor with a light high above it.
+fn below_a_far_light(rng: &mut Rng) -> Room {
+    let height = rng.uniform(20.0, 40.0);
+    let half = height / rng.log_uniform(300.0, 600.0);
+    let center = rng.point(3.0).with_y(height);
+    let radiance = color(rng) * rng.log_uniform(1e3, 1e6);
+    let light = Material64::Emitter { radiance };
+    let light = panel(center, 1, -1.0, DVec3::splat(half), light);
+    Room::new(vec![open(rng).swap_remove(0), light], DARK)
+}
+
+/// Returns one question for each of two rooms.
 fn rooms(
     rng: &mut Rng,
     room: impl Fn(&mut Rng) -> Room,
     cases: impl Fn(&mut Rng, &Room) -> Vec<DirectCase>,
 ) -> Vec<ExamQuestion> {
+    let places = places(rng);
+    rooms_at(rng, &places, room, cases)
+}
+
+/// Returns the scales and positions of two rooms. The first is small or far from the origin, and the
+/// second is large or of an ordinary size.
+fn places(rng: &mut Rng) -> Vec<(f64, DVec3)> {
     let direction = rng.direction();
     let first = if rng.coin() {
         (0.01, DVec3::ZERO)
@@ -423,12 +493,22 @@ fn rooms(
         (0.3, 54.0 * direction)
     };
     let second = if rng.coin() { 1.0 } else { 100.0 };
-    let of_room = |(scale, shift)| {
+    vec![first, (second, DVec3::ZERO)]
+}
+
+/// Returns one question for each room with one of these scales and positions.
+fn rooms_at(
+    rng: &mut Rng,
+    places: &[(f64, DVec3)],
+    room: impl Fn(&mut Rng) -> Room,
+    cases: impl Fn(&mut Rng, &Room) -> Vec<DirectCase>,
+) -> Vec<ExamQuestion> {
+    let of_room = |&(scale, shift): &(f64, DVec3)| {
         let room = moved(&room(rng), scale, shift);
         let cases = cases(rng, &room);
         question(&room, rng.shuffled(cases))
     };
-    [first, (second, DVec3::ZERO)].map(of_room).into()
+    places.iter().map(of_room).collect()
 }
 
 fn question(room: &Room, cases: Vec<DirectCase>) -> ExamQuestion {

@@ -20,6 +20,11 @@ use crate::seed::Rng;
 const CALLS: usize = 12;
 /// The number of calls from inside a sphere in a question.
 const FROM_INSIDE: usize = 4;
+/// The number of calls from close to a sphere, and from far away, in a question.
+const FROM_SPECIAL: usize = 6;
+/// The smallest margin of calls from close to a sphere or far away. Rounding moves a point by about
+/// a hundredth of this.
+const SMALL_MARGIN: f64 = 2e-5;
 
 pub(super) const SAMPLES: Declaration = Declaration {
     id: "lights.sphere_samples",
@@ -47,6 +52,22 @@ pub(super) const SAMPLES: Declaration = Declaration {
                     Some(call).filter(|call| sample(lights, call).value.is_none())
                 })
             }));
+            // But there is one of any other light that doesn't face away.
+            if lights.len() > 1 {
+                calls.extend((0..2 * FROM_INSIDE).filter_map(|index| {
+                    let kinds: [fn(&Light64) -> bool; 2] = [|_| true, |light| !is_sphere(light)];
+                    let kind = kinds[index % 2];
+                    rng.attempt(1_000, |rng| {
+                        let call = sample_of(rng, lights, inside, kind);
+                        let is_some = sample(lights, &call).value.is_some();
+                        (is_some == (index % 2 == 0)).then_some(call)
+                    })
+                }));
+            }
+            for from in [close as Position, far] {
+                let special = |_| sample_of(rng, lights, from, is_sphere);
+                calls.extend((0..FROM_SPECIAL).map(special));
+            }
             sampled(lights, rng.shuffled(calls))
         })
     },
@@ -62,9 +83,13 @@ pub(super) const DENSITIES: Declaration = Declaration {
     tests: &["Every light in that direction adds its density, given by [`Light::pdf`], …"],
     questions: |rng| {
         lists(rng, |rng, lights| {
-            let toward_spheres = (0..CALLS).map(|_| toward_any(rng, lights, is_sphere));
+            let toward_spheres = (0..CALLS).map(|_| toward_any(rng, lights, outside, is_sphere));
             let mut calls: Vec<Toward> = toward_spheres.collect();
-            calls.extend((0..CALLS).map(|_| toward_any(rng, lights, |_| true)));
+            calls.extend((0..CALLS).map(|_| toward_any(rng, lights, outside, |_| true)));
+            for from in [close as Position, far] {
+                let special = |_| toward_any(rng, lights, from, is_sphere);
+                calls.extend((0..FROM_SPECIAL).map(special));
+            }
             calls.extend((0..CALLS).map(|_| anywhere(rng, lights, outside)));
             calls.extend((0..FROM_INSIDE).map(|_| anywhere(rng, lights, inside)));
             list_densities(lights, rng.shuffled(calls))
@@ -118,22 +143,57 @@ fn is_sphere(light: &Light64) -> bool {
     matches!(light, Light64::Sphere(_))
 }
 
+/// Returns a point at some position relative to the lights, and the margin that calls from there
+/// must have.
+type Position = fn(&mut Rng, &[Light64]) -> (DVec3, f64);
+
 /// Returns a point outside all spheres, with some distance from them.
-fn outside(rng: &mut Rng, lights: &[Light64]) -> DVec3 {
-    rng.retry(|rng| {
+fn outside(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
+    let point = rng.retry(|rng| {
         let point = single(rng.point(6.0));
-        let is_far = |light: &Light64| match light {
-            Light64::Sphere(light) => point.distance(light.center) > 1.3 * light.radius,
-            Light64::Flat(_) => true,
-        };
-        lights.iter().all(is_far).then_some(point)
+        is_outside(lights, point, 1.3).then_some(point)
+    });
+    (point, MARGIN)
+}
+
+/// Returns whether a point's distance from the centre of each sphere is more than this multiple of
+/// the radius.
+fn is_outside(lights: &[Light64], point: DVec3, radii: f64) -> bool {
+    lights.iter().all(|light| match light {
+        Light64::Sphere(light) => point.distance(light.center) > radii * light.radius,
+        Light64::Flat(_) => true,
     })
 }
 
 /// Returns a point inside a sphere.
-fn inside(rng: &mut Rng, lights: &[Light64]) -> DVec3 {
+fn inside(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
+    let light = any_sphere(rng, lights);
+    let point = light.center + 0.9 * light.radius * in_ball(rng);
+    (single(point), MARGIN)
+}
+
+/// Returns a point just outside a sphere.
+fn close(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
+    let point = rng.retry(|rng| {
+        let radii = 1.0 + rng.log_uniform(1e-4, 0.05);
+        let light = any_sphere(rng, lights);
+        let point = single(light.center + radii * light.radius * rng.direction());
+        is_outside(lights, point, 1.0 + 5e-5).then_some(point)
+    });
+    (point, SMALL_MARGIN)
+}
+
+/// Returns a point from which a sphere looks tiny.
+fn far(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
+    let light = any_sphere(rng, lights);
+    let distance = light.radius * rng.log_uniform(320.0, 1200.0);
+    let point = light.center + distance * rng.direction();
+    (single(point), SMALL_MARGIN)
+}
+
+fn any_sphere(rng: &mut Rng, lights: &[Light64]) -> SphericalLight64 {
     rng.retry(|rng| match lights[rng.index(lights.len())] {
-        Light64::Sphere(light) => Some(single(light.center + 0.9 * light.radius * in_ball(rng))),
+        Light64::Sphere(light) => Some(light),
         Light64::Flat(_) => None,
     })
 }
@@ -143,18 +203,19 @@ fn inside(rng: &mut Rng, lights: &[Light64]) -> DVec3 {
 fn sample_of(
     rng: &mut Rng,
     lights: &[Light64],
-    from: fn(&mut Rng, &[Light64]) -> DVec3,
+    from: Position,
     wanted: fn(&Light64) -> bool,
 ) -> LightSample {
     let all = Lights64::new(lights.iter().copied());
     rng.retry(|rng| {
+        let (from, margin) = from(rng, lights);
         let call = LightSample {
-            from: from(rng, lights).as_vec3(),
+            from: from.as_vec3(),
             choice: random(rng),
             random: random_pair(rng),
         };
         let is_wanted = all.picked(call.choice.into()).is_some_and(wanted);
-        (is_wanted && sample(lights, &call).margin > MARGIN).then_some(call)
+        (is_wanted && sample(lights, &call).margin > margin).then_some(call)
     })
 }
 
@@ -172,15 +233,20 @@ fn sampled(lights: &[Light64], calls: Vec<LightSample>) -> ExamQuestion {
 }
 
 /// Returns a direction toward a light that fulfils a condition.
-fn toward_any(rng: &mut Rng, lights: &[Light64], wanted: fn(&Light64) -> bool) -> Toward {
+fn toward_any(
+    rng: &mut Rng,
+    lights: &[Light64],
+    from: Position,
+    wanted: fn(&Light64) -> bool,
+) -> Toward {
     let wanted: Vec<&Light64> = lights.iter().filter(|light| wanted(light)).collect();
     rng.retry(|rng| {
         let target = match wanted[rng.index(wanted.len())] {
             Light64::Flat(light) => light.point(random_pair(rng).as_dvec2()),
             Light64::Sphere(light) => light.center + light.radius * 0.95 * in_ball(rng),
         };
-        let from = outside(rng, lights);
-        clear(lights, from, target - from)
+        let (from, margin) = from(rng, lights);
+        clear(lights, from, target - from, margin)
     })
 }
 
@@ -190,23 +256,34 @@ fn in_ball(rng: &mut Rng) -> DVec3 {
 }
 
 /// Returns a random direction, which misses most lights.
-fn anywhere(rng: &mut Rng, lights: &[Light64], from: fn(&mut Rng, &[Light64]) -> DVec3) -> Toward {
+fn anywhere(rng: &mut Rng, lights: &[Light64], from: Position) -> Toward {
     rng.retry(|rng| {
-        let from = from(rng, lights);
+        let (from, margin) = from(rng, lights);
         let direction = rng.direction();
-        clear(lights, from, direction)
+        clear(lights, from, direction, margin)
     })
 }
 
 /// Returns a direction from a point unless it is close to the edge of a light.
-fn clear(lights: &[Light64], from: DVec3, direction: DVec3) -> Option<Toward> {
+fn clear(lights: &[Light64], from: DVec3, direction: DVec3, margin: f64) -> Option<Toward> {
     let call = Toward {
         from: from.as_vec3(),
         direction: direction.normalize().as_vec3(),
     };
     let all = Lights64::new(lights.iter().copied());
     let pdf = all.pdf(call.from.as_dvec3(), call.direction.as_dvec3());
-    (pdf.margin > MARGIN).then_some(call)
+    (pdf.margin > margin && is_steep(lights, direction)).then_some(call)
+}
+
+/// Returns whether a direction isn't almost in the plane of any flat light, where correct formulas
+/// lose too many digits.
+fn is_steep(lights: &[Light64], direction: DVec3) -> bool {
+    lights.iter().all(|light| match light {
+        Light64::Flat(light) => {
+            light.shape.normal().dot(direction).abs() > 0.01 * direction.length()
+        }
+        Light64::Sphere(_) => true,
+    })
 }
 
 fn list_densities(lights: &[Light64], calls: Vec<Toward>) -> ExamQuestion {

@@ -10,8 +10,8 @@ use protocol::light::LightQuestion;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
 use super::rooms::{
-    DARK, HALF, PathCase, block, emitter, is_lit, matte, moved, panel, path_case, path_case_along,
-    sky, subject, walls, with_shining_ceiling,
+    DARK, HALF, PathCase, beside_a_light, block, emitter, grazing_path_case, is_lit, matte, moved,
+    panel, path_case, path_case_along, sky, subject, walls, with_shining_ceiling,
 };
 use super::{color, colors, table};
 use crate::items::{AuthoredTask, Declaration, Group};
@@ -184,11 +184,22 @@ const ONCE: Declaration = Declaration {
          than q, and its throughput is divided by q.",
     ],
     questions: |rng| {
-        rooms(rng, with_shining_ceiling, |rng, room| {
+        let mut questions = rooms(rng, with_shining_ceiling, |rng, room| {
             let mut cases = cases(rng, room, 2, first_is_matte);
             cases.extend(self::cases(rng, room, 3, first_is_matte));
             cases
-        })
+        });
+        // Almost along a floor, the density is small, but there is one.
+        let sky = Environment64::Constant(color(rng));
+        let floor = beside_a_light(rng, sky);
+        let case = |_| {
+            grazing_path_case(rng, &floor, 2, |ray, numbers, light| {
+                let first = floor.hit(ray, None).value;
+                first_is_matte(first.as_ref(), numbers, light)
+            })
+        };
+        questions.push(question(&floor, (0..CALLS / 2).map(case).collect()));
+        questions
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -335,8 +346,9 @@ const GLASS: Declaration = Declaration {
     id: "path.glass",
     points: 1,
     title: "glass shows what is behind it and inside it",
-    look: "Like a mirror, glass has no density. Does the path continue on the side that it is \
-           scattered to?",
+    look: "Follow the path of the question shown. At each surface, write down on which side it goes \
+           on, the light that is added and the throughput, which roulette divides by q from bounce \
+           3 on.",
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \
@@ -482,7 +494,13 @@ const SIZES: Declaration = Declaration {
         "At each bounce, the path adds [`direct`] light and continues in the direction that …",
     ],
     questions: |rng| {
-        let sizes = [(0.01, 0.0), (1.0, 0.0), (1.0, 180.0), (300.0, 0.0)];
+        let sizes = [
+            (1e-4, 0.0),
+            (0.01, 0.0),
+            (1.0, 0.0),
+            (1.0, 180.0),
+            (300.0, 0.0),
+        ];
         let questions = sizes.map(|(scale, distance)| {
             let albedo = color(rng);
             let room = room_with(rng, || Material64::Lambertian { albedo });

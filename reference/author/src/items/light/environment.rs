@@ -79,8 +79,8 @@ const PICK: Declaration = Declaration {
     points: 3,
     title: "pixels are picked in proportion to their weight, row by row from the top",
     look: "Pass your direction and the correct one to `Environment::index`. If the pixels differ, \
-           add up the weights in order: which pixel does `choice` times the total fall on? If they \
-           match, check the position in the pixel and the two angles.",
+           add up the weights in order: which pixel does `choice` times the total fall on, and what are \
+           its row and column? If they match, check the two angles.",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[

@@ -47,7 +47,8 @@ const DENSITY: Declaration = Declaration {
     id: "lights.density",
     points: 2,
     title: "the density of directions to a light is distance² / (cos θ · area)",
-    look: "Move the point twice as far away: by what factor does the density change?",
+    look: "Work out distance², cos θ and the area by hand for the question shown. Which of them is \
+           different in your code, and is each one multiplied or divided as in the formula?",
     section: "light/lights.md#the-density-of-an-area-light",
     tests: &[
         "Returns the probability density, per solid angle, of a direction from a point to the \

@@ -273,7 +273,7 @@ const MIRROR: Declaration = Declaration {
     points: 2,
     title: "mirrors show the lights and the sky, and a light is black from behind",
     look: "At a mirror, `direct` returns zero, so the light that the path hits next must be \
-           counted. Which value of `pdf` tells you that?",
+           counted, multiplied by the throughput. Which value of `pdf` tells you that?",
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \

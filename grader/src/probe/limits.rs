@@ -108,7 +108,9 @@ impl Stopwatch {
         if self.used.cpu >= cpu {
             return Some(TimeLimit::Cpu);
         }
-        (self.used.waiting >= waiting).then_some(TimeLimit::Waiting)
+        // A program that wants a processor and doesn't get one isn't waiting, but the system only adds
+        // up that time once the program has a processor again.
+        (now.is_asleep && self.used.waiting >= waiting).then_some(TimeLimit::Waiting)
     }
 
     /// Returns the time used up to the last check.
@@ -138,6 +140,7 @@ mod tests {
         let time = |cpu, delayed| ProcessTime {
             cpu: cpu * SECOND,
             delayed: delayed * SECOND,
+            is_asleep: true,
         };
         let waiting = |cpu, delayed| {
             let used = used(10 * SECOND, time(1, 1), time(cpu, delayed));
@@ -147,6 +150,24 @@ mod tests {
         assert_eq!(waiting(1, 11), 0, "others have the processor");
         assert_eq!(waiting(4, 3), 5);
         assert_eq!(waiting(21, 1), 0, "two threads run");
+    }
+
+    #[test]
+    fn only_a_program_that_sleeps_is_waiting() {
+        let limits = ItemLimits {
+            waiting: Duration::ZERO,
+            ..ItemLimits::from_cpu(SECOND)
+        };
+        let exceeded = |is_asleep| {
+            let now = ProcessTime {
+                cpu: Duration::ZERO,
+                delayed: Duration::ZERO,
+                is_asleep,
+            };
+            Stopwatch::start(limits).exceeded(Some(now), 0)
+        };
+        assert_eq!(exceeded(true), Some(TimeLimit::Waiting));
+        assert_eq!(exceeded(false), None, "other programs have all processors");
     }
 
     #[test]

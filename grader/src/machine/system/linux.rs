@@ -57,6 +57,7 @@ pub fn process_time(child: &Child) -> Option<ProcessTime> {
     Some(ProcessTime {
         cpu: cpu_time(child)?,
         delayed: delayed(child)?,
+        is_asleep: is_asleep(child)?,
     })
 }
 
@@ -94,14 +95,29 @@ fn cpu_time_fields(child: &Child, count: usize) -> Option<Duration> {
 /// The longest time is used because the sum over many threads could exceed the time that has
 /// passed.
 fn delayed(child: &Child) -> Option<Duration> {
-    let threads = fs::read_dir(format!("/proc/{}/task", child.id())).ok()?;
-    let delays = threads.filter_map(|thread| {
-        let schedstat = fs::read_to_string(thread.ok()?.path().join("schedstat")).ok()?;
+    let delays = of_each_thread(child, "schedstat")?.filter_map(|schedstat| {
         // The second field is the time on the run queue, in nanoseconds (Linux,
         // Documentation/scheduler/sched-stats.rst).
         schedstat.split_whitespace().nth(1)?.parse().ok()
     });
     delays.max().map(Duration::from_nanos)
+}
+
+/// Returns whether no thread of a process is running, ready to run (state `R`), or waiting for the
+/// system to read a page or a disk (`D`).
+fn is_asleep(child: &Child) -> Option<bool> {
+    let mut stats = of_each_thread(child, "stat")?;
+    Some(!stats.any(|stat| {
+        // The state follows the name, which is in parentheses (proc_pid_stat(5)).
+        let after_name = stat.rsplit_once(')').map(|(_, fields)| fields.trim_start());
+        after_name.is_some_and(|fields| fields.starts_with(['R', 'D']))
+    }))
+}
+
+/// Returns the contents of a file about each thread of a process.
+fn of_each_thread(child: &Child, file: &str) -> Option<impl Iterator<Item = String>> {
+    let threads = fs::read_dir(format!("/proc/{}/task", child.id())).ok()?;
+    Some(threads.filter_map(move |thread| fs::read_to_string(thread.ok()?.path().join(file)).ok()))
 }
 
 /// Returns the resident memory of a process, in bytes.

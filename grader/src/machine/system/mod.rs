@@ -59,7 +59,10 @@ pub struct ProcessTime {
     /// CPU time.
     pub cpu: Duration,
     /// Time during which the process was ready to run but other processes occupied the processors.
+    /// The system adds it only when the process gets a processor.
     pub delayed: Duration,
+    /// Whether the process is neither running, nor ready to run, nor being served by the system.
+    pub is_asleep: bool,
 }
 
 impl Limits {

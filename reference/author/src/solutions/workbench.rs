@@ -21,9 +21,8 @@ use crate::authoring::Authoring;
 use crate::solutions::sources::Sources;
 
 /// The time limits for an item. A correct solution takes milliseconds. The limits are for wrong
-/// solutions that never terminate. A stack overflow takes up to a second, on a busy machine several
-/// times as long, and must not be mistaken for an endless loop.
-const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(10));
+/// solutions that never terminate.
+const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(2));
 /// The CPU time limit for a process, which answers all items of a task.
 const PROCESS_CPU: Duration = Duration::from_secs(120);
 

@@ -117,6 +117,9 @@ fn choose(
             if let [only] = candidates.as_slice() {
                 return Some(*only);
             }
+            if share_a_late_time(rows, attempts, &candidates) {
+                return None;
+            }
             let mut best: Option<(u32, usize)> = None;
             for (row, person) in attempts.iter().filter(|(row, _)| candidates.contains(row)) {
                 let points = rows[*row].grades[*person].counted.as_ref()?.points;
@@ -129,6 +132,24 @@ fn choose(
     }
 }
 
+/// Returns whether several of the candidates have the same time from a list, and are late according
+/// to it. The list then gives the time of the last attempt, and earlier ones may not be late.
+fn share_a_late_time(rows: &[ClassRow], attempts: &[Attempt], candidates: &[usize]) -> bool {
+    let is_late = |(row, person): &&Attempt| {
+        let counted = rows[*row].grades[*person].counted.as_ref();
+        counted.is_some_and(|counted| counted.late_days > 0)
+    };
+    let is_listed = |row: &usize| {
+        let info = &rows[*row].result.info;
+        info.submitted.is_none() && info.submitted().is_some()
+    };
+    let late = attempts.iter().filter(is_late).map(|(row, _)| *row);
+    let late: BTreeSet<usize> = late
+        .filter(|row| candidates.contains(row) && is_listed(row))
+        .collect();
+    late.len() > 1
+}
+
 /// Returns what to do if the policy cannot choose between these submissions.
 fn remedy(policy: &Policy, rows: &[ClassRow], submissions: &BTreeSet<usize>) -> String {
     let rule = policy.attempts.counts;
@@ -138,8 +159,8 @@ fn remedy(policy: &Policy, rows: &[ClassRow], submissions: &BTreeSet<usize>) -> 
         AttemptRule::Ask => "remove all but one, or set `counts` under [attempts] in the policy",
         AttemptRule::Latest => "`latest` cannot tell which attempt is the last: remove all but one",
         AttemptRule::Best => {
-            "`best` cannot compare attempts that have no points: remove all but \
-            one"
+            "`best` cannot compare attempts that have no points, or that are late according to one \
+             time on a list: remove all but one"
         }
     };
     let unclear = times.find_map(Result::err);
@@ -161,7 +182,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::entry::Person;
+    use crate::entry::{ListedTime, Person};
     use crate::graded_class::tests::{fault, graded, nothing, person, policy, result};
 
     /// Returns a row for each submission, given its id, outcome and time.
@@ -226,6 +247,30 @@ mod tests {
         }
         assert_eq!(counted("ask", &three()[..1]), ["80"]);
         assert_eq!(counted("best", &[b, c, a]), ["see c", "80", "see c"]);
+    }
+
+    #[test]
+    fn one_late_time_on_a_list_is_not_that_of_every_attempt() {
+        let policy = policy("[late]\ndue = 2026-11-20T12:00:00Z\n[attempts]\ncounts = \"best\"");
+        let chosen = |time: &str, own: Option<&str>| {
+            let listed = ListedTime {
+                submitted: time.to_owned(),
+                late: false,
+            };
+            let row = |(id, own): (&str, Option<&str>)| {
+                let mut result = result(id, &["Ann"], graded(80));
+                result.info.submitted = own.map(str::to_owned);
+                result.info.listed = Some(listed.clone());
+                ClassRow::new(result, &policy, vec![Vec::new()], &[])
+            };
+            let mut rows = [("a", own), ("b", None)].map(row);
+            apply_rule(&policy, &mut rows);
+            rows.map(|row| row.grades[0].counted.is_some())
+        };
+        assert_eq!(chosen("2026-11-22T12:00:00Z", None), [false, false]);
+        assert_eq!(chosen("2026-11-19T12:00:00Z", None), [true, false]);
+        let own = Some("2026-11-19T12:00:00Z");
+        assert_eq!(chosen("2026-11-22T12:00:00Z", own), [true, false]);
     }
 
     #[test]

@@ -16,7 +16,7 @@ use super::{LayoutChoice, LayoutContents, UnmatchedPath};
 use crate::entry::{Entry, Person, Source};
 use crate::error::Error;
 use crate::file_tree::Node;
-use crate::names::are_same_name;
+use crate::names::{are_same_name, joined};
 use crate::roster::Member;
 
 /// The reason for not grading submissions by users with the same number but different names.
@@ -27,9 +27,6 @@ const REPEATED_FILE: &str = "two of its files have the same name: remove the one
                              graded, or put each student's files into a separate folder";
 /// The reason for not grading an archive that Canvas exports together with a newer one.
 const OLDER: &str = "a newer archive with this name is graded instead";
-/// The reason for not grading two downloads that were unpacked into one folder.
-const SEVERAL: &str = "several folders with this name contain it: keep only the one that should be \
-    graded";
 /// The fields that may differ between the files of one submission.
 const OF_FILES: [&str; 4] = ["file", "attachment", "late", "kind"];
 
@@ -171,7 +168,7 @@ impl Reader<'_> {
         if files.is_empty() {
             return missing(&self.platform.text_only);
         } else if files.iter().any(is_folder) {
-            return missing(SEVERAL);
+            return missing(&several(files));
         } else if names.len() < files.len() {
             return missing(REPEATED_FILE);
         }
@@ -195,6 +192,17 @@ impl Reader<'_> {
         counting.reverse();
         Source::Files(counting)
     }
+}
+
+/// Returns the reason for not grading folders with the same name: they can be two downloads that
+/// were unpacked into one folder, or the projects of namesakes in different tutorials.
+fn several(folders: &[SubmissionNode]) -> String {
+    let paths = folders.iter().map(|found| &found.path);
+    format!(
+        "there are several folders with this name ({}): keep only the one that should be graded, or \
+         rename the folders if they are by different people",
+        joined(paths, ", ")
+    )
 }
 
 fn person(platform: &Platform, parts: &Parts) -> Person {

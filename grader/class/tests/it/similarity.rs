@@ -4,6 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
+use grader::handed_out::RAYS;
+
 use crate::harness::{
     TestClass, assert_contains, class_command, files_below, refusal, successful_stdout,
 };
@@ -50,7 +52,7 @@ fn writes_numbered_own_lines_and_names_identical_submissions_beside_them() {
     assert!(!text.contains("identical: dora"), "{text}");
 
     let written = files_below(&folder);
-    assert_eq!(written.len(), 5 * 5, "{written:?}");
+    assert_eq!(written.len(), 5 * RAYS.files.len(), "{written:?}");
     for path in &written {
         let (path, text) = (path.to_str().unwrap(), fs::read_to_string(path).unwrap());
         for name in ["ann", "bob", "carl", "Zo", "Zed"] {

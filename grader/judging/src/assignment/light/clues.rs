@@ -141,8 +141,8 @@ pub(super) const ENVIRONMENT: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("pdf")],
-            clue: "Work out the pixel's share, the size of the map and sin θ for the direction shown, and \
-                compare each of them with the value in your code.",
+            clue: "Work out each factor of the density for the direction shown, and compare it with the value \
+                in your code: the pixel's share, the number of pixels, 2π² and sin θ.",
             section: "light/environment.md#the-density-of-a-direction",
         },
     ],

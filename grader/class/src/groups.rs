@@ -52,7 +52,11 @@ fn groups_named_by<'a>(rows: &'a [Member], info: &EntryInfo) -> BTreeMap<String,
     let [person] = info.people.as_slice() else {
         return groups;
     };
-    let team = person.name.as_str();
+    // On GitHub, only an account is known, which is the name of the group's repository.
+    let team = match person.name.as_str() {
+        "" => person.login.as_str(),
+        name => name,
+    };
     if team.is_empty() || rows.iter().any(|row| row.matches(person)) {
         return groups;
     }
@@ -126,6 +130,26 @@ mod tests {
             people: vec![person(json!({ "login": login }))],
             ..EntryInfo::default()
         }
+    }
+
+    #[test]
+    fn a_repository_named_after_a_group_belongs_to_its_members() {
+        let rows =
+            "name,login_id,group_name\nHana,hana,Team 7\nIvo,ivo,Team 7\nZoe,team-8,Team 8\n";
+        let (_folder, lists) = lists(&[(ListKind::Roster, rows)]);
+        let rows = read_lists(&lists).unwrap();
+        let resolved = |login| {
+            let mut entry = submitted_by(login);
+            let is_team = resolve_teams(&rows, &mut [&mut entry]);
+            (is_team, entry.display_names())
+        };
+        assert_eq!(resolved("team-7"), (true, "Hana + Ivo".to_owned()));
+        assert_eq!(
+            resolved("team-8"),
+            (false, "team-8".to_owned()),
+            "an account"
+        );
+        assert_eq!(resolved("team-9"), (false, "team-9".to_owned()));
     }
 
     #[test]

@@ -31,6 +31,11 @@ const PAGE: &str = "feedback.html";
 const NO_NUMBER: &str = "the number in the file name could be a person's or a group's, and no list \
                          says which: pass Moodle's worksheet with --moodle";
 
+/// The reason for leaving out a page for Canvas if only text was handed in there, and the files
+/// arrived later in another way.
+const NO_FILE: &str = "the platform can only show a page beside a file that was handed in there: send \
+                       the page in the folder hand-back";
+
 /// The warning about a group that gets a single page.
 const ONE_PAGE: &str = "the platform gives all members of a group the same page, so it leaves out \
                         points and comments that differ between them: send each member the page in \
@@ -53,6 +58,8 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
     let mut left_out = Vec::new();
     let mut used = BTreeSet::new();
     store.clear(FOLDER, PAGE)?;
+    let names = class.rows.iter().map(|row| &row.result.info.hand_back_as);
+    let needs_names = names.flatten().next().is_some();
     for row in &class.rows {
         // Without a score, there is no page.
         let has_page = row.result.score().is_some();
@@ -94,6 +101,12 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
                 Some(name) => {
                     let name = name.replace(NUMBER, person.own_number());
                     add_as(&mut archive, &name, &who, &own)
+                }
+                None if needs_names => {
+                    left_out.push(format!("{}: {NO_FILE}", class.distinct_name(person)));
+                    let who = unique_name(&who, "", &mut used);
+                    store.write(format!("{FOLDER}/{who}_{PAGE}"), own)?;
+                    continue;
                 }
                 None => archive.add(&format!("{who}_{PAGE}"), own.as_bytes()),
             };

@@ -56,6 +56,29 @@ fn canvas_gets_each_page_under_the_name_of_an_attachment() {
     assert_contains(&class.read("class.html"), &["Jane Doe"]);
 }
 
+/// Canvas finds the student by the attachment in the page's name, and Eve has none.
+#[test]
+fn on_canvas_a_page_about_corrected_text_is_sent_separately() {
+    let class = TestClass::named("submissions")
+        .with("doejane_7001_9001_hw.zip", solution())
+        .with("emptyeve_7005_text.html", "text");
+    let corrected = class.path_beside("corrected");
+    std::fs::create_dir(&corrected).unwrap();
+    std::fs::write(corrected.join("emptyeve_7005.zip"), solution()).unwrap();
+    let exam = class.small_exam(&ITEMS);
+    let arguments = ["--hand-back", "--corrected", corrected.to_str().unwrap()];
+    let text = class.graded_with(&exam, &[], &arguments);
+    let expected = [
+        "to hand back: 1 page",
+        "left out: emptyeve: the platform can only show a page beside a file",
+    ];
+    assert_contains(&text, &expected);
+    let archive = std::fs::read(class.out().join("hand-back.zip")).unwrap();
+    assert_eq!(names(&unzip(&archive)), ["doejane_7001_9001_hw.zip"]);
+    let page = class.read("hand-back/emptyeve_feedback.html");
+    assert!(page.ends_with("</html>"));
+}
+
 /// Canvas shows the same page to Ann and Bob, so it can't contain Bob's points.
 #[test]
 fn members_of_a_canvas_group_with_different_points_get_pages_of_their_own() {

@@ -296,7 +296,7 @@ const LIGHT_SAMPLE: Aspect<DirectCall> = Aspect {
     },
 };
 
-/// What is in the way of the direction toward a light.
+/// The kind of surface that is in the way of the direction toward a light.
 const BLOCKER: Aspect<DirectCall> = Aspect {
     name: "in the way of the light",
     classes: &["matte", "mirror", "glass", "light, from behind"],

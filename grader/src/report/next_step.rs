@@ -79,9 +79,10 @@ pub fn first_step(
             let called = item.called.map(|called| info.method_name(called));
             let names = called.unwrap_or_else(|| info.method_names("or"));
             // The mistake itself can be in code that this method calls or relies on.
-            let result = match kind {
-                VerdictKind::NoAnswer => "no answer",
-                _ => "a wrong answer",
+            let result = if kind == VerdictKind::NoAnswer {
+                "no answer"
+            } else {
+                "a wrong answer"
             };
             format!("find out why {names} gives {result} ({place})")
         }

@@ -58,8 +58,8 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
     let mut left_out = Vec::new();
     let mut used = BTreeSet::new();
     store.clear(FOLDER, PAGE)?;
-    let names = class.rows.iter().map(|row| &row.result.info.hand_back_as);
-    let needs_names = names.flatten().next().is_some();
+    let mut rows = class.rows.iter();
+    let needs_names = rows.any(|row| row.result.info.hand_back_as.is_some());
     for row in &class.rows {
         // Without a score, there is no page.
         let has_page = row.result.score().is_some();

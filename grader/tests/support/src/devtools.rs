@@ -158,8 +158,8 @@ impl Tab {
         }
     }
 
-    /// Evaluates an expression repeatedly until it is true. Panics with the value of `state` if it stays
-    /// false.
+    /// Evaluates an expression repeatedly until it is true. Panics with the value of `state` if it
+    /// stays false.
     pub fn wait_until(&mut self, expression: &str, state: &str) {
         let deadline = Instant::now() + WAIT_TIMEOUT;
         while self.eval(expression) != json!(true) {

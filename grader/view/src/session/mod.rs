@@ -66,7 +66,7 @@ pub struct Session {
     is_build_slow: bool,
     /// The reason drawing has stopped.
     fault: Option<Note>,
-    /// The number of pixels at which the program has ended early.
+    /// The number of pixels whose drawing ended the program early.
     faults: u32,
     /// Whether each request draws a single pixel, in order to find the one that ends the program.
     is_careful: bool,

@@ -652,7 +652,7 @@ const POINTS: &[&str] = &[
     "inside a sphere that isn't picked",
 ];
 
-/// The points to which the picked light doesn't emit.
+/// The points that the picked light doesn't emit to.
 const INSIDE_THE_PICKED: &[&str] = &[POINTS[1]];
 
 /// Whether the point is inside a sphere.

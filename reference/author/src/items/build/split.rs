@@ -91,9 +91,9 @@ const LARGE_END: Layout<'static> = Layout {
     alignment: Alignment::Loose,
 };
 
-/// A large primitive beside the best gap, and no plane of sixteen buckets close by that separates
-/// the same primitives. A builder that stores the cost of one plane with the next plane splits at
-/// the wrong side of the large primitive.
+/// A large primitive beside the best gap. With sixteen buckets, only one plane is in this gap. A
+/// builder that stores the cost of one plane with the next one splits on the wrong side of the
+/// large primitive.
 const NARROW: Layout<'static> = Layout {
     clumps: &[
         (0.4385, 0.4385, 1),

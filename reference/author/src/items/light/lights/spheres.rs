@@ -183,7 +183,7 @@ fn close(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
     (point, SMALL_MARGIN)
 }
 
-/// Returns a point from which a sphere looks tiny.
+/// Returns a point so far away that a sphere looks tiny.
 fn far(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
     let light = any_sphere(rng, lights);
     let distance = light.radius * rng.log_uniform(320.0, 1200.0);

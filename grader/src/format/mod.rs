@@ -26,7 +26,7 @@ pub use item_view::ItemView;
 pub use spec::{FormatContext, FormatSpec, MethodLocation, OutputSpec};
 pub use student_view::StudentView;
 
-/// All formats, in the order in which `--help` lists them.
+/// All formats, in the order that `--help` lists them.
 pub static FORMATS: [&FormatSpec; 9] = [
     &json::FORMAT,
     &text::FORMAT,

@@ -1,4 +1,4 @@
-//! Removes from a score what students may not see, and sanitizes the rest.
+//! Removes from a score what students may not see and sanitizes the rest.
 
 use judging::sanitize::{sanitize, sanitize_line};
 

@@ -1,6 +1,6 @@
 //! Keeps files within the size limits of platforms, no matter how much text a submission produces.
 
-/// The limits on the number of characters per text, in the order in which they are tried.
+/// The limits on the number of characters per text, in the order they are tried.
 const TEXT_LIMITS: [usize; 5] = [4_000, 1_000, 250, 60, 0];
 
 /// Renders a file with smaller and smaller text limits until it is at most `max_bytes` long. If it

@@ -55,7 +55,7 @@ pub fn grade(options: &GradeOptions) -> Result<GradedSubmission, Error> {
     grade_prepared(&mut PreparedSubmission::new(options)?)
 }
 
-/// Grades a submission that has already been read, and writes its reports.
+/// Grades a submission that has already been read and writes its reports.
 pub fn grade_prepared(prepared: &mut PreparedSubmission) -> Result<GradedSubmission, Error> {
     let (grader, build) = Grader::build_prepared(prepared)?;
     let (options, submission) = (prepared.options, &prepared.submission);

@@ -76,8 +76,8 @@ pub(super) fn lateness(options: &GradeOptions, policy: &Policy) -> Result<Latene
     })
 }
 
-/// Returns the default folder for a submission's score. The score of another assignment than the
-/// default one is in a subfolder, since a submission may contain both.
+/// Returns the default folder for a submission's score. The score of any assignment other than the
+/// default is in a subfolder, since a submission may contain both.
 pub fn default_folder(workspace: &Workspace, submission: &Submission) -> PathBuf {
     let folder = workspace.output_folder();
     let folder = folder.join(safe_folder_name(&submission.name));

@@ -41,7 +41,7 @@ pub struct HandInArguments {
     pub folder: Option<PathBuf>,
 
     /// The archive to write; default: handin.zip in the project's folder, or handin-ID.zip for
-    /// another assignment than the default one
+    /// an assignment other than the default
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 

@@ -127,7 +127,7 @@ impl FinalPoints {
             days => format!("handed in {days} late"),
         };
         Some(match self.deduction {
-            Deduction::None => format!("{late}, which costs nothing"),
+            Deduction::None => format!("{late}, with no deduction"),
             Deduction::FreeDays => format!("{late}, which is within the free days"),
             Deduction::Percent {
                 percent,
@@ -218,7 +218,7 @@ mod tests {
         assert_eq!(counted("", 90, 5, 0).rules(), None);
         for (policy, hours, rules) in [
             ("[points]\nout_of = 50", 0, "100 points are scaled to 50."),
-            ("", 25, "handed in 2 days late, which costs nothing."),
+            ("", 25, "handed in 2 days late, with no deduction."),
             (
                 "[points]\nout_of = 50\n[late]\npercent_per_day = 10",
                 1,

@@ -45,7 +45,7 @@ pub fn run_exam<E: From<io::Error>>(
     };
     let tasks = exam.tasks_in_order(build.handed_out.assignment);
     let done = run.run_tasks(&tasks, threads)?;
-    // When the tasks run one after the other, each one knows how much of the budget is left.
+    // When the tasks run one after another, each one knows how much of the budget is left.
     run.run_tasks(&tasks[done..], 1)?;
     run.score.complete = true;
     (run.progress)(run.score, &run.report_answers)

@@ -1,4 +1,4 @@
-//! Has a program run the items of one task, and stops the task if the program hangs or crashes too
+//! Has a program run the items of one task and stops the task if the program hangs or crashes too
 //! often.
 
 use std::io;

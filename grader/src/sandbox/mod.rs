@@ -3,7 +3,7 @@
 //! Your own work runs at level `none`: in its own process group, with an empty environment, and
 //! with limits on memory and CPU time as far as the [`system`](crate::machine::system) supports
 //! them. Other people's code is started by a *launcher*, which is another process of the grader's
-//! own executable. It drops its privileges one after the other and then executes the untrusted
+//! own executable. It drops its privileges one by one and then executes the untrusted
 //! program. The launcher only works on Linux. On other systems, `none` is the only level.
 //!
 //! `grader/SECURITY.md` describes what each level promises and what no level promises.

@@ -85,7 +85,7 @@ pub struct TaskScore {
     pub points: u32,
     /// Maximum number of points.
     pub max_points: u32,
-    /// The items, in the order in which they were graded.
+    /// The items, in the order they were graded.
     pub items: Vec<ItemScore>,
     /// The task's method and its line, such as `sphere.rs:34`, or only the file if the method was
     /// not found. Used for advice. Not stored in the file.

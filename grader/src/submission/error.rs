@@ -131,7 +131,7 @@ impl TaskFileError {
                 format!("{name} is empty: `cargo grade --reset {name}` restores the original file")
             }
             TaskFileError::NotRegular => format!("{name} is not a regular file"),
-            TaskFileError::TooLong => format!("{name} is longer than 1 MiB"),
+            TaskFileError::TooLong => format!("{name} is larger than 1 MiB"),
             TaskFileError::NotText(line) => format!(
                 "{name} is not UTF-8 text: line {line} has an invalid byte. Save the file as UTF-8"
             ),

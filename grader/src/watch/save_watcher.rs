@@ -79,7 +79,7 @@ mod tests {
         })
     }
 
-    /// Returns a watcher that reads these versions one after the other.
+    /// Returns a watcher that reads these versions one after another.
     fn watcher_reading(reads: Vec<Option<Submission>>) -> SaveWatcher<'static> {
         let reads = RefCell::new(reads.into_iter());
         SaveWatcher {

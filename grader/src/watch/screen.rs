@@ -1,5 +1,5 @@
 //! The terminal output of `--watch`: a single page, redrawn in one write so that it doesn't
-//! flicker. Without a terminal, reports are printed one after the other.
+//! flicker. Without a terminal, reports are printed one after another.
 
 use std::cell::Cell;
 use std::collections::BTreeSet;

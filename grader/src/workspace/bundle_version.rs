@@ -30,8 +30,11 @@ pub fn mixed_versions(workspace: &Workspace) -> Option<String> {
 }
 
 fn mixed(grader: Option<&str>, folders: &[(&str, Option<String>)]) -> Option<String> {
-    let name =
-        |version: Option<&str>| version.map_or("without a version".to_owned(), str::to_owned);
+    let name = |version: Option<&str>| {
+        version.map_or("unversioned".to_owned(), |version| {
+            format!("version {version}")
+        })
+    };
     let others: Vec<String> = folders
         .iter()
         .filter(|(_, version)| version.as_deref() != grader)
@@ -81,8 +84,9 @@ mod tests {
         let note = mixed(Some("77aa"), &same[..1]).expect("the versions differ");
         assert_eq!(
             note,
-            "this folder contains a mix of versions: the grader is 77aa, and student/framework is \
-             3f9a. Unpack the latest archive again, overwriting all the provided files"
+            "this folder contains a mix of versions: the grader is version 77aa, and \
+             student/framework is version 3f9a. Unpack the latest archive again, overwriting all \
+             the provided files"
         );
     }
 

@@ -71,7 +71,7 @@ fn a_path_without_a_submission_is_a_usage_error() {
             "sphere.near_side",
             "sphere.near_side does not exist (did you mean --replay sphere.near_side?)",
         ),
-        ("Cargo.toml", "is neither a folder nor a .zip"),
+        ("Cargo.toml", "is neither a folder nor a valid .zip"),
     ] {
         assert_wrong_use(&[path], why);
     }

@@ -12,7 +12,7 @@ use crate::session::View;
 /// The default port, used if it is free.
 pub const DEFAULT_PORT: u16 = 8420;
 
-/// Opens a viewer in the browser that shows how your code draws a picture
+/// Shows in the browser how your code draws a picture
 #[derive(Clone, Debug, Parser)]
 #[command(
     name = "cargo view",
@@ -82,7 +82,7 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH")]
     pub submission: Option<PathBuf>,
 
-    /// Run the submission in a sandbox because someone else wrote it
+    /// Run the submission in a sandbox; use this for code that someone else wrote
     #[arg(long, requires = "submission")]
     pub untrusted: bool,
 }

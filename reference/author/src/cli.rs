@@ -101,7 +101,7 @@ pub struct BundleArgs {
     #[arg(long, value_name = "FILES", value_enum, default_value_t)]
     pub light: LightFiles,
     /// Leave out the files that students write, so that they can unpack the archive over an older
-    /// version; needs --light with the value that the older version was made with
+    /// version; needs the same value of --light as that version
     #[arg(long, conflicts_with = "check", requires = "light")]
     pub update: bool,
     /// Unpack the bundle in an empty home directory, run the commands in its documentation, and

@@ -51,8 +51,8 @@ pub fn with_hints(mut exam: Exam, solutions: &Solutions) -> Result<Exam> {
         ensure!(
             !form.times_out() || own.any(RecordedMistake::times_out),
             "the mistake {} runs out of time in another form of the reference's code, but not in the \
-             reference's own. On a faster machine, it might not, and then the exam would be different. \
-             Change the form in forms.toml or remove it",
+             reference itself. On a faster machine, that form might finish in time, which would \
+             change the exam. Change the form in forms.toml or remove it",
             form.mistake.id
         );
         recorded.push(form);

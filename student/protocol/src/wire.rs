@@ -20,13 +20,13 @@ use crate::{Answer, Question};
 #[derive(Debug, thiserror::Error)]
 pub enum WireError {
     /// The stream ended, either within a frame or between two frames.
-    #[error("the stream ended")]
+    #[error("the stream ended unexpectedly")]
     EndOfStream,
     /// Reading from or writing to the stream failed.
-    #[error("the stream failed: {0}")]
+    #[error("reading or writing the stream failed: {0}")]
     Io(io::Error),
     /// The header states a length above the limit.
-    #[error("a frame has {length} bytes, but at most {limit} are allowed")]
+    #[error("a frame has {length} bytes, but the limit is {limit}")]
     TooLong {
         /// The length in the header, in bytes.
         length: usize,

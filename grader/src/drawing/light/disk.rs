@@ -69,7 +69,10 @@ pub(super) fn draw(
         }
     }
     let (what, symbols) = if wanted.iter().any(|dot| dot.value.is_some()) {
-        let what = format!("a dot's area is its {}; a small ring is 0", shown.judged);
+        let what = format!(
+            "a dot's area shows its {}; a small ring means 0",
+            shown.judged
+        );
         (what, [RIGHT, WRONG].map(Symbol::Area))
     } else {
         let what = format!("the directions of {count} samples");
@@ -82,7 +85,7 @@ pub(super) fn draw(
         sheet.add_got(symbols[1], &format!("{wrong} of these {count} {are} wrong"));
     }
     let out = directions(shown.input.as_ref()).next()?;
-    let text = format!("the question above; out is {}", angle_text(out));
+    let text = format!("the question above, where out is {}", angle_text(out));
     sheet.add_legend(Symbol::Mark(Mark::Origin), &text);
     let horizon = if has_below {
         "the horizon; directions outside this circle are below the surface"

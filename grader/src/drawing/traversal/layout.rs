@@ -1,4 +1,4 @@
-//! Chooses which nodes of a traversal to draw, and determines the status of each.
+//! Chooses which nodes of a traversal to draw and determines the status of each.
 
 use std::collections::BTreeMap;
 

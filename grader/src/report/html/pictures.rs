@@ -217,7 +217,7 @@ fn row(picture: &Picture, view: &LayerComparison) -> Markup {
         div .row data-view=(view.name) {
             (panel(picture.film, view.name, &view.wanted, "expected"))
             (panel(picture.film, view.name, &view.got, "yours"))
-            (panel(picture.film, view.name, &view.difference, "difference, 4 ×"))
+            (panel(picture.film, view.name, &view.difference, "difference × 4"))
         }
     }
 }

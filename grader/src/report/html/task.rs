@@ -150,7 +150,7 @@ fn evidence(score: &ItemScore, item: Option<&Item>) -> Markup {
 fn missing_evidence(score: &ItemScore, item: &Item) -> Markup {
     let first = item.questions.first();
     let first = first.filter(|question| question.question.count() > 0);
-    let all = format!("{} questions, one after the other", item.count());
+    let all = format!("{} questions, one after another", item.count());
     match &score.verdict {
         Verdict::Unimplemented => {
             let got = "no answer: the method is not written yet";

@@ -1,4 +1,4 @@
-//! The launcher, which drops its privileges one after the other and then executes the confined
+//! The launcher, which drops its privileges one by one and then executes the confined
 //! program. It has a single thread and is a fresh process rather than a fork of the grader, so all
 //! its state comes from its arguments.
 //!

@@ -74,7 +74,9 @@ pub enum ArchiveError {
     )]
     UnsupportedKind(&'static str),
     /// The file isn't an archive.
-    #[error("it is neither a folder nor a .zip, .tar or .tar.gz, despite its name")]
+    #[error(
+        "it is neither a folder nor a valid .zip, .tar or .tar.gz: pack the files again in one of these formats"
+    )]
     NotAnArchive,
     /// The archive is truncated or malformed.
     #[error("it is damaged ({0}): download or pack it again")]
@@ -88,7 +90,9 @@ pub enum ArchiveError {
     )]
     UnsupportedCompression(String),
     /// The paths of two Rust files are the same on at least some file systems.
-    #[error("it contains {0} and {1}, which some systems treat as the same file: pack it again")]
+    #[error(
+        "it contains {0} and {1}, which some systems treat as the same file: pack it again with only one of them"
+    )]
     DuplicatePath(String, String),
     /// The archive contains too many members.
     #[error("it has more than {0} files: pack only the task files, without target/")]

@@ -46,7 +46,7 @@ pub enum RequestError {
     #[error("the request is too long")]
     TooLong,
     /// The method is not GET or POST.
-    #[error("the method is not supported")]
+    #[error("the method is not supported: use GET or POST")]
     Method,
 }
 

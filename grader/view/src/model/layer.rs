@@ -24,7 +24,7 @@ impl<T: Copy + Default> Layer<T> {
         }
     }
 
-    /// Adds the values of the first pixels in a request, and marks the pixels where the code
+    /// Adds the values of the first pixels in a request and marks the pixels where the code
     /// panicked. `panicked` contains their indices in the request. `add` computes the new value of
     /// a pixel from the old value and a sample.
     pub fn add(
@@ -82,7 +82,7 @@ mod tests {
     use crate::model::tiles::LayerKind;
 
     /// Draws a picture in which the digits of each pixel's value are the numbers of the pixel's
-    /// samples, in the order in which they were added. Each request draws at most `most` pixels.
+    /// samples, in the order they were added. Each request draws at most `most` pixels.
     fn draw_all(film: UVec2, samples: u32, most: usize) -> Layer<u64> {
         let mut layer = Layer::new(film, samples);
         while let Some((index, draw)) = layer.tiles.take(LayerKind::Light, 1) {

@@ -113,7 +113,7 @@ impl Tiles {
         Some((index, tile.draw(layer, samples, milliseconds)))
     }
 
-    /// Counts another sample for each of the first `drawn` pixels in a request, and marks the
+    /// Counts another sample for each of the first `drawn` pixels in a request and marks the
     /// pixels where the code panicked. `panicked` contains the indices of those pixels in the
     /// request.
     pub fn add(

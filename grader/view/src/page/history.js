@@ -49,7 +49,7 @@ function parts(pixel, history) {
   const head = ["path", "luminance", "mean", "variance", "σ/√n", "radiance"].map((text) => element("th", { scope: "col" }, text));
   return [
     plot(history),
-    element("p", {}, "Dots are the luminances of samples, and red rings are those above the top edge. The line is the mean of all samples up to there, and the band is ± σ/√n. Choose a path to see its bounces."),
+    element("p", {}, "Each dot is the luminance of a sample; red rings mark samples above the top edge. The line is the running mean, and the band around it is ± σ/√n. Choose a path to see its bounces."),
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "The samples, in order" },
       element("table", { "aria-label": "The samples, in order" }, element("thead", {}, element("tr", {}, ...head)), body)),
   ];

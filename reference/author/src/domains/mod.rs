@@ -92,7 +92,7 @@ pub struct UntestedClasses {
     pub why: &'static str,
 }
 
-/// Declares that an exam need not test these classes of these aspects, and states the reason. The
+/// Declares that an exam need not test these classes of these aspects and states the reason. The
 /// declaration applies only to these columns of the coverage table. An empty list stands for all
 /// aspects, classes or columns.
 pub const fn not_asked(

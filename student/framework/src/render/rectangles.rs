@@ -14,7 +14,7 @@ use crate::submission::List;
 /// How far a rectangle's fourth corner may be from its place, as a fraction of the diagonal.
 const TOLERANCE: f32 = 1e-4;
 
-/// Uses a submission's camera, and finds hits on rectangles by itself.
+/// Uses a submission's camera and finds hits on rectangles itself.
 pub struct GivenRectangles<'a>(pub &'a dyn Submission);
 
 /// A scene made of rectangles, with the given intersections. It needs no code for part one.

@@ -171,7 +171,7 @@ impl Intersect for SampleTracer<'_> {
         self.rays.set(self.rays.get() + 1);
         assert!(
             self.rays.get() <= MAX_RAYS,
-            "the path never ends: it is still going on after {MAX_RAYS} rays"
+            "the path never ends: it is still going after {MAX_RAYS} rays"
         );
         if self.is_invalid.get() {
             return None;

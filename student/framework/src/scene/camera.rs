@@ -68,7 +68,7 @@ impl Camera {
         // angle between them.
         let across = forward.cross(up.normalize_or_zero());
         if across.length() < 1e-4 {
-            let message = "`up` is parallel to the view direction: change it";
+            let message = "`up` is parallel to the view direction: change `up`";
             return Err(keys.value("up")?.error(message));
         }
         let right = across.normalize();

@@ -45,7 +45,10 @@ impl EnvironmentMap {
             ));
         }
         if radiance.len() != (width * height) as usize {
-            return Err(format!("the map has {} pixels", radiance.len()));
+            return Err(format!(
+                "the map's size is {width} × {height}, but it has {} pixels",
+                radiance.len()
+            ));
         }
         let unusable = |pixel: &Vec3| match *pixel {
             pixel if pixel.is_nan() => Some("isn't a number"),
@@ -91,7 +94,7 @@ impl EnvironmentMap {
         let size = UVec2::new(picture.width(), picture.height());
         let pixels = picture.pixels().map(|pixel| scale * Vec3::from(pixel.0));
         if pixels.clone().all(|pixel| pixel == Vec3::ZERO) {
-            let message = "the map is black: leave the environment out";
+            let message = "the map is completely black: leave out the environment";
             return Err(in_file(message.to_owned()));
         }
         EnvironmentMap::new(size, pixels.collect()).map_err(in_file)

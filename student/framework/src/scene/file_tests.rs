@@ -159,7 +159,7 @@ fn an_environment_map_is_read_from_an_hdr_file_and_what_is_wrong_with_it_is_name
     folder.write("short.hdr", &hdr(pixels)[..50]);
     folder.write("sky.png", [0; 4]);
     for (map, why) in [
-        ("black.hdr", "black.hdr: the map is black"),
+        ("black.hdr", "black.hdr: the map is completely black"),
         ("short.hdr", "short.hdr: the file is damaged"),
         ("sky.png", "sky.png: a map must be an HDR or EXR file"),
         ("none.hdr", "none.hdr: cannot read the file"),

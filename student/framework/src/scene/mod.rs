@@ -62,7 +62,7 @@ impl Scene {
     pub fn from_text(text: &str) -> Result<Scene, SceneError> {
         let message = |what: &str| {
             format!(
-                "{what} are separate files, so only a scene that is read from a file can use them"
+                "{what} are separate files, so a scene can only use them if it is read from a file"
             )
         };
         let load = read::LoadFiles {
@@ -82,7 +82,7 @@ impl Scene {
         Scene::load_with_names(path).map(|(scene, _)| scene)
     }
 
-    /// Does the same as [`Scene::load`], and also returns the names of the scene's materials.
+    /// Does the same as [`Scene::load`] and also returns the names of the scene's materials.
     #[cfg(feature = "cli")]
     pub(crate) fn load_with_names(path: &Path) -> Result<(Scene, Vec<String>), SceneError> {
         let is_mesh = path.extension().is_some_and(|ending| ending == "obj");

@@ -87,7 +87,7 @@ fn wrong_keys_names_and_kinds_are_listed_with_the_known_ones() {
 
 #[test]
 fn an_error_points_at_the_value_and_says_what_is_allowed() {
-    let positive = "expected a number greater than 0, up to 1e9, got";
+    let positive = "expected a number greater than 0 and at most 1e9, got";
     for value in ["0", "-2", "1e39", "null"] {
         let expected = format!("6:50: `radius`: {positive} {value}\n");
         check("1, \"mat", &format!("{value}, \"mat"), &expected);
@@ -115,8 +115,7 @@ fn an_error_points_at_the_value_and_says_what_is_allowed() {
     let degrees = "2:31: `vertical_fov`: expected an angle in degrees, greater than 0 and less \
                    than 180, got 180";
     check("40", "180", degrees);
-    let kind =
-        "4:25: `red`: expected an object in { } with one key, its kind, got the string \"mirror\"";
+    let kind = "4:25: `red`: expected an object in { } whose only key is its kind, got the string \"mirror\"";
     check(RED, r#""red": "mirror""#, kind);
     check(
         SPHERE,

@@ -106,7 +106,7 @@ impl<'a> Value<'a> {
     /// Returns the only member of an object. The member's key is the object's kind. Scene files use
     /// this form rather than a `type` key, so that the known keys follow from the kind.
     pub(super) fn kind(&self) -> Result<(Value<'a>, Value<'a>), SceneError> {
-        let expected = || self.unexpected("an object in { } with one key, its kind");
+        let expected = || self.unexpected("an object in { } whose only key is its kind");
         match <[_; 1]>::try_from(self.members().map_err(|_| expected())?) {
             Ok([member]) => Ok(member),
             Err(_) => Err(expected()),
@@ -164,7 +164,7 @@ impl<'a> Value<'a> {
 
     /// Returns a positive number, such as a radius, a scale or an index of refraction.
     pub(super) fn positive(&self) -> Result<f32, SceneError> {
-        self.number("a number greater than 0, up to 1e9", |x| {
+        self.number("a number greater than 0 and at most 1e9", |x| {
             x > 0.0 && x <= MAX_COORDINATE
         })
     }
@@ -189,8 +189,8 @@ impl<'a> Value<'a> {
         numbers.map(Vec3::from_array)
     }
 
-    /// Returns the elements of a list, or the keys and values of an object, one after the other.
-    /// Returns `None` if the value doesn't begin with the bracket `open`.
+    /// Returns the elements of a list, or the keys and values of an object, in sequence. Returns
+    /// `None` if the value doesn't begin with the bracket `open`.
     fn items(&self, open: char) -> Option<Vec<Value<'a>>> {
         let mut rest = self.text[self.start..].strip_prefix(open)?;
         let mut items = Vec::new();

@@ -25,13 +25,13 @@ pub struct Hit;
 pub enum Geometry {
     /// Calls every shape's `hit` and takes the closest hit. No tree is involved.
     List {
-        /// The shapes, tested one after the other.
+        /// The shapes, tested one by one.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
     },
     /// Calls `Bvh::hit` on a tree from the exam.
     Tree {
-        /// The primitives, in the order in which the leaves index them.
+        /// The primitives, in the order that the leaves index them.
         #[serde(with = "packed")]
         shapes: Vec<Shape>,
         /// The nodes, in any order.

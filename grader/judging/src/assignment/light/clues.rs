@@ -71,7 +71,7 @@ pub(super) const LIGHTS: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::less(SOME_OR_NONE)],
             clue: "The light that `choice` picks doesn't face away, but your code returns `None`. Which of your \
-                conditions leads there, and is it about the list, the light that is picked, or its cosine?",
+                conditions causes this: the one about the list, the picked light, or the cosine at the light?",
             section: "light/lights.md#pick-a-light-by-its-power",
         },
         SymptomClue {

@@ -329,16 +329,16 @@ pub(super) const TRAVERSE: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::HIT],
-            clue: "Your code returns a hit where no correct traversal finds one. If a primitive is \
-                hit there, it is in no leaf, or in a leaf that must not be entered, or outside \
-                ray.range. If nothing is hit there, why doesn't your code return None?",
+            clue: "Your code returns a hit where no correct traversal finds one. If the ray does hit a \
+                primitive there, it is in no leaf, in a leaf that you mustn't enter, or outside \
+                ray.range. If it doesn't, why doesn't your code return None?",
             section: "traversal.md#the-algorithm",
         },
         SymptomClue {
             symptoms: &[Symptom::less("distance")],
-            clue: "Your distance is less than the correct one. Is a primitive hit there? If so, it is in no \
-                leaf, in a leaf that must not be entered, or nearer than ray.range.min. If not, \
-                why isn't your distance that of a primitive's hit?",
+            clue: "Your distance is less than the correct one. Does the ray hit a primitive there? If so, \
+                it is in no leaf, in a leaf that you mustn't enter, or nearer than ray.range.min. If \
+                not, why isn't your distance that of a primitive's hit?",
             section: "traversal.md#the-algorithm",
         },
         SymptomClue {

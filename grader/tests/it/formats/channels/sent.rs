@@ -36,7 +36,7 @@ pub fn channels() -> Vec<Channel> {
             record_fault(score, item, Fault::Crashed(Crash::Signal(bits as i32)));
         }),
         channel("length of a frame", |score, item, bits| {
-            let why = format!("a frame has {bits} bytes, but at most 100 are allowed");
+            let why = format!("a frame has {bits} bytes, but the limit is 100");
             record_fault(score, item, Fault::Protocol(why));
         }),
         channel("element that crashes", |score, item, bits| {

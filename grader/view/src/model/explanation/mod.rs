@@ -118,7 +118,7 @@ fn explain_ray(
     }
 }
 
-/// The state of a traversal while its tests are explained one after the other.
+/// The state of a traversal while its tests are explained one by one.
 struct State {
     closest: Option<f32>,
     /// The closest hit after all tests. A node is often skipped long after its box was tested.

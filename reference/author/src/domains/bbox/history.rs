@@ -37,11 +37,11 @@ pub(super) const FOLLOW: &[Follow<BoxCall>] = &[
     },
 ];
 
-/// The class of a call whose direction hardly differs from that of the previous call.
-pub(super) const HARDLY_TURNED: &str = "hardly another direction";
+/// The class of a call whose direction is virtually the previous call's.
+pub(super) const HARDLY_TURNED: &str = "virtually the same direction";
 
-/// The class of a call whose start hardly differs from that of the previous call.
-pub(super) const HARDLY_MOVED: &str = "hardly another start";
+/// The class of a call whose start is virtually the previous call's.
+pub(super) const HARDLY_MOVED: &str = "virtually the same start";
 
 /// The classes of the previous call.
 pub(super) const CLASSES: &[&str] = &[

@@ -314,15 +314,22 @@ const BLOCKER: Aspect<DirectCall> = Aspect {
     },
 };
 
+/// Classes of cosines. Small ones are those of grazing directions.
+const HEIGHTS: &[&str] = &["above 0.1", "above 1e-3", "smaller"];
+
+/// Returns the class of a direction in a surface's frame.
+fn height_class(direction: DVec3) -> usize {
+    let limits = [0.1, 1e-3];
+    limits.iter().filter(|limit| direction.z < **limit).count()
+}
+
 /// The cosine of the direction toward a light that isn't blocked.
 const SAMPLE_HEIGHT: Aspect<DirectCall> = Aspect {
     name: "cosine of the light sample",
-    classes: &["above 0.1", "above 1e-3", "smaller"],
+    classes: HEIGHTS,
     class: |call| {
-        let surface = matte(call)?;
-        let direction = sampled(call).filter(|it| found(call, surface, *it) > 0)?;
-        let cosine = surface.frame.to_local(direction).z;
-        Some([0.1, 1e-3].iter().filter(|limit| cosine < **limit).count())
+        let direction = unblocked(call)?;
+        Some(height_class(matte(call)?.frame.to_local(direction)))
     },
 };
 
@@ -331,9 +338,8 @@ const SAMPLE_PDF: Aspect<DirectCall> = Aspect {
     name: "light pdf of the light sample",
     classes: &["up to 1", "up to 100", "up to 10,000", "beyond"],
     class: |call| {
-        let surface = matte(call)?;
-        let direction = sampled(call).filter(|it| found(call, surface, *it) > 0)?;
-        let pdf = call.room.sources().pdf(surface.position, direction).value;
+        let (position, direction) = (matte(call)?.position, unblocked(call)?);
+        let pdf = call.room.sources().pdf(position, direction).value;
         Some([1.0, 1e2, 1e4].iter().filter(|limit| pdf > **limit).count())
     },
 };
@@ -352,12 +358,8 @@ const SCATTERED: Aspect<DirectCall> = Aspect {
 /// The cosine of the scattered direction.
 const SCATTERED_HEIGHT: Aspect<DirectCall> = Aspect {
     name: "scattered cosine",
-    classes: &["above 0.1", "above 1e-3", "smaller"],
-    class: |call| {
-        matte(call)?;
-        let cosine = scattered(call).z;
-        Some([0.1, 1e-3].iter().filter(|limit| cosine < **limit).count())
-    },
+    classes: HEIGHTS,
+    class: |call| matte(call).map(|_| height_class(scattered(call))),
 };
 
 /// The light pdf of the scattered direction.
@@ -385,6 +387,12 @@ fn sampled(call: &DirectCall) -> Option<DVec3> {
     let sample = call.room.sources().sample(surface.position, &numbers);
     let is_above = |direction: &DVec3| surface.frame.to_local(*direction).z > 0.0;
     sample.value.filter(is_above)
+}
+
+/// Returns the direction toward a light, if light arrives from there.
+fn unblocked(call: &DirectCall) -> Option<DVec3> {
+    let surface = matte(call)?;
+    sampled(call).filter(|direction| found(call, surface, *direction) > 0)
 }
 
 /// Returns the ray from a surface in a direction.

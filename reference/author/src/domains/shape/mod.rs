@@ -99,11 +99,11 @@ pub const DISTANCE: Aspect<ShapeCall> = Aspect {
     class: |call| Some(distance_class(call.hit()?.distance)),
 };
 
-/// The class of a call whose direction hardly differs from that of the previous call.
-pub const HARDLY_TURNED: &str = "hardly another direction";
+/// The class of a call whose direction is virtually the previous call's.
+pub const HARDLY_TURNED: &str = "virtually the same direction";
 
-/// The class of a call whose start hardly differs from that of the previous call.
-pub const HARDLY_MOVED: &str = "hardly another start";
+/// The class of a call whose start is virtually the previous call's.
+pub const HARDLY_MOVED: &str = "virtually the same start";
 
 /// The class of a call whose start is a mirror image of the previous call's.
 pub const MIRRORED_START: &str = "a mirrored start";

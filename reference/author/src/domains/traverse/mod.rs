@@ -92,7 +92,7 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
                 "distance relative to the coordinates of the start",
                 "start relative to the boxes around the hit",
                 "start on the shape that is hit",
-                "place of the hit primitive in its leaf",
+                "position of the hit primitive in its leaf",
                 "another hit close behind",
                 "nodes waiting",
             ],
@@ -407,7 +407,7 @@ const ON_THE_WAY: Aspect<TraverseCall> = Aspect {
 
 /// The index of the hit primitive in its leaf.
 const PLACE_OF_HIT: Aspect<TraverseCall> = Aspect {
-    name: "place of the hit primitive in its leaf",
+    name: "position of the hit primitive in its leaf",
     classes: &[
         "up to the 16th",
         "up to the 512th",

@@ -75,9 +75,9 @@ impl Chapter {
         });
         let captions = captions.collect::<Result<Vec<_>>>()?.join("\n");
         Ok(format!(
-            "{}\n\n```sh\n{}\n```\n\nYou should see the first picture, {}. The other pictures \
-             were drawn by incorrect code. They are numbered row by row.\n\n![The right picture, followed by {} wrong \
-             ones. Each is described below.]({})\n\n<details><summary>What causes each wrong picture\
+            "{}\n\n```sh\n{}\n```\n\nYou should see the first picture, {}. The others were drawn by \
+             incorrect code and are numbered row by row.\n\n![The right picture, followed by {} \
+             wrong ones. Each is described below.]({})\n\n<details><summary>What causes each wrong picture\
              </summary>\n\n1. The right picture.\n{captions}\n\n</details>",
             self.when,
             self.command(),

@@ -398,7 +398,7 @@ fn large(rng: &mut Rng) -> MapImage {
     striped(rng, uvec2(640, 320), 150..4500)
 }
 
-/// Returns a map in which between `run.start` and `run.end` neighbours have the same colour.
+/// Returns a map whose pixels come in runs of one colour. `run` is the range of their lengths.
 fn striped(rng: &mut Rng, size: UVec2, run: Range<u32>) -> MapImage {
     let mut pixels = Vec::new();
     while pixels.len() < size.element_product() as usize {

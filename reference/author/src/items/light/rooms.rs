@@ -267,8 +267,8 @@ fn along_the_surface(rng: &mut Rng) -> Vec2 {
     random_pair(rng).with_x(below_one)
 }
 
-/// Returns a floor on which a low light stands, like a glowing skirting board. Heights above the
-/// floor, which is at y = 0, are hardly rounded.
+/// Returns a floor with a low light at its edge, like a glowing skirting board. The floor is at y = 0,
+/// so heights above it are hardly rounded.
 pub(super) fn beside_a_light(rng: &mut Rng, environment: Environment64) -> Room {
     let half = DVec3::new(8.0, 0.1, 8.0);
     let floor = Material64::Lambertian { albedo: color(rng) };
@@ -366,8 +366,8 @@ pub(super) fn grazing_path_case(
     path_case_with(rng, room, bounces, 1e-4, grazing_seed, wanted)
 }
 
-/// Returns a seed with which a matte first surface scatters almost along itself: the cosine is
-/// between 2.4e-4 and 2.8e-3. About one in 120,000 seeds is like this.
+/// Returns a seed that makes a matte first surface scatter almost along itself, at a cosine between
+/// 2.4e-4 and 2.8e-3. Only about one in 120,000 seeds does.
 fn grazing_seed(rng: &mut Rng) -> u32 {
     let start = rng.integer(0, 1 << 30);
     let is_grazing = |seed: &u32| {

@@ -52,7 +52,7 @@ pub struct WithMargin<T> {
 }
 
 impl<T> WithMargin<T> {
-    /// Replaces the result, and lowers the margin if `margin` is smaller.
+    /// Replaces the result and lowers the margin if `margin` is smaller.
     fn and<U>(self, value: U, margin: f64) -> WithMargin<U> {
         WithMargin {
             value,

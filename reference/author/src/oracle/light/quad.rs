@@ -70,7 +70,7 @@ impl Quad {
         &self.material
     }
 
-    /// Returns the corners in the order in which scene files list them.
+    /// Returns the corners in the order that scene files list them.
     pub fn corners(&self) -> [DVec3; 4] {
         [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|position| self.shape.at(position))
     }

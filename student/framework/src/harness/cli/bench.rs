@@ -91,7 +91,7 @@ impl Measurement {
             let factor = speed / last;
             write!(
                 text,
-                "\nlast time: {last:.2} Mrays/s; this run is {factor:.2} × as fast"
+                "\nlast time: {last:.2} Mrays/s; this run is {factor:.2} times as fast"
             )
             .expect("writing to a string cannot fail");
         }
@@ -125,7 +125,7 @@ mod tests {
                      75% of the time is spent in Bvh::hit and the functions it calls";
         assert_eq!(lines(250), first);
         let second = lines(125);
-        let ends = "\nlast time: 2.00 Mrays/s; this run is 2.00 × as fast";
+        let ends = "\nlast time: 2.00 Mrays/s; this run is 2.00 times as fast";
         assert!(second.ends_with(ends), "{second}");
     }
 }

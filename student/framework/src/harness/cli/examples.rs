@@ -62,8 +62,8 @@ fn run(arguments: &Arguments) -> io::Result<ExitCode> {
     let names = names().map(|name| filter(name, &known));
     let notice = Notice::after(
         LONG,
-        "still running: an example that isn't listed above may be in an infinite loop (Ctrl-C stops \
-         it)"
+        "still running: an example that isn't listed above may be in an infinite loop (press \
+         Ctrl-C to stop it)"
             .to_owned(),
     );
     let status = cargo_test(&packages)

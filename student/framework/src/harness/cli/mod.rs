@@ -183,7 +183,7 @@ fn refuse_other_shapes(scene: &Scene) -> Result<(), RenderError> {
             Shape::Triangle { .. } | Shape::FlatTriangle { .. } => "a triangle or another polygon",
         };
         RenderError::Other(format!(
-            "--rectangles can only draw scenes made of rectangles, such as lamp, but this one \
+            "--rectangles only works for scenes made of rectangles, such as `lamp`, but this one \
              contains {kind}: leave out the option or choose another scene"
         ))
     };

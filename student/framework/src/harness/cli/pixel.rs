@@ -79,7 +79,7 @@ fn description_of_path(radiance: Vec3, steps: &[Step]) -> String {
 fn description(pixel: UVec2, scene: &Scene, names: &[String], hit: Option<&Trace>) -> String {
     let mut text = format!("pixel {pixel}, at its centre:\n");
     let Some(hit) = hit else {
-        return text + "  nothing is hit, so the environment is visible\n";
+        return text + "  the ray hits nothing, so the environment is visible\n";
     };
     let rows = [
         ("shape", shape_name(scene, hit.shape)),
@@ -101,7 +101,7 @@ fn description(pixel: UVec2, scene: &Scene, names: &[String], hit: Option<&Trace
 
 fn shape_name(scene: &Scene, number: u32) -> String {
     let Some(shape) = scene.shapes.get(number as usize) else {
-        return "unknown, because no shape has the hit's number".to_owned();
+        return format!("unknown, because the scene has no shape with index {number}");
     };
     let triangle = |[a, b, c]: [Vec3; 3]| format!("a triangle with corners {a}, {b} and {c}");
     let name = match *shape {
@@ -119,7 +119,7 @@ fn material_name(scene: &Scene, names: &[String], shape: u32) -> String {
     let index = scene.shape_materials.get(shape as usize);
     let name = index.and_then(|&index| names.get(index as usize));
     let (Some(name), Some(material)) = (name, scene.material_of(shape)) else {
-        return "unknown, like the shape".to_owned();
+        return "unknown, because the shape is unknown".to_owned();
     };
     let kind = match material {
         Material::Lambertian { .. } => "matte",

@@ -20,7 +20,7 @@ pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> O
     let leaves = tree.nodes.iter().filter(|node| node.is_leaf());
     let largest = leaves.map(|leaf| leaf.size as usize).max().unwrap_or(0);
     let (why, tested) = if tree.nodes.is_empty() {
-        let why = "`Bvh::build` returns no tree yet";
+        let why = "`Bvh::build` doesn't return a tree yet";
         // The starter's `Bvh::hit` finds hits without a tree, but a correct traversal doesn't. If
         // this panics, rendering does too, and its message says why.
         if !finds(submission, shape, &[])? {
@@ -28,7 +28,7 @@ pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> O
         }
         (why, format!("all {count}"))
     } else if !skips_missed_boxes(submission, shape) {
-        let why = "`Bvh::hit` doesn't use the boxes of the tree yet";
+        let why = "`Bvh::hit` doesn't use the tree's boxes yet";
         (why, format!("all {count}"))
     } else if largest > LARGE_LEAF_FACTOR * scene.max_leaf_size {
         (
@@ -44,7 +44,7 @@ pub(super) fn note(submission: &dyn Submission, scene: &Scene, tree: &Tree) -> O
         ""
     };
     Some(format!(
-        "note: {why}, so each ray may test {tested} primitives{quick}"
+        "note: {why}, so each ray may be tested against {tested} primitives{quick}"
     ))
 }
 
@@ -148,7 +148,7 @@ mod tests {
         starts(
             &CORRECT,
             &Tree::default(),
-            "note: `Bvh::build` returns no tree yet, so each ray",
+            "note: `Bvh::build` doesn't return a tree yet, so each ray",
         );
         // This submission tests every primitive, regardless of the tree.
         starts(&CORRECT, &leaf(1), "note: `Bvh::hit` doesn't use");
@@ -164,7 +164,7 @@ mod tests {
         );
         assert_eq!(note(&panicking, scene, &leaf(4)), None);
         assert_eq!(note(&panicking, scene, &Tree::default()), None);
-        let nothing = "note: `Bvh::build` returns no tree yet, so `Bvh::hit` finds nothing";
+        let nothing = "note: `Bvh::build` doesn't return a tree yet, so `Bvh::hit` finds nothing";
         assert_eq!(
             note(&Traversal, scene, &Tree::default()).as_deref(),
             Some(nothing)

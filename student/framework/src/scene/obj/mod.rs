@@ -191,7 +191,7 @@ fn corner_form(word: &str, totals: [usize; 3], so_far: [usize; 3]) -> Result<[bo
     Ok(form)
 }
 
-/// Parses text that has been checked, and splits its faces into triangles.
+/// Parses text that has been checked and splits its faces into triangles.
 fn triangles(text: &str, faces: &[CheckedFace]) -> Result<Vec<Face>, ObjError> {
     let no_materials = |_: &Path| Ok(Default::default());
     let options = tobj::LoadOptions::default();

@@ -128,7 +128,7 @@ impl Function for Direct {
     }
 
     fn sentence(_: &Room) -> &'static str {
-        "{scene}; the surface that the {ray} hits; random numbers: light {light}, on_light \
+        "{scene}; the surface hit by the {ray}; random numbers: light {light}, on_light \
          {on_light}, direct {direct}"
     }
 

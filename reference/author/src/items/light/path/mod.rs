@@ -346,9 +346,9 @@ const GLASS: Declaration = Declaration {
     id: "path.glass",
     points: 1,
     title: "glass shows what is behind it and inside it",
-    look: "Follow the path of the question shown. At each surface, write down on which side it goes \
-           on, the light that is added and the throughput, which roulette divides by q from bounce \
-           3 on.",
+    look: "Follow the path of the question shown. At each surface, write down which side it \
+           continues on, the light that is added and the throughput. From bounce 3 on, roulette \
+           divides the throughput by q.",
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Grades the checkout in the current folder, and writes result.json and release-body.md there.
+"""Grades the checkout in the current folder and writes result.json and release-body.md there.
 
-classroom50 runs this script for each submission, and shows release-body.md on the page of the run.
+classroom50 runs this script for each submission and shows release-body.md on the page of the run.
 The grader comes from the archive beside this file, never from the checkout, which students can
-change. Exit code 0 means that the submission was graded, whatever its score.
+change. Exit code 0 means that the submission was graded, regardless of its score.
 """
 
 import os

@@ -61,7 +61,7 @@ pub struct ProcessTime {
     /// Time during which the process was ready to run but other processes occupied the processors.
     /// The system adds it only when the process gets a processor.
     pub delayed: Duration,
-    /// Whether the process is neither running, nor ready to run, nor being served by the system.
+    /// Whether the process isn't running, isn't ready to run and isn't being served by the system.
     pub is_asleep: bool,
 }
 

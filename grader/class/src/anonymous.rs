@@ -80,7 +80,7 @@ fn hide_row(row: &mut ClassRow, pseudonym: &str) {
     }
 }
 
-/// Removes the names of people and submissions, and times.
+/// Removes times and the names of people and submissions.
 fn hide_problem(problem: &mut GradeProblem) {
     let hidden = HIDDEN.to_owned();
     match problem {

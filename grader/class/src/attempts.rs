@@ -16,31 +16,43 @@ use crate::outcome::{EntryOutcome, EntryResult, TaskScore};
 /// Applies the policy and the manual points to all results. `exam` contains the exam's tasks with 0
 /// points each.
 pub fn count_points(
-    results: Vec<EntryResult>,
+    results: impl Iterator<Item = EntryResult>,
     policy: &Policy,
     manual: &ManualPointsList,
     exam: &[TaskScore],
-) -> Result<Vec<ClassRow>, Error> {
-    let mut rows = Vec::new();
-    for result in results {
-        let people = result.info.people.iter();
-        let own = people.map(|person| manual.of(person, &result.info));
+) -> Vec<ClassRow> {
+    let row = |result: EntryResult| {
+        let people = 0..result.info.people.len();
+        let own = people.map(|person| manual.of(&result.id, person).to_owned());
         let own = own.collect();
-        rows.push(ClassRow::new(result, policy, own, exam));
-    }
+        ClassRow::new(result, policy, own, exam)
+    };
+    let mut rows = Vec::from_iter(results.map(row));
     apply_rule(policy, &mut rows);
-    for row in &rows {
-        let unused = row.people().filter(|(_, grade)| grade.is_superseded());
-        unused.for_each(|(person, _)| manual.warn_about_attempt(person, &row.result.info));
-    }
-    let is_set_aside = |own: &GradeProblem| matches!(own, OtherAttempt(_) | SeveralAttempts(..));
-    for row in &rows {
-        let grades = row.grades.iter();
-        for grade in grades.filter(|grade| !grade.problem.iter().any(is_set_aside)) {
-            manual.check_range(&grade.manual, &row.result.outcome, exam)?;
+    rows
+}
+
+/// Prints a warning for each row of manual points that has no effect. Checks that the others are in
+/// the range of their tasks.
+pub fn check_manual_points(
+    rows: &[ClassRow],
+    manual: &ManualPointsList,
+    exam: &[TaskScore],
+) -> Result<(), Error> {
+    for row in rows {
+        for (person, grade) in row.grades.iter().enumerate() {
+            match grade.problem {
+                Some(OtherAttempt(_)) => {
+                    manual.warn_about_attempt(manual.of(&row.result.id, person));
+                }
+                Some(SeveralAttempts(..)) => {}
+                None | Some(GradeProblem::UnclearTime(_) | GradeProblem::UnclearPerson(_)) => {
+                    manual.check_range(&grade.manual, &row.result.outcome, exam)?;
+                }
+            }
         }
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// Applies the policy's rule: only one of several attempts keeps its points.
@@ -135,19 +147,15 @@ fn choose(
 /// Returns whether several of the candidates have the same time from a list, and are late according
 /// to it. The list then gives the time of the last attempt, and earlier ones may not be late.
 fn share_a_late_time(rows: &[ClassRow], attempts: &[Attempt], candidates: &[usize]) -> bool {
-    let is_late = |(row, person): &&Attempt| {
-        let counted = rows[*row].grades[*person].counted.as_ref();
-        counted.is_some_and(|counted| counted.late_days > 0)
+    let is_late_by_list = |(row, person): &&Attempt| {
+        let row = &rows[*row];
+        let counted = row.grades[*person].counted.as_ref();
+        let is_late = counted.is_some_and(|counted| counted.late_days > 0);
+        is_late && row.result.info.submitted.is_none() && row.result.info.listed.is_some()
     };
-    let is_listed = |row: &usize| {
-        let info = &rows[*row].result.info;
-        info.submitted.is_none() && info.submitted().is_some()
-    };
-    let late = attempts.iter().filter(is_late).map(|(row, _)| *row);
-    let late: BTreeSet<usize> = late
-        .filter(|row| candidates.contains(row) && is_listed(row))
-        .collect();
-    late.len() > 1
+    let late = attempts.iter().filter(is_late_by_list);
+    let late = late.map(|(row, _)| *row);
+    BTreeSet::from_iter(late.filter(|row| candidates.contains(row))).len() > 1
 }
 
 /// Returns what to do if the policy cannot choose between these submissions.
@@ -159,8 +167,8 @@ fn remedy(policy: &Policy, rows: &[ClassRow], submissions: &BTreeSet<usize>) -> 
         AttemptRule::Ask => "remove all but one, or set `counts` under [attempts] in the policy",
         AttemptRule::Latest => "`latest` cannot tell which attempt is the last: remove all but one",
         AttemptRule::Best => {
-            "`best` cannot compare attempts that have no points, or that are late according to one \
-             time on a list: remove all but one"
+            "`best` cannot compare attempts if one of them has no points, or if a list gives the \
+             same late time for several: remove all but one"
         }
     };
     let unclear = times.find_map(Result::err);

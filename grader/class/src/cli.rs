@@ -251,17 +251,16 @@ impl GradingArguments {
     /// Returns the options for grading each submission.
     pub fn resolve(&self) -> GradeOptions {
         let exam = ExamSource::from_option(self.exam.clone());
+        let level = self.isolation.map(IsolationRequest::Level);
+        let isolation = level.unwrap_or(IsolationRequest::Untrusted);
+        let budget = self.cpu_limit.map(Budget::from_seconds);
         GradeOptions {
             handed_out: exam.assignment(self.assignment),
             exam,
             policy: self.policy.clone(),
             dependents: Dependents::new(self.no_reference),
-            isolation: self
-                .isolation
-                .map_or(IsolationRequest::Untrusted, IsolationRequest::Level),
-            budget: self
-                .cpu_limit
-                .map_or(Budget::default(), Budget::from_seconds),
+            isolation,
+            budget: budget.unwrap_or_default(),
             ..GradeOptions::default()
         }
     }

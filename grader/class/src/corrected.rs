@@ -11,7 +11,7 @@ use judging::sanitize::sanitize_line;
 use crate::entry::{Entry, EntryInfo, Person};
 use crate::error::Error;
 use crate::file_tree::list_folder;
-use crate::identity::{find_submission, matching_submissions};
+use crate::identity::{CORRECTED, find_submission, matching_submissions};
 use crate::layout::{Layout, LayoutChoice, RecognisedClass, hidden_paths, recognise};
 use crate::names::joined;
 use crate::paths::contains;
@@ -57,7 +57,7 @@ pub fn replace_files(
             )));
         }
         entry.source = source;
-        entry.info.from = format!("{} (corrected: {})", entry.info.from, info.from);
+        entry.info.from = format!("{}{CORRECTED}{})", entry.info.from, info.from);
         entry.info.is_corrected = true;
         entry.info.needs_staff = false;
     }
@@ -101,8 +101,9 @@ fn find_original(
         Some((_, copied)) if !own.is_empty() && own != copied => {
             let readings = own.iter().chain(&copied).map(|index| &all[*index].1.from);
             Err(format!(
-                "it could be for {}, since {who:?} is also the name of a second download: rename \
-                 it to one of these names, or to the student's email address or account",
+                "it could be for {}, since {who:?} is also the name that browsers give to a second \
+                 download: rename the file to one of these names, or to the student's email address \
+                 or account",
                 joined(readings, " or ")
             ))
         }

@@ -40,10 +40,11 @@ pub struct ListFindings {
 
 /// Completes the entries from the lists: first unknown identifiers, then group members, and finally
 /// submission times, since any member's time may be used. Also reads the manual points, which must
-/// be for people in these entries.
+/// be for people in these entries. `ids` contains the entries' ids.
 pub fn complete_entries(
     lists: &Lists,
     handed_out: &HandedOut,
+    ids: &[&str],
     entries: &mut [&mut EntryInfo],
 ) -> Result<ListFindings, Error> {
     let rows = roster::read_lists(lists)?;
@@ -75,9 +76,9 @@ pub fn complete_entries(
         Some(path) => ManualPointsList::read(path, handed_out)?,
         None => ManualPointsList::default(),
     };
-    manual.resolve_names(entries);
     let missing = roster::missing(&rows, &people);
-    manual.check_students(&people, &missing)?;
+    let named = ids.iter().copied().zip(entries.iter().map(|info| &**info));
+    manual.find_people(&Vec::from_iter(named), &missing)?;
     let unlisted = entries.iter().filter(|info| info.is_unlisted);
     let warnings = entries.iter();
     let warnings = warnings.filter_map(|info| {
@@ -251,7 +252,9 @@ mod tests {
     /// Completes the entries. Returns the people on these lists who aren't in any entry.
     fn missing(texts: &[(ListKind, &str)], entries: &mut [&mut EntryInfo]) -> Vec<Person> {
         let (_folder, lists) = lists(texts);
-        complete_entries(&lists, &RAYS, entries).unwrap().missing
+        complete_entries(&lists, &RAYS, &[], entries)
+            .unwrap()
+            .missing
     }
 
     fn with_login(login: &str) -> Person {

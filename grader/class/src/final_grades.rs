@@ -1,13 +1,14 @@
 //! The final grades of the last run (after applying lateness, manual points and the policy), and
 //! the changes since the previous run.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use clap::ValueEnum;
-use grader::policy::FinalPoints;
+use grader::policy::Policy;
 use serde::{Deserialize, Serialize};
+use toml::Table;
 
-use crate::entry::{ListedTime, Person};
+use crate::entry::Person;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::list_kind::ListKind;
 use crate::names::with_detail;
@@ -34,6 +35,9 @@ pub struct FinalGrades {
     round: u32,
     settings: Settings,
     lists: BTreeMap<ListKind, String>,
+    /// The text of the policy. Empty if there is none.
+    #[serde(default)]
+    policy: String,
     /// Whether some submissions were not graded because of a fault. Their earlier grades are kept.
     is_incomplete: bool,
     grades: Vec<FinalGrade>,
@@ -54,15 +58,6 @@ struct FinalGrade {
     late_days: u32,
     #[serde(default)]
     is_corrected: bool,
-    /// How the policy's items and tasks differ from those in the exam.
-    #[serde(default)]
-    changes: Vec<String>,
-    /// The policy's rules that apply to the submission.
-    #[serde(default)]
-    rules: Option<String>,
-    /// The submission time from a list.
-    #[serde(default)]
-    listed: Option<ListedTime>,
 }
 
 /// The final grades that changed.
@@ -88,25 +83,28 @@ impl GradeHistory {
         grades.any(|grade| grade.person.is_same(person))
     }
 
-    /// Returns the history after a run.
-    pub fn after(earlier: Option<GradeHistory>, run: &Run, class: &GradedClass) -> Self {
+    /// Returns the history after a run with this policy, which is given as text.
+    pub fn after(earlier: Option<Self>, run: &Run, class: &GradedClass, policy: String) -> Self {
         let last = earlier.as_ref().map(|earlier| &earlier.now);
-        let now = FinalGrades::new(run, class, last);
-        let Some(earlier) = earlier else {
-            return GradeHistory { before: None, now };
+        let lists = run.lists.iter();
+        let lists = lists.map(|(kind, list)| (*kind, list.hash.clone()));
+        let now = FinalGrades {
+            round: run.round,
+            settings: run.settings.clone(),
+            lists: lists.collect(),
+            policy,
+            is_incomplete: class.fault_count() > 0,
+            grades: final_grades(&class.rows, last),
         };
-        if earlier.now == now {
-            return earlier;
-        }
-        let before = match earlier.before {
+        let before = match earlier {
+            Some(earlier) if earlier.now == now => return earlier,
             // Compare with the same grades until all submissions are graded.
-            Some(before) if earlier.now.is_incomplete => before,
-            Some(_) | None => earlier.now,
+            Some(earlier) if earlier.now.is_incomplete && earlier.before.is_some() => {
+                earlier.before
+            }
+            earlier => earlier.map(|earlier| earlier.now),
         };
-        GradeHistory {
-            before: Some(before),
-            now,
-        }
+        GradeHistory { before, now }
     }
 
     /// Returns whether the grades haven't changed since the last regrade.
@@ -122,45 +120,81 @@ impl GradeHistory {
         grades.all(|own| own.graded == Some(points))
     }
 
-    /// Returns the changes, or `None` if there is nothing to compare with.
-    pub fn changes(&self) -> Option<GradeChanges> {
+    /// Returns the changes, or `None` if there is nothing to compare with. `recount` applies a
+    /// different policy to the class. A setting is the cause of a change if the grade would be
+    /// different with the setting's earlier value.
+    pub fn changes(&self, recount: impl Fn(&Policy) -> Vec<ClassRow>) -> Option<GradeChanges> {
         let before = self.before.as_ref()?;
         let mut causes = before.settings.differences(&self.now.settings);
         let differs = |kind: &&ListKind| before.lists.get(kind) != self.now.lists.get(kind);
         let kinds = ListKind::value_variants().iter().filter(differs);
         causes.extend(kinds.map(|kind| kind.title()));
+        let policy = ListKind::Policy.title();
+        let others = causes.iter().filter(|cause| **cause != policy);
+        let others = others.map(|cause| ((*cause).to_owned(), None));
+        let settings = changed_settings(&before.policy, &self.now.policy).into_iter();
+        let settings = settings.map(|(setting, policy)| {
+            let grades = final_grades(&recount(&policy), Some(&self.now));
+            let now = self.now.clone();
+            (setting, Some(FinalGrades { grades, ..now }))
+        });
+        let all = Vec::from_iter(settings.chain(others));
         let changes = self.now.grades.iter();
-        let changes = changes.filter_map(|now| before.change_to(now, &self.now, &causes));
+        let changes = changes.filter_map(|now| before.change_to(now, &self.now, &all));
         let gone = before.grades.iter().filter_map(|was| self.now.loss(was));
         let changes = changes.chain(gone).collect();
         Some(GradeChanges { causes, changes })
     }
 }
 
-impl FinalGrades {
-    fn new(run: &Run, class: &GradedClass, last: Option<&FinalGrades>) -> Self {
-        let mut grades = Vec::new();
-        for row in &class.rows {
-            if let EntryOutcome::Fault(_) = row.result.outcome {
-                let earlier = last.iter().flat_map(|last| last.of(&row.result.id));
-                grades.extend(earlier.cloned());
-            } else {
-                // The attempt that counts instead has a grade of its own.
-                let people = row.people().filter(|(_, grade)| !grade.is_superseded());
-                grades.extend(people.map(|(person, grade)| FinalGrade::new(row, person, grade)));
-            }
-        }
-        let lists = run.lists.iter();
-        let lists = lists.map(|(kind, list)| (*kind, list.hash.clone()));
-        FinalGrades {
-            round: run.round,
-            settings: run.settings.clone(),
-            lists: lists.collect(),
-            is_incomplete: class.fault_count() > 0,
-            grades,
+/// The name of a setting or list that changed. If it is a setting of the policy, the grades without
+/// its change.
+type Cause = (String, Option<FinalGrades>);
+
+/// Returns everybody's final grades. If a submission was not graded because of a fault, its grades
+/// in `last` are kept.
+fn final_grades(rows: &[ClassRow], last: Option<&FinalGrades>) -> Vec<FinalGrade> {
+    let mut grades = Vec::new();
+    for row in rows {
+        if let EntryOutcome::Fault(_) = row.result.outcome {
+            let earlier = last.iter().flat_map(|last| last.of(&row.result.id));
+            grades.extend(earlier.cloned());
+        } else {
+            // The attempt that counts instead has a grade of its own.
+            let people = row.people().filter(|(_, grade)| !grade.is_superseded());
+            grades.extend(people.map(|(person, grade)| FinalGrade::new(row, person, grade)));
         }
     }
+    grades
+}
 
+/// Returns the settings that differ between two policies, which are given as text. Each comes with
+/// the policy `now`, but with the setting's value from `before`. The first item is the whole policy
+/// `before`.
+fn changed_settings(before: &str, now: &str) -> Vec<(String, Policy)> {
+    let [before, now] = [before, now].map(|text| text.parse::<Table>().unwrap_or_default());
+    let mut changed = vec![(ListKind::Policy.title().to_owned(), before.clone())];
+    let mut keys = BTreeSet::new();
+    for (section, settings) in before.iter().chain(&now) {
+        let settings = settings.as_table().into_iter().flatten();
+        keys.extend(settings.map(|(key, _)| (section, key)));
+    }
+    for (section, key) in keys {
+        let [was, is] = [&before, &now].map(|all| all.get(section)?.get(key));
+        let mut mixed = now.clone();
+        let settings = mixed.entry(section).or_insert(Table::new().into());
+        if let Some(settings) = settings.as_table_mut().filter(|_| was != is) {
+            settings.remove(key);
+            settings.extend(was.map(|was| (key.clone(), was.clone())));
+            changed.push((format!("`{key}` in the policy"), mixed));
+        }
+    }
+    let changed = changed.into_iter();
+    let changed = changed.filter_map(|(setting, all)| Some((setting, all.try_into().ok()?)));
+    changed.collect()
+}
+
+impl FinalGrades {
     fn of<'a>(&'a self, submission: &'a str) -> impl Iterator<Item = &'a FinalGrade> {
         let grades = self.grades.iter();
         grades.filter(move |grade| grade.submission == submission)
@@ -170,7 +204,7 @@ impl FinalGrades {
     /// with this run's grade for the same person and submission or, if there is none, with the
     /// person's grade for a submission that no longer has one in `after`. If a person hands in an
     /// additional submission, that doesn't count as a change.
-    fn change_to(&self, now: &FinalGrade, after: &Self, causes: &[&str]) -> Option<String> {
+    fn change_to(&self, now: &FinalGrade, after: &Self, causes: &[Cause]) -> Option<String> {
         let is_gone = |was: &&FinalGrade| after.find(was).is_none();
         let own = || self.of_person(&now.person).filter(is_gone);
         let other = || own().max_by_key(|was| was.counts.is_some());
@@ -204,8 +238,7 @@ impl FinalGrades {
     fn find(&self, grade: &FinalGrade) -> Option<&FinalGrade> {
         let is_same = |own: &&FinalGrade| {
             let mut names = own.person.identifiers();
-            own.person == grade.person
-                || own.person.matches(&grade.person)
+            own.person.is_same(&grade.person)
                 || names.any(|name| grade.person.identifiers().any(|other| other == name))
         };
         let grades = self.grades.iter();
@@ -226,9 +259,6 @@ impl FinalGrade {
             manual: grade.manual.iter().map(|points| points.delta).sum(),
             late_days: counted.map_or(0, |counted| counted.late_days),
             is_corrected: row.result.info.is_corrected,
-            changes: counted.map_or_else(Vec::new, |counted| counted.changes.clone()),
-            rules: counted.and_then(FinalPoints::rules),
-            listed: row.result.info.listed.clone(),
         }
     }
 
@@ -241,9 +271,8 @@ impl FinalGrade {
         }
     }
 
-    fn change(&self, was: &FinalGrade, causes: &[&str]) -> String {
-        let maximum = |grade: &FinalGrade| grade.counts.map(|[_, of]| of);
-        let maxima = [was, self].map(maximum);
+    fn change(&self, was: &FinalGrade, causes: &[Cause]) -> String {
+        let maxima = [was, self].map(|grade| grade.counts.map(|[_, of]| of));
         let with_maximum = maxima[0] != maxima[1] && maxima.iter().all(Option::is_some);
         let mut why = Vec::new();
         let is_same = was.submission == self.submission;
@@ -263,44 +292,27 @@ impl FinalGrade {
         } else if was.is_corrected && !self.is_corrected {
             why.push("the corrected files are no longer used".to_owned());
         }
-        if was.manual != self.manual {
-            why.push(format!(
-                "manual points {:+} → {:+}",
-                was.manual, self.manual
-            ));
+        let (before, now) = (was.manual, self.manual);
+        if before != now {
+            why.push(format!("manual points {before:+} → {now:+}"));
         }
-        let both_count = was.counts.is_some() && self.counts.is_some();
-        if both_count {
-            if was.late_days != self.late_days {
-                why.push(format!("days late {} → {}", was.late_days, self.late_days));
-            }
-            let is_new = |change: &&String| !was.changes.contains(change);
-            why.extend(self.changes.iter().filter(is_new).cloned());
-            // A sentence about the same item or task replaces the earlier sentence.
-            let subject = |change: &String| change.split(' ').next().map(str::to_owned);
-            let subjects: Vec<_> = self.changes.iter().map(subject).collect();
-            let withdrawn = was.changes.iter();
-            let withdrawn = withdrawn.filter(|old| !subjects.contains(&subject(old)));
-            why.extend(withdrawn.map(|old| format!("\"{old}\" no longer applies")));
+        let (before, now) = (was.late_days, self.late_days);
+        if before != now && was.counts.is_some() && self.counts.is_some() {
+            why.push(format!("days late {before} → {now}"));
         }
-        let policy = ListKind::Policy.title();
-        let is_same_case = (was.late_days, &was.changes) == (self.late_days, &self.changes);
+        let counts = |grades: &FinalGrades| grades.find(self).map(|grade| grade.counts);
+        let is_cause = |(_, without): &&Cause| {
+            let mut without = without.iter().map(counts);
+            without.any(|counts| counts != Some(self.counts))
+        };
+        let settings = causes.iter().filter(is_cause).map(|(name, _)| name.clone());
+        let settings = Vec::from_iter(settings);
+        // The whole policy comes first, and is only named if no single setting makes a difference.
+        let first = usize::from(settings.len() > 1);
+        why.extend_from_slice(&settings[first..]);
         if why.is_empty() {
-            // Manual points and lateness are the same, so the lists of people can only decide
-            // whether there are any points.
-            let has_new_data =
-                !both_count && (&was.person, &was.listed) != (&self.person, &self.listed);
-            let can_matter = |kind: &&ListKind| {
-                **kind == ListKind::Policy || (has_new_data && **kind != ListKind::ManualPoints)
-            };
-            let lists = ListKind::value_variants().iter().filter(can_matter);
-            let mut own: Vec<&str> = lists.map(|kind| kind.title()).collect();
-            own.retain(|list| causes.contains(list));
-            let own = if own.is_empty() { causes } else { &own };
-            why.extend(own.iter().map(|cause| (*cause).to_owned()));
-        } else if both_count && is_same_case && was.rules != self.rules && causes.contains(&policy)
-        {
-            why.push(policy.to_owned());
+            let others = causes.iter().filter(|(_, without)| without.is_none());
+            why.extend(others.map(|(name, _)| name.clone()));
         }
         let (was, now) = (was.value(with_maximum), self.value(with_maximum));
         self.changed(&was, &now, &why.join(", "))

@@ -33,13 +33,13 @@ const NO_NUMBER: &str = "the number in the file name could be a person's or a gr
 
 /// The reason for leaving out a page for Canvas if only text was handed in there, and the files
 /// arrived later in another way.
-const NO_FILE: &str = "the platform can only show a page beside a file that was handed in there: send \
-                       the page in the folder hand-back";
+const NO_FILE: &str = "Canvas can only show a page next to a file that was handed in there: send \
+                       the student the page from the folder hand-back";
 
 /// The warning about a group that gets a single page.
-const ONE_PAGE: &str = "the platform gives all members of a group the same page, so it leaves out \
-                        points and comments that differ between them: send each member the page in \
-                        the folder hand-back";
+const ONE_PAGE: &str = "Canvas shows all members of a group the same page, so it leaves out points \
+                        and comments that differ between them: send each member their own page \
+                        from the folder hand-back";
 
 /// An archive to hand back to students.
 #[derive(Clone, Debug, PartialEq, Eq)]

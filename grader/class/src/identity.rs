@@ -7,6 +7,9 @@ use grader::nearest_name::suggestion;
 use crate::entry::{EntryInfo, Person};
 use crate::names::{are_equal, are_same_name, fold, joined};
 
+/// The text in [`EntryInfo::from`] before the path of the corrected files.
+pub const CORRECTED: &str = " (corrected: ";
+
 /// One person's part in a submission: the index of the row, and the person's index in that row.
 pub type Attempt = (usize, usize);
 
@@ -25,43 +28,65 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
     groups.into_values().collect()
 }
 
-/// Returns the indices of the submissions that `who` could refer to: by the submission's id, by its
-/// file or folder, or by the name or an identifier of somebody who handed it in. If somebody has
-/// several submissions, `counts` returns whether the one with this id counts for them. `all`
-/// contains each submission's id and information.
+/// Returns the index of the submission with this id, pseudonym, file or folder. `all` contains each
+/// submission's id and information.
+pub fn submission_called(who: &str, all: &[(&str, &EntryInfo)]) -> Option<usize> {
+    let by_id = all.iter().position(|(id, _)| are_equal(id, who));
+    let is_named = |(_, info): &(&str, &EntryInfo)| {
+        let (original, _) = info.from.split_once(CORRECTED).unwrap_or((&info.from, ""));
+        [&*info.from, original, &*info.pseudonym].contains(&who)
+    };
+    by_id.or_else(|| all.iter().position(is_named).filter(|_| !who.is_empty()))
+}
+
+/// Returns each part in a submission of the people that `who` could refer to: the people with this
+/// identifier or, if there are none, everybody who handed in the [submission called](submission_called)
+/// `who`, the people with a similar name or whose submission has one, the members of a group, or the
+/// person whose name is shown as `who`.
+pub fn matching_people(who: &str, all: &[(&str, &EntryInfo)]) -> Vec<Attempt> {
+    let parts = all.iter().enumerate().flat_map(|(row, (_, info))| {
+        let people = 0..info.people.len();
+        people.map(move |index| (row, index))
+    });
+    let parts = Vec::from_iter(parts);
+    let person = |(row, index): &Attempt| &all[*row].1.people[*index];
+    let named = submission_called(who, all);
+    let tests: [&dyn Fn(&&Attempt) -> bool; 5] = [
+        &|own| person(own).identifiers().any(|name| are_equal(name, who)),
+        &|(row, _)| named == Some(*row),
+        &|own| {
+            let (id, info) = all[own.0];
+            let names = [&*person(own).name, &*info.display_names(), id];
+            names.iter().any(|name| are_same_name(name, who))
+        },
+        &|own| are_same_name(&person(own).group, who),
+        &|own| distinct_name(person(own), parts.iter().map(person)) == who,
+    ];
+    let found = tests.iter().map(|test| parts.iter().filter(test));
+    let mut found = found.map(|found| Vec::from_iter(found.copied()));
+    found.find(|found| !found.is_empty()).unwrap_or_default()
+}
+
+/// Returns the indices of the submissions that `who` could refer to: the [submission
+/// called](submission_called) `who` or, if there is none, those of the [people](matching_people)
+/// called `who`. If somebody has several submissions, `counts` returns whether the one with this id
+/// counts for them.
 pub fn matching_submissions(
     who: &str,
     all: &[(&str, &EntryInfo)],
     counts: impl Fn(&str, &Person) -> bool,
 ) -> Vec<usize> {
-    let by_id = all.iter().position(|(id, _)| are_equal(id, who));
-    if let Some(index) = by_id.or_else(|| all.iter().position(|(_, info)| info.from == who)) {
+    if let Some(index) = submission_called(who, all) {
         return vec![index];
     }
-    let is_theirs =
-        |_: &EntryInfo, own: &Person| own.identifiers().any(|name| are_equal(name, who));
-    let is_called = |info: &EntryInfo, own: &Person| {
-        are_same_name(&own.name, who) || are_same_name(&info.display_names(), who)
-    };
-    let find = |is_meant: &dyn Fn(&EntryInfo, &Person) -> bool| {
-        let (mut found, mut counting, mut people) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
-        for (index, (id, info)) in all.iter().enumerate() {
-            for own in info.people.iter().filter(|own| is_meant(info, own)) {
-                found.insert(index);
-                counting.extend(counts(id, own).then_some(index));
-                people.push(own);
-            }
-        }
-        let is_one_person = BTreeSet::from_iter(person_ids(&people)).len() == 1;
-        let is_known = is_one_person && counting.len() == 1;
-        Vec::from_iter(if is_known { counting } else { found })
-    };
-    let found = find(&is_theirs);
-    if found.is_empty() {
-        find(&is_called)
-    } else {
-        found
-    }
+    let found = matching_people(who, all);
+    let person = |(row, index): &Attempt| &all[*row].1.people[*index];
+    let counting = found.iter().filter(|own| counts(all[own.0].0, person(own)));
+    let counting = BTreeSet::from_iter(counting.map(|(row, _)| *row));
+    let ids = person_ids(&Vec::from_iter(found.iter().map(person)));
+    let is_known = BTreeSet::from_iter(ids).len() == 1 && counting.len() == 1;
+    let found = found.iter().map(|(row, _)| *row).collect();
+    Vec::from_iter(if is_known { counting } else { found })
 }
 
 /// Returns the index of the only submission that `who` could refer to, as described in
@@ -180,14 +205,23 @@ mod tests {
             from: from.to_owned(),
             ..EntryInfo::default()
         };
-        let [one, two] = [info("pt-owls", &["Ann", "Bob"]), info("pt-ann", &["Ann"])];
-        let all = [("owls", &one), ("ann2", &two)];
+        let mut one = info("pt-owls (corrected: bob)", &["Ann", "Bob"]);
+        let two = info("pt-ann", &["Ann"]);
+        one.people[1].group = "Team 7".to_owned();
+        let all = [("night_owls", &one), ("ann2", &two)];
         let find = |who: &str| find_submission(who, &all, |_, _| true);
-        for who in ["owls", "pt-owls", "Ann + Bob", "bob"] {
+        for who in [
+            "night_owls",
+            "Night Owls",
+            "pt-owls",
+            "Ann + Bob",
+            "bob",
+            "Team_7",
+        ] {
             assert_eq!(find(who), Ok(0), "{who}");
         }
         assert_eq!(find("pt-ann"), Ok(1));
-        assert!(find("Ann").unwrap_err().contains("owls or ann2"));
+        assert!(find("Ann").unwrap_err().contains("night_owls or ann2"));
         assert!(find("Eve").is_err());
         let counting = |id: &str, person: &Person| id == "ann2" || person.name == "Bob";
         assert_eq!(find_submission("Ann", &all, counting), Ok(1));

@@ -100,10 +100,8 @@ fn check_plausible(
         return Ok(());
     }
     // The platform may or may not know about the extension.
-    let without_extension = policy
-        .late
-        .due
-        .map(|due| time.duration_since(due).as_secs());
+    let seconds = |due| time.duration_since(due).as_secs();
+    let without_extension = policy.late.due.map(seconds);
     let grace = i64::from(policy.late.grace_minutes) * 60;
     if info.late && without_extension.is_some_and(|seconds| seconds <= 0) {
         Err(UnclearTime::new(format!(
@@ -127,9 +125,8 @@ pub fn submission_time(
     policy: &Policy,
     info: &EntryInfo,
 ) -> Result<Option<Timestamp>, UnclearTime> {
-    let needed = info
-        .submitted()
-        .filter(|_| policy.late.due.is_some() || policy.attempts.counts != AttemptRule::Ask);
+    let is_needed = policy.late.due.is_some() || policy.attempts.counts != AttemptRule::Ask;
+    let needed = info.submitted().filter(|_| is_needed);
     let read = |text: &str| {
         let time = read_time(text, policy.late.timezone.as_ref());
         time.map_err(|why| UnclearTime::submitted(text, why))
@@ -153,8 +150,8 @@ fn extensions(
     // A partner's draft is a different submission.
     if let Some(unsubmitted) = status.unsubmitted.filter(|_| !person.is_from_group) {
         let why = format!(
-            "the status in Moodle's worksheet is {unsubmitted:?}: if the files should be graded, change it \
-             to \"Submitted for grading\" there; otherwise, remove them from the input"
+            "the status in Moodle's worksheet is {unsubmitted:?}: to have the files graded, change \
+             the status to \"Submitted for grading\"; otherwise, remove the files from the input"
         );
         let is_draft = true;
         return Err(UnclearTime { why, is_draft });

@@ -1,19 +1,22 @@
 //! Manual points: points that staff add or deduct, with comments. They are read from a CSV file
 //! with a row for each student and task, and are kept separate from the graded points.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt::{self, Display};
 use std::mem;
 use std::path::{Path, PathBuf};
 
 use grader::handed_out::HandedOut;
+use grader::nearest_name::suggestion;
 use grader::printing::print_error_line;
 use serde::Serialize;
 
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
-use crate::identity::{distinct_name, person_ids};
-use crate::names::{are_equal, are_same_name, with_detail};
+use crate::identity::{
+    Attempt, attempts_by_person, distinct_name, matching_people, submission_called,
+};
+use crate::names::{are_equal, are_same_name, joined, with_detail};
 use crate::outcome::{EntryOutcome, TaskScore};
 use crate::table::Table;
 
@@ -41,16 +44,20 @@ pub struct ManualPoints {
     /// The date of the decision, as written in the file. May be empty.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub date: String,
-    /// The pseudonym in the file, which stands for one attempt, or an empty string.
+    /// Whether the row names a submission, so that it isn't for other attempts.
     #[serde(skip)]
-    pub pseudonym: String,
+    pub is_for_attempt: bool,
 }
 
 /// The manual points of a class.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ManualPointsList {
     path: PathBuf,
-    all: Vec<ManualPoints>,
+    /// The rows whose people are still unknown.
+    rows: Vec<ManualPoints>,
+    /// The manual points for each person in each submission, keyed by the submission's id and the
+    /// person's index.
+    all: BTreeMap<(String, usize), Vec<ManualPoints>>,
 }
 
 impl ManualPointsList {
@@ -64,111 +71,87 @@ impl ManualPointsList {
         let date = table.column("date");
         let mut list = ManualPointsList {
             path: path.to_owned(),
-            all: Vec::new(),
+            ..ManualPointsList::default()
         };
         for (row, cells) in table.numbered_rows() {
             let date = date.map_or("", |index| cells[index].trim()).to_owned();
             let cells = columns.map(|index| cells[index].trim().to_owned());
             let points = ManualPoints::parse(row, cells, date, handed_out);
             let points = points.map_err(|problem| list.error(row, problem))?;
-            list.all.push(points);
+            list.rows.push(points);
         }
         Ok(list)
     }
 
-    /// Replaces each row for a pseudonym with rows for the people who handed in the submission, or
-    /// with a row for one member of the group. If a name in a row differs from a person's name only
-    /// in punctuation, replaces it with the person's name.
-    pub fn resolve_names(&mut self, entries: &[&mut EntryInfo]) {
-        let resolve = |points: ManualPoints| {
-            let (pseudonym, member) = split_pseudonym(&points.student);
-            let is_meant = |info: &&&mut EntryInfo| info.pseudonym == pseudonym;
-            let Some(info) = entries.iter().find(is_meant) else {
-                return vec![points.with_name_of(entries)];
-            };
-            let people = (1..).zip(&info.people);
-            let people = people.filter(|(number, _)| member.is_none_or(|own| own == *number));
-            let names = people.filter_map(|(_, own)| own.identifiers().next());
-            let of_person = |name: &str| ManualPoints {
-                student: name.to_owned(),
-                pseudonym: pseudonym.to_owned(),
-                ..points.clone()
-            };
-            let own: Vec<ManualPoints> = names.map(of_person).collect();
-            if own.is_empty() { vec![points] } else { own }
-        };
-        let all = mem::take(&mut self.all).into_iter();
-        self.all = all.flat_map(resolve).collect();
-    }
-
-    /// Checks that each row belongs to exactly one of these people, and that no two rows belong to
-    /// the same person and task. `people` contains each person once per submission. `missing` lists
-    /// the people on the lists who submitted nothing.
-    pub fn check_students(&self, people: &[&Person], missing: &[Person]) -> Result<(), Error> {
-        let ids = person_ids(people);
-        let mut rows: BTreeMap<(usize, &str), usize> = BTreeMap::new();
-        for points in &self.all {
+    /// Finds out who each row is for. Checks that no two rows are for the same person and task.
+    /// `entries` contains each submission's id and information. `missing` lists the people on the
+    /// lists who submitted nothing.
+    pub fn find_people(
+        &mut self,
+        entries: &[(&str, &EntryInfo)],
+        missing: &[Person],
+    ) -> Result<(), Error> {
+        let people = entries.iter().map(|(_, info)| info.people.as_slice());
+        let known = attempts_by_person(people.clone());
+        let person = |(row, index): &Attempt| &entries[*row].1.people[*index];
+        for mut points in mem::take(&mut self.rows) {
             let (row, student) = (points.row, &points.student);
-            let all = people.iter().zip(&ids);
-            let mut found = all.filter(|(person, _)| points.is_for(person));
-            let Some((first, id)) = found.next() else {
-                let remedy = match missing.iter().find(|person| points.is_for(person)) {
-                    Some(person) => format!(
-                        "to give points anyway, add an empty submission for {:?}, named like the others",
-                        person.display_name()
-                    ),
-                    None if student.starts_with(PSEUDONYM_PREFIX) => "the submission with this \
-                        pseudonym is not in the input: remove the row, or use the name of the \
-                        student, who is listed in anonymous-key.json"
-                        .to_owned(),
-                    None => "use the email address, the student number, the account name or the \
-                             full name"
-                        .to_owned(),
-                };
-                return Err(self.error(
-                    row,
-                    format!("nobody called {student:?} handed anything in: {remedy}"),
-                ));
+            let refused = |list: &Self, problem: String| Err(list.error(row, problem));
+            let (name, member) = split_pseudonym(student);
+            let found = (1..).zip(matching_people(name, entries));
+            let found = found.filter(|(number, _)| member.is_none_or(|own| own == *number));
+            let found = Vec::from_iter(found.map(|(_, part)| part));
+            let Some(first) = found.first() else {
+                return refused(self, unknown_name(student, people.flatten(), missing));
             };
-            if let Some((other, _)) = found.find(|(_, other)| *other != id) {
-                let shown = |person| distinct_name(person, people.iter().copied());
-                let [first, other] = [*first, *other].map(shown);
-                return Err(self.error(
-                    row,
-                    format!(
-                        "{student:?} could be {first} or {other}: use the email address or the \
-                     student number"
-                    ),
-                ));
+            let mut names = person(first).identifiers();
+            let is_exact = names.any(|name| are_equal(name, student));
+            let submission = submission_called(name, entries).filter(|_| !is_exact);
+            let group = &person(first).group;
+            let is_team = |own: &Attempt| {
+                own.0 == first.0 || (!group.is_empty() && are_equal(group, &person(own).group))
+            };
+            let is_meant = |own: &&Vec<Attempt>| own.iter().any(|part| found.contains(part));
+            let meant = Vec::from_iter(known.iter().filter(is_meant));
+            if meant.len() > 1 && (is_exact || !found.iter().all(is_team)) {
+                let all = || people.clone().flatten();
+                let name = |own: &&Vec<Attempt>| distinct_name(person(&own[0]), all());
+                let names = joined(meant.iter().map(name), " or ");
+                let advice = "use the email address or the student number";
+                return refused(self, format!("{student:?} could be {names}: {advice}"));
             }
-            if let Some(other) = rows.insert((*id, points.task.as_str()), row) {
-                return Err(self.error(
-                    row,
-                    format!("row {other} is for the same student and task: combine the two rows"),
-                ));
+            points.is_for_attempt = submission.is_some();
+            let parts = meant.into_iter().flatten();
+            for part in parts.filter(|part| submission.is_none_or(|row| row == part.0)) {
+                let id = entries[part.0].0.to_owned();
+                let own = self.all.entry((id, part.1)).or_default();
+                if let Some(ManualPoints { row, .. }) =
+                    own.iter().find(|own| own.task == points.task)
+                {
+                    let why =
+                        format!("row {row} is for the same student and task: combine the two rows");
+                    return refused(self, why);
+                }
+                own.push(points.clone());
             }
         }
         Ok(())
     }
 
-    /// Returns the manual points of a person for a submission. A row for a pseudonym isn't used for
-    /// the person's other submissions.
-    pub fn of(&self, person: &Person, submission: &EntryInfo) -> Vec<ManualPoints> {
-        let is_for_submission =
-            |own: &&ManualPoints| ["", &submission.pseudonym].contains(&&*own.pseudonym);
-        let own = self.all.iter().filter(|points| points.is_for(person));
-        own.filter(is_for_submission).cloned().collect()
+    /// Returns the manual points for a submission of the person with this index. A row that names a
+    /// submission isn't used for the person's other submissions.
+    pub fn of(&self, submission: &str, person: usize) -> &[ManualPoints] {
+        let own = self.all.get(&(submission.to_owned(), person));
+        own.map_or(&[], Vec::as_slice)
     }
 
-    /// Prints a warning for each row that is for this submission's pseudonym, because another
-    /// attempt by the person counts.
-    pub fn warn_about_attempt(&self, person: &Person, submission: &EntryInfo) {
-        for points in self.of(person, submission) {
-            if !points.pseudonym.is_empty() {
-                let problem = "another attempt counts instead, so these points have no effect: \
-                               remove the row, or use the student's name";
-                print_error_line(self.error(points.row, problem));
-            }
+    /// Prints a warning for each of these rows that names a submission, because another attempt by
+    /// the person counts.
+    pub fn warn_about_attempt(&self, points: &[ManualPoints]) {
+        for points in points.iter().filter(|points| points.is_for_attempt) {
+            let problem = "another attempt counts instead, so these points have no effect: remove \
+                           the row, or use the student's name";
+            print_error_line(self.error(points.row, problem));
         }
     }
 
@@ -186,22 +169,21 @@ impl ManualPointsList {
             EntryOutcome::NothingToGrade(_) => exam,
             EntryOutcome::Fault(_) => return Ok(()),
         };
-        for ManualPoints {
-            row,
-            student,
-            task,
-            delta,
-            ..
-        } in points
-        {
+        for own in points {
+            let ManualPoints {
+                student,
+                task,
+                delta,
+                ..
+            } = own;
             let Some(graded) = tasks.iter().find(|graded| graded.id == *task) else {
                 let problem = format!("the exam has no items for the task {task}: remove the row");
-                return Err(self.error(*row, problem));
+                return Err(self.error(own.row, problem));
             };
             let (earned, most) = (graded.points, graded.max_points);
             let sum = earned.checked_add_signed(*delta);
             if sum.is_none_or(|sum| sum > most) {
-                return Err(self.error(*row, format!(
+                return Err(self.error(own.row, format!(
                     "{delta:+} points is out of range: {student} earned {earned} of {most} points \
                      for {task}. Correct this row and pass the table with --manual-points. If the \
                      row was valid before, files were probably handed in again"
@@ -219,9 +201,40 @@ impl ManualPointsList {
 /// Splits `anon-1, member 2`, as shown in the graders' tables, into the pseudonym and the number.
 fn split_pseudonym(student: &str) -> (&str, Option<usize>) {
     let parts = student.split_once(", member ");
-    let parts = parts.filter(|(own, _)| !own.is_empty());
+    let parts = parts.filter(|(own, _)| own.starts_with(PSEUDONYM_PREFIX));
     let member = parts.and_then(|(own, number)| Some((own, number.parse().ok()?)));
     member.map_or((student, None), |(own, number)| (own, Some(number)))
+}
+
+/// Returns the problem with a name that stands for none of these people.
+fn unknown_name<'a>(
+    student: &str,
+    people: impl Iterator<Item = &'a Person>,
+    missing: &[Person],
+) -> String {
+    let is_meant = |person: &&Person| {
+        let mut names = person.identifiers().chain([&*person.group]);
+        names.any(|name| are_same_name(name, student))
+    };
+    let known = people.flat_map(|own| own.identifiers().chain([&*own.group]));
+    // The account may be known without the address.
+    let (account, _) = student.split_once('@').unwrap_or((student, ""));
+    let remedy = match missing.iter().find(is_meant) {
+        Some(person) => format!(
+            ": to give points anyway, add an empty submission for {:?}, named like the others",
+            person.display_name()
+        ),
+        None if student.starts_with(PSEUDONYM_PREFIX) => ": the submission with this pseudonym is \
+            not in the input: remove the row, or use the name of the student, who is listed in \
+            anonymous-key.json"
+            .to_owned(),
+        None => {
+            suggestion(account, known)
+                + ": use a name, email address, account or student id \
+            from grades.csv, or the name of a group or submission"
+        }
+    };
+    format!("nobody called {student:?} handed anything in{remedy}")
 }
 
 impl ManualPoints {
@@ -254,27 +267,8 @@ impl ManualPoints {
             comment,
             author,
             date,
-            pseudonym: String::new(),
+            is_for_attempt: false,
         })
-    }
-
-    /// If no person's name is identical to the row's, but exactly one differs from it only in
-    /// punctuation, returns the points with that person's name. Otherwise, returns the points
-    /// unchanged.
-    fn with_name_of(mut self, entries: &[&mut EntryInfo]) -> Self {
-        let people = || entries.iter().flat_map(|info| &info.people);
-        let names = people().map(|person| person.name.as_str());
-        let names = names.filter(|name| are_same_name(name, &self.student));
-        let names: BTreeSet<&str> = names.collect();
-        if names.len() == 1 && !people().any(|person| self.is_for(person)) {
-            self.student = names.into_iter().collect();
-        }
-        self
-    }
-
-    fn is_for(&self, person: &Person) -> bool {
-        let mut texts = person.identifiers();
-        texts.any(|text| are_equal(text, &self.student))
     }
 }
 

@@ -61,13 +61,8 @@ pub fn can_become(listed: &str, file: &str) -> bool {
 /// name may begin with the group, for example `Team A-Jane Doe` in older versions of Moodle.
 pub fn are_alike(file: &str, listed: &str) -> bool {
     let wanted = letters(listed);
-    let mut rest = Some(file);
-    iter::from_fn(|| {
-        let name = rest?;
-        rest = name.split_once('-').map(|(_, rest)| rest);
-        Some(name)
-    })
-    .any(|name| letters(name) == wanted)
+    let mut names = iter::successors(Some(file), |name| Some(name.split_once('-')?.1));
+    names.any(|name| letters(name) == wanted)
 }
 
 /// Joins the texts with a separator.

@@ -8,7 +8,7 @@ use grader::policy::Policy;
 use grader::printing::{counted, print, print_line};
 
 use crate::anonymous::{Pseudonyms, is_shown};
-use crate::attempts::count_points;
+use crate::attempts::{check_manual_points, count_points};
 use crate::cli::Lists;
 use crate::entry_completion::ListFindings;
 use crate::error::Error;
@@ -66,7 +66,8 @@ impl ClassContext<'_> {
         let regrade = find_regrade_changes(store, run, &results)?;
         let mut resubmitted = find_score_changes(store, &results, REPLACED)?;
         let (manual, tasks) = (&self.findings.manual, exam_tasks(&run.items));
-        let rows = count_points(results, self.policy, manual, &tasks)?;
+        let rows = count_points(results.into_iter(), self.policy, manual, &tasks);
+        check_manual_points(&rows, manual, &tasks)?;
         let class = &GradedClass {
             settings: run.settings.clone(),
             rows,
@@ -74,7 +75,9 @@ impl ClassContext<'_> {
         };
         // Update the history first, so that if the run is killed later, repeating it lists the same
         // changes.
-        let history = GradeHistory::after(store.read(final_grades::FILE)?, run, class);
+        let policy = lists.policy.as_deref().map(Policy::read_text).transpose()?;
+        let earlier = store.read(final_grades::FILE)?;
+        let history = GradeHistory::after(earlier, run, class, policy.unwrap_or_default());
         store.write(final_grades::FILE, json(&history))?;
         // List each change only until the next one.
         resubmitted.retain(|change| history.is_since(&change.id, change.was));
@@ -85,7 +88,10 @@ impl ClassContext<'_> {
             regrade: regrade.filter(|_| history.is_of_regrade()),
             resubmitted,
             removed,
-            grades: history.changes(),
+            grades: history.changes(|policy| {
+                let results = class.rows.iter().map(|row| row.result.clone());
+                count_points(results, policy, manual, &tasks)
+            }),
         };
         let messages = write_messages(class, store, self.handed_out)?;
         let with_message = messages.iter().flatten().copied().collect();

@@ -1,4 +1,4 @@
-//! Compares the scores from a regrade with the earlier ones, and finds out whose points changed,
+//! Compares the scores from a regrade with the earlier ones and finds out whose points changed,
 //! for which items, and why.
 
 use std::collections::BTreeSet;
@@ -103,14 +103,6 @@ pub struct ScoreChange {
     pub items: Vec<ItemChange>,
 }
 
-impl ScoreChange {
-    /// Returns whether the total points changed, rather than only their distribution among the
-    /// items.
-    pub fn changes_points(&self) -> bool {
-        self.now != Some(self.was)
-    }
-}
-
 /// A change in the points of an item.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ItemChange {
@@ -138,33 +130,33 @@ fn compare_scores(id: &str, was: &ScoreSummary, now: Option<&ScoreSummary>) -> O
 }
 
 fn item_changes(was: &ScoreSummary, now: &ScoreSummary) -> Vec<ItemChange> {
-    let find = |score: &ScoreSummary, id: &str| score.items().find(|item| item.id == id).cloned();
-    let changed = now.items().filter_map(|item| {
-        let old = find(was, &item.id);
-        let same = old.as_ref().is_some_and(|old| old.points == item.points);
-        (!same).then(|| item_change(old.as_ref(), Some(item)))
-    });
+    fn find<'a>(score: &'a ScoreSummary, id: &str) -> Option<&'a ItemScore> {
+        score.items().find(|item| item.id == id)
+    }
     let gone = was.items().filter(|item| find(now, &item.id).is_none());
-    let gone = gone.map(|item| item_change(Some(item), None));
-    changed.chain(gone).collect()
+    let all = now.items().chain(gone);
+    let changes = all.filter_map(|ItemScore { id, .. }| {
+        let (was, now) = (find(was, id), find(now, id));
+        let [was_points, now_points] = [was, now].map(|item| item.map(|item| item.points));
+        (was_points != now_points).then(|| ItemChange {
+            item: id.clone(),
+            was: was_points,
+            now: now_points,
+            why: reason(was, now),
+        })
+    });
+    changes.collect()
 }
 
-fn item_change(was: Option<&ItemScore>, now: Option<&ItemScore>) -> ItemChange {
+fn reason(was: Option<&ItemScore>, now: Option<&ItemScore>) -> String {
     let explain = |item: &ItemScore| with_detail(&item.verdict, &item.message);
-    let why = match (was, now) {
+    match (was, now) {
         // The new message alone doesn't say why the points were lost before.
         (Some(was), Some(now)) if now.points > was.points => {
             format!("{}; previously {}", explain(now), explain(was))
         }
         (_, Some(now)) => explain(now),
         (_, None) => "no longer in the exam".to_owned(),
-    };
-    let item = now.or(was).map(|item| item.id.clone());
-    ItemChange {
-        item: item.unwrap_or_default(),
-        was: was.map(|item| item.points),
-        now: now.map(|item| item.points),
-        why,
     }
 }
 

@@ -128,10 +128,8 @@ fn key_table(all: &[OwnWork]) -> Table {
 fn identical<'a, 'e>(all: &'a [OwnWork<'e>]) -> Vec<Vec<&'a OwnWork<'e>>> {
     let mut same: BTreeMap<Vec<(&str, String)>, Vec<&OwnWork>> = BTreeMap::new();
     for work in all {
-        let texts = work
-            .files
-            .iter()
-            .map(|(file, text)| (*file, joined(text.split_whitespace(), " ")));
+        let texts = work.files.iter();
+        let texts = texts.map(|(file, text)| (*file, joined(text.split_whitespace(), " ")));
         same.entry(texts.collect()).or_default().push(work);
     }
     let groups = same.into_values().filter(|works| works.len() > 1);
@@ -143,11 +141,8 @@ fn identical<'a, 'e>(all: &'a [OwnWork<'e>]) -> Vec<Vec<&'a OwnWork<'e>>> {
 fn identical_table(groups: &[Vec<&OwnWork>]) -> Table {
     let mut table = Table::new(&["set", "submission", "names", "expected"]);
     for (number, works) in (1..).zip(groups) {
-        let expected = if is_one_group(works) {
-            "same group"
-        } else {
-            ""
-        };
+        let is_expected = is_one_group(works);
+        let expected = if is_expected { "same group" } else { "" };
         for work in works {
             let [id, names] = work.cells();
             let row = [i32::to_string(&number), id, names, expected.to_owned()];

@@ -153,11 +153,8 @@ impl Table {
         }
         let bytes = writer.into_inner().expect("writing to memory succeeds");
         let text = String::from_utf8(bytes).expect("cells are UTF-8");
-        let mark = if self.has_byte_order_mark {
-            "\u{feff}"
-        } else {
-            ""
-        };
+        let has_mark = self.has_byte_order_mark;
+        let mark = if has_mark { "\u{feff}" } else { "" };
         format!("{mark}{text}")
     }
 }

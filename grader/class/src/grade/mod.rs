@@ -89,11 +89,12 @@ pub fn grade_class_with(
             info.pseudonym = pseudonyms.of(id);
         }
     }
-    let entries = recognised.entries.iter_mut();
-    let mut infos: Vec<&mut EntryInfo> = entries.map(|entry| &mut entry.info).collect();
+    let infos = recognised.entries.iter_mut();
+    let infos = infos.map(|entry| (&*entry.id, &mut entry.info));
+    let (ids, mut infos): (Vec<&str>, Vec<&mut EntryInfo>) = infos.unzip();
     used.add_downloaded(input.class.layout.find_list(&input.root), out)?;
     let given = &used.lists;
-    let findings = entry_completion::complete_entries(given, handed_out, &mut infos)?;
+    let findings = entry_completion::complete_entries(given, handed_out, &ids, &mut infos)?;
     recognised.notes.extend_from_slice(&findings.warnings);
     match (&arguments.corrected, out) {
         (Some(folder), _) => {

@@ -213,7 +213,7 @@ fn fill(mut gradebook: Gradebook, class: &GradedClass) -> FilledGradebook {
         if !others.is_empty() {
             let id = &class_row.result.id;
             warnings.push(format!(
-                "the row {who} could also be for {others} from {id}: enter the points by hand"
+                "the row for {who} could also refer to {others} from {id}: enter the points by hand"
             ));
             if !is_named(&best) {
                 continue;
@@ -338,14 +338,12 @@ fn cell_equals(cell: &str, points: u32) -> bool {
 
 /// Returns a warning if the maximum of the final points differs from the gradebook's maximum.
 fn maximum_warning(class: &GradedClass, listed: Option<&str>) -> Option<String> {
-    let mut grades = class.rows.iter().flat_map(|class_row| &class_row.grades);
-    let counted = grades.find_map(|grade| grade.counted.as_ref())?;
+    let most = class.counts_max()?;
     let listed = listed?.trim();
-    (!listed.is_empty() && !cell_equals(listed, counted.max_points)).then(|| {
+    (!listed.is_empty() && !cell_equals(listed, most)).then(|| {
         format!(
-            "the gradebook's maximum is {listed}, but these points are out of {}: set `out_of` in \
-             the policy",
-            counted.max_points
+            "the gradebook's maximum is {listed}, but these points are out of {most}: set `out_of` \
+             in the policy"
         )
     })
 }

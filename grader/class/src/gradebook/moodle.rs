@@ -19,11 +19,8 @@ const TRANSLATED: &str = "the grading worksheet is in a language other than Engl
 /// Reads the worksheet at `path` and fills in the class's points.
 pub fn fill_moodle(path: &Path, class: &GradedClass) -> Result<FilledGradebook, Error> {
     let table = Table::read(path)?;
-    let remedy = if is_translated(&table) {
-        TRANSLATED
-    } else {
-        REMEDY
-    };
+    let is_translated = is_translated(&table);
+    let remedy = if is_translated { TRANSLATED } else { REMEDY };
     let identifier = table.require_column(path, "Identifier", remedy)?;
     let target = table.require_column(path, "Grade", remedy)?;
     let name = table.column("Full name");

@@ -337,7 +337,7 @@ fn people_of_one_submission_who_share_a_row_are_told_apart_by_the_name() {
     };
     assert_eq!(fill(&["Ann Lee", "ann lee"]), ("80".to_owned(), vec![]));
     let wanted = |name: &str| {
-        format!("the row Ann Lee could also be for {name} from x: enter the points by hand")
+        format!("the row for Ann Lee could also refer to {name} from x: enter the points by hand")
     };
     let (filled, warnings) = fill(&["Bob", "Ann Lee"]);
     assert_eq!((filled.as_str(), warnings), ("80", vec![wanted("Bob")]));

@@ -56,7 +56,7 @@ pub enum GradeProblem {
     /// Another submission by the same person is used.
     #[error("submission {0} from the same person counts instead")]
     OtherAttempt(String),
-    /// Neither the policy nor the teacher has chosen between several submissions by the same
+    /// The policy and the teacher haven't chosen between several submissions by the same
     /// person: the ids of the other submissions, and what to do.
     #[error("the same person also submitted {ids}: {1}", ids = .0.join(" and "))]
     SeveralAttempts(Vec<String>, String),
@@ -283,7 +283,8 @@ impl PersonGrade {
             )),
             // The other problems are for staff, and may name other people.
             (Some(_), _) => Some(
-                "None of the points count yet: the staff still have to decide on them.".to_owned(),
+                "None of the points count yet: the course staff still have to review this submission."
+                    .to_owned(),
             ),
             (None, Some(counted)) => counted.explanation_if_changed(),
             (None, None) => None,

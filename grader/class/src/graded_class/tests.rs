@@ -84,7 +84,7 @@ fn points_by_hand(delta: i32) -> ManualPoints {
         comment: "nice".to_owned(),
         author: "Lee".to_owned(),
         date: String::new(),
-        pseudonym: String::new(),
+        is_for_attempt: false,
     }
 }
 
@@ -172,7 +172,7 @@ fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff(
     let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()], &[]);
     let texts = [
         "80 of 100 points count towards the grade: 80 of 100 points earned, handed in late \
-         (counted as 1 day, because the submission time is unknown), which costs nothing.",
+         (counted as 1 day, because the submission time is unknown), with no deduction.",
     ];
     assert_eq!(late.counted_texts(), texts);
     assert_eq!(late.notes(), texts);
@@ -223,9 +223,9 @@ fn notes_give_the_reason_why_there_are_no_points() {
 fn a_problem_is_explained_instead_of_points() {
     let texts = problems().map(|problem| with_problem(problem).explanation().join("\n"));
     insta::assert_snapshot!(texts.join("\n"), @"
-    None of the points count yet: the staff still have to decide on them.
+    None of the points count yet: the course staff still have to review this submission.
     None of the points count towards the grade: submission b from the same person counts instead.
-    None of the points count yet: the staff still have to decide on them.
+    None of the points count yet: the course staff still have to review this submission.
     ");
     assert_eq!(PersonGrade::default().explanation(), Vec::<String>::new());
 }

@@ -96,10 +96,8 @@ impl Reader<'_> {
     /// Returns the folders for GitLab's subgroups, such as tutorials.
     fn sections<'a>(&self, folder: &'a Node) -> Vec<&'a Node> {
         let is_gitlab = self.platform.layout == Layout::GitLab;
-        let folders = folder.children().iter().filter(|_| is_gitlab);
-        folders
-            .filter(|node| is_section(node, self.handed_out))
-            .collect()
+        let is_section = |node: &&Node| is_gitlab && is_section(node, self.handed_out);
+        folder.children().iter().filter(is_section).collect()
     }
 
     /// Returns whether the subgroups contain several people's projects. If the projects in all

@@ -61,7 +61,7 @@ pub struct Platform {
     pub names: Vec<String>,
     /// Whether people's names come from file names. If so, names in lists are preferred.
     pub is_named_by_file: bool,
-    /// The source of the people and the time, if they don't come from the name.
+    /// Where the people and the time are taken from, if not from the name.
     pub record: Record,
     /// The field whose texts share a prefix, such as the assignment's title, and the separator that
     /// ends the prefix.

@@ -38,8 +38,8 @@ impl SubmissionRecord {
     }
 }
 
-/// The people in Blackboard's receipts, keyed by the beginning of the name of a submission's files,
-/// which several attempts can share. For each person, the account is the end of that beginning.
+/// The people in Blackboard's receipts, keyed by the prefix that the names of a submission's files
+/// share. Several attempts can have the same prefix. The account is the last part of it.
 #[derive(Debug, Default)]
 pub(super) struct Receipts<'a>(BTreeMap<&'a str, (&'a str, Person)>);
 
@@ -60,7 +60,7 @@ impl<'a> Receipts<'a> {
         Ok(receipts)
     }
 
-    /// Returns the record of a submission, and corrects its account. An attempt without a receipt is
+    /// Returns the record of a submission and corrects its account. An attempt without a receipt is
     /// by the person whose other attempts begin with the same name. If there are none, the account
     /// begins where it does in the other submissions, which have the same title.
     pub fn record(&self, parts: &mut Parts<'a>) -> SubmissionRecord {

@@ -38,10 +38,8 @@ fn with_month(text: &str) -> Option<String> {
     let (date, clock) = time.rsplit_once(' ')?;
     let digits = clock.replacen(':', "", 1);
     let is_clock = is_number(&digits) && (3..=4).contains(&digits.len());
-    let has_year = || {
-        date.split(' ')
-            .any(|word| word.len() == 4 && is_number(word))
-    };
+    let is_year = |word: &str| word.len() == 4 && is_number(word);
+    let has_year = || date.split(' ').any(is_year);
     let has_month = || date.chars().any(char::is_alphabetic) && !date.contains(" - ");
     let (hour, minute) = digits.split_at_checked(digits.len().checked_sub(2)?)?;
     (is_clock && has_year() && has_month()).then(|| format!("{date} {hour}:{minute}{half}"))

@@ -99,13 +99,14 @@ pub fn merge_shards(
     for row in &mut rows {
         row.info.pseudonym = pseudonyms.of(&row.id);
     }
-    let mut infos: Vec<&mut EntryInfo> = rows.iter_mut().map(|row| &mut row.info).collect();
+    let infos = rows.iter_mut().map(|row| (&*row.id, &mut row.info));
+    let (ids, mut infos): (Vec<&str>, Vec<&mut EntryInfo>) = infos.unzip();
     if lists.roster.is_some() {
         for info in &mut infos {
             info.forget_groups_and_extensions();
         }
     }
-    let findings = entry_completion::complete_entries(lists, handed_out, &mut infos)?;
+    let findings = entry_completion::complete_entries(lists, handed_out, &ids, &mut infos)?;
     findings.check(lists)?;
     for warning in &findings.warnings {
         print(format!("  {}\n", sanitize_line(warning, 400)));

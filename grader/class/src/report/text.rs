@@ -89,15 +89,10 @@ pub fn render_summary(summary: &ClassSummary) -> String {
         attention.push(format!("{}:", sentence(&heading)));
         for (detail, submissions) in submissions {
             let titles = submissions.iter().map(|outlier| one_line(&outlier.title()));
-            let line = match (sentence(detail), joined(titles, ", ")) {
-                (detail, who) if detail.is_empty() => who,
-                (detail, who) => format!("{detail}: {who}"),
-            };
-            attention.extend(
-                wrap(&line, MAX_WIDTH)
-                    .iter()
-                    .map(|line| format!("  {line}")),
-            );
+            let line = [sentence(detail), joined(titles, ", ")];
+            let line = joined(line.iter().filter(|text| !text.is_empty()), ": ");
+            let lines = wrap(&line, MAX_WIDTH);
+            attention.extend(lines.iter().map(|line| format!("  {line}")));
         }
     }
     let lists = [
@@ -209,10 +204,12 @@ fn render_grade_changes(grades: &GradeChanges) -> String {
     section(&title, &causes, changes)
 }
 
-/// Returns the scores whose total changed.
+/// Returns the scores whose total changed, rather than only its distribution among the items.
 pub fn with_changed_points(changes: &[ScoreChange]) -> Vec<&ScoreChange> {
     let changes = changes.iter();
-    changes.filter(|change| change.changes_points()).collect()
+    changes
+        .filter(|change| change.now != Some(change.was))
+        .collect()
 }
 
 /// Returns a score's points after a change.

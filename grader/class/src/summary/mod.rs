@@ -173,9 +173,8 @@ fn without_ignored_items(class: &GradedClass, policy: &Policy) -> GradedClass {
             continue;
         };
         let tasks = score.tasks.iter().map(|task| task.for_policy(0));
-        let ignored = policy
-            .points
-            .ignored_items(&tasks.collect::<Vec<TaskPoints>>());
+        let tasks: Vec<TaskPoints> = tasks.collect();
+        let ignored = policy.points.ignored_items(&tasks);
         for task in &mut score.tasks {
             task.items.retain(|item| !ignored.contains(&item.id));
             task.points = task.items.iter().map(|item| item.points).sum();

@@ -114,7 +114,7 @@ fn class_with(text: &str) -> GradedClass {
             comment: text.to_owned(),
             author: text.to_owned(),
             date: text.to_owned(),
-            pseudonym: String::new(),
+            is_for_attempt: false,
         };
         let result = EntryResult { id, info, outcome };
         ClassRow::new(result, &Policy::default(), vec![vec![manual]], &[])

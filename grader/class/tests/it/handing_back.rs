@@ -70,7 +70,7 @@ fn on_canvas_a_page_about_corrected_text_is_sent_separately() {
     let text = class.graded_with(&exam, &[], &arguments);
     let expected = [
         "to hand back: 1 page",
-        "left out: emptyeve: the platform can only show a page beside a file",
+        "left out: emptyeve: Canvas can only show a page next to a file",
     ];
     assert_contains(&text, &expected);
     let archive = std::fs::read(class.out().join("hand-back.zip")).unwrap();
@@ -99,8 +99,7 @@ fn members_of_a_canvas_group_with_different_points_get_pages_of_their_own() {
         names(&files),
         ["foxcid_7003_9002_hw.zip", "owls_7001_9001_hw.zip"]
     );
-    let warning =
-        "left out: Ann Lee + Bob Kim: the platform gives all members of a group the same page";
+    let warning = "left out: Ann Lee + Bob Kim: Canvas shows all members of a group the same page";
     assert_contains(&text, &[warning]);
     let pages = || {
         let files = files_below(&class.out().join("hand-back")).into_iter();

@@ -302,7 +302,7 @@ fn a_second_download_that_could_be_somebody_elses_is_refused_with_both_readings(
     correct(&class, "ann-2.zip", solution());
     let error = class.refused_preview(&options);
     let expected = "ann-2.zip: it could be for pt-ann-2 or pt-ann, since \"ann-2\" is also the name \
-                    of a second download: rename it to one of these names";
+                    that browsers give to a second download: rename the file to one of these names";
     assert_contains(&error, &[expected]);
     fs::remove_dir_all(class.path_beside("corrected")).unwrap();
     correct(&class, "pt-ann-2.zip", solution());

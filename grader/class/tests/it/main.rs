@@ -17,6 +17,8 @@ mod numbers;
 mod page;
 mod people;
 mod platforms;
+mod policy_changes;
+mod random_names;
 mod recipes;
 mod replay;
 mod resuming;

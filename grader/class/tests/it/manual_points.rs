@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::harness::{TestClass, cell};
+use crate::harness::{TestClass, cell, refusal, successful_stdout};
 
 const HEADER: &str = "author,student,task,comment,delta";
 
@@ -87,6 +87,79 @@ fn a_row_that_cannot_be_used_is_an_error_with_its_number() {
     refused(&format!("{HEADER}\nKim,ann,camera,,-3"));
     class.graded(&exam, &[]);
     assert_eq!(cell(&class, "bob", "Bob Kim", "manual"), "1");
+}
+
+/// Ann and Bob are a team, and there are two people called Ann Lee. Cem has two submissions.
+#[test]
+fn a_row_may_name_a_team_or_a_submission_as_the_lists_and_pages_do() {
+    let class = TestClass::named("class")
+        .with_reference("Night Owls")
+        .with_reference("ann2")
+        .with_reference("cem")
+        .with_starter("u4");
+    let exam = class.small_exam(&["camera.offset"]);
+    let roster = "name,username,sid,email,group\n\
+        Ann Lee,ann,u1,ann@x.edu,Night_Owls\nBob Kim,bob,u2,,Night_Owls\n\
+        Ann Lee,ann2,u3,ann2@x.edu,A-Team\nCem Kaya,cem,u4,,Ateam\n";
+    let policy = "[attempts]\ncounts = \"best\"\n";
+    class.graded_with(&exam, &[("roster", roster), ("policy", policy)], &[]);
+    let grade = |student: &str| {
+        let rows = format!("{HEADER}\nKim,{student},camera,,-1\n");
+        let path = class.write_beside("manual.csv", &rows);
+        class.grade(&exam, &["--manual-points", &path])
+    };
+    let people = [
+        ("Night_Owls", "Ann Lee"),
+        ("Night_Owls", "Bob Kim"),
+        ("ann2", "Ann Lee"),
+        ("cem", "Cem Kaya"),
+    ];
+    let counts = |student: &str| {
+        successful_stdout(&grade(student));
+        people.map(|(id, name)| cell(&class, id, name, "counts"))
+    };
+    for (student, expected) in [
+        ("Night Owls", "1122"),
+        ("night_owls", "1122"),
+        ("Ann Lee + Bob Kim", "1122"),
+        ("BobKim", "2122"),
+        ("Ann Lee (ann2@x.edu)", "2212"),
+        ("cem", "2221"),
+    ] {
+        assert_eq!(counts(student).concat(), expected, "{student}");
+    }
+    let errors = ["A Team", "Ann Lee", "bob@tum.edu", "carl", "cem + ann2"];
+    let errors = errors.map(|student| {
+        let error = refusal(&grade(student));
+        error.rsplit_once(", row ").unwrap().1.to_owned()
+    });
+    insta::assert_snapshot!(errors.concat(), @r#"
+    2: "A Team" could be Ann Lee (ann2@x.edu) or Cem Kaya: use the email address or the student number
+    2: "Ann Lee" could be Ann Lee (ann@x.edu) or Ann Lee (ann2@x.edu): use the email address or the student number
+    2: nobody called "bob@tum.edu" handed anything in (did you mean bob?): use a name, email address, account or student id from grades.csv, or the name of a group or submission
+    2: nobody called "carl" handed anything in: use a name, email address, account or student id from grades.csv, or the name of a group or submission
+    2: nobody called "cem + ann2" handed anything in: use a name, email address, account or student id from grades.csv, or the name of a group or submission
+    "#);
+}
+
+#[test]
+fn a_row_that_names_a_submission_is_for_no_other_attempt() {
+    let version = |number: u32| format!("Submitted files/Ann Lee/Path tracer/Version {number}");
+    let class = TestClass::named("library")
+        .with_starter(&version(1))
+        .with_reference(&version(2));
+    let exam = class.small_exam(&["camera.offset"]);
+    let policy = class.write_beside("policy.toml", "[attempts]\ncounts = 'latest'\n");
+    for (student, expected) in [("Ann_Lee_1", "2"), ("Ann_Lee_2", "1"), ("Ann Lee", "1")] {
+        let rows = format!("{HEADER}\nKim,{student},camera,,-1\n");
+        let path = class.write_beside("manual.csv", &rows);
+        let output = class.grade(&exam, &["--policy", &policy, "--manual-points", &path]);
+        successful_stdout(&output);
+        assert_eq!(cell(&class, "Ann_Lee_2", "Ann Lee", "counts"), expected);
+        let warning = String::from_utf8(output.stderr).unwrap();
+        let is_unused = warning.contains("row 2: another attempt counts instead");
+        assert_eq!(is_unused, student == "Ann_Lee_1", "{warning}");
+    }
 }
 
 /// Ann's first attempt has 0 points, so none can be deducted.

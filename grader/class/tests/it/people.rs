@@ -35,7 +35,9 @@ fn the_policy_says_which_of_several_attempts_counts() {
         let page = class.read(&format!("students/{submission}/feedback.html"));
         assert_contains(
             &page,
-            &["None of the points count yet: the staff still have to decide on them."],
+            &[
+                "None of the points count yet: the course staff still have to review this submission.",
+            ],
         );
         assert!(!page.contains("[attempts]"), "this is for staff: {page}");
     }

@@ -1,16 +1,11 @@
-//! Exports of platforms that record several attempts, and cloned repositories of groups. The names
-//! come from the platforms' sources and from tools that read their exports.
+//! Exports of platforms that record several attempts. The names come from the platforms' sources and
+//! from tools that read their exports.
 
 use std::fs;
 use std::path::Path;
 
-use clap::ValueEnum;
-use class::entry::Source;
-use class::file_tree::list_folder;
-use class::layout::{Layout, LayoutChoice, recognise};
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
-use proptest::prelude::*;
 
 use crate::harness::{TestClass, all_files, assert_contains, cell, files_below, source, zip};
 
@@ -303,119 +298,6 @@ fn a_teams_library_in_another_language_is_read_if_it_is_chosen() {
     );
 }
 
-/// Adds a repository as created by `git clone`.
-fn with_clone(class: TestClass, path: &str) -> TestClass {
-    class
-        .with(&format!("{path}/.git/HEAD"), "ref: refs/heads/main")
-        .with_minimal_submission(&format!("{path}/student/src"))
-}
-
-#[test]
-fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
-    let preview = |paths: &[&str]| {
-        let class = TestClass::named("cg26").with("README.md", "text");
-        let class = paths.iter().copied().fold(class, with_clone);
-        // The layout isn't guessed.
-        let error = class.refused_preview(&[]);
-        assert_contains(&error, &["--layout folders"]);
-        assert_eq!(
-            error.contains("--layout gitlab or"),
-            !paths[0].contains('/')
-        );
-        class.preview_of(&class.input(), &["--layout", "gitlab"])
-    };
-    let flat = preview(&["cg26-ann", "cg26-bob"]);
-    // The second tutorial has only one student.
-    let tutorials = preview(&["mon/cg26-ann", "mon/cg26-bob", "tue/cg26-eve"]);
-    assert_snapshot!(format!("{flat}\n\n{tutorials}"));
-}
-
-/// A single clone of another assignment or of a staff project doesn't change where the account name
-/// begins in the other clones' names.
-#[test]
-fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
-    let scores = "username,first_name,last_name,email,datetime,late\n\
-                  tum-ann,Ann,Lee,a@x.edu,,\ntum-bob,Bob,Kim,b@x.edu,,\ntum-eve,Eve,Ray,e@x.edu,,\n";
-    let clones = ["ann", "bob", "eve"].map(|name| format!("cg26-pathtracing-tum-{name}"));
-    let clones = |class: TestClass| {
-        clones
-            .iter()
-            .fold(class, |class, path| with_clone(class, path))
-    };
-    let class = clones(TestClass::named("2026-11-29")).with("scores.csv", scores);
-    let people = ["  Ann Lee: all", "  Bob Kim: all", "  Eve Ray: all"];
-    assert_contains(&class.preview(), &people);
-    let class = with_clone(class, "cg26-warmup-lena");
-    let preview = class.preview();
-    assert_contains(&preview, &people);
-    let odd = "begin with cg26-pathtracing-, unlike cg26-warmup-lena: ";
-    assert_contains(&preview, &[odd, &all_files("  cg26-warmup-lena")]);
-
-    let class = with_clone(clones(TestClass::named("clones")), "handout");
-    let error = class.refused_preview(&["--layout", "gitlab"]);
-    let odd = "begin with cg26-pathtracing-tum-, unlike handout, so it is unclear";
-    assert_contains(
-        &error,
-        &[odd, "move them elsewhere; otherwise, pass a list"],
-    );
-    let roster = class.write_beside("roster.csv", "name,sid\nAnn,tum-ann\nBob,tum-bob\n");
-    let options = ["--layout", "gitlab", "--roster", &roster];
-    let preview = class.preview_of(&class.input(), &options);
-    assert_contains(&preview, &["  Ann: all", "  Bob: all", "  tum-eve: all"]);
-}
-
-#[test]
-fn the_folder_above_a_gitlab_group_is_refused_with_the_one_to_pass() {
-    let group = |paths: &[&str]| {
-        let class = TestClass::named("clones");
-        let paths = paths.iter().copied();
-        paths.fold(class, |class, path| {
-            with_clone(class, &format!("cg26/{path}"))
-        })
-    };
-    let chosen = ["--layout", "gitlab"];
-    let class = group(&["mon/pt-ann", "mon/pt-bob", "tue/pt-eve"]);
-    let error = class.refused_preview(&chosen);
-    assert_snapshot!(error, @"error: the folder cg26 contains folders with several projects (mon, tue), and each of these folders would be graded as one submission: pass the path of the folder cg26 (if it is in an archive, unpack the archive first)");
-    let preview = class.preview_of(&class.input().join("cg26"), &chosen);
-    assert_contains(&preview, &["3 submissions", "  ann: all", "  eve: all"]);
-    assert_contains(&class.refused_preview(&[]), &["pass this folder"]);
-
-    let class = group(&["pt-ann", "pt-bob"]);
-    let preview = class.preview_of(&class.input(), &chosen);
-    assert_contains(&preview, &["2 submissions", "  ann: all", "  bob: all"]);
-    assert!(!preview.contains("there is only"), "{preview}");
-
-    // Each student has a subgroup.
-    let class = group(&["ann/pt", "bob/pt"]);
-    let error = class.refused_preview(&chosen);
-    assert_contains(&error, &["pass the path of the folder cg26"]);
-    let preview = class.preview_of(&class.input().join("cg26"), &chosen);
-    assert_contains(&preview, &["2 submissions", "  ann: all", "  bob: all"]);
-}
-
-#[test]
-fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
-    let class = TestClass::named("class")
-        .with_minimal_submission("mon/ann")
-        .with_minimal_submission("mon/bob")
-        .with_minimal_submission("tue/eve")
-        .with_minimal_submission("tue/zoe");
-    let error = class.refused_preview(&[]);
-    let error = error.replace(class.path_beside("").to_str().unwrap(), "FOLDER/");
-    assert_snapshot!(error, @"error: FOLDER/class cannot be read as a class: the folder mon contains several submissions (ann, bob): if they are from different students, pass this folder, or move them out of it; if they are attempts by one student, keep only the one that should be graded; if each contains part of one submission, combine them in one folder. Alternatively, pass --layout tutorials if each folder contains several students' folders, --layout teams if the folders are from Microsoft Teams, or --layout folders if each folder is one submission");
-    let preview = class.preview_of(&class.input(), &["--layout", "tutorials"]);
-    assert_contains(
-        &preview,
-        &["4 submissions", "mon/ann", "4 of 4 can be graded"],
-    );
-    let preview = class.preview_of(&class.input(), &["--layout", "folders"]);
-    assert_contains(
-        &preview,
-        &["2 submissions in folders and archives", "  mon: "],
-    );
-}
-
 /// If there is only one attempt and no receipt, it is unclear where the account name begins in the
 /// file name.
 #[test]
@@ -473,83 +355,4 @@ fn links_between_the_folders_of_a_platform_are_not_followed() {
     ];
     assert_contains(&preview, &expected);
     assert_eq!(preview.matches(&all_files("")).count(), 2);
-}
-
-/// Generates parts of names, as platforms and students write them.
-fn name_part() -> impl Strategy<Value = String> {
-    let usual = [
-        "ann",
-        "Lee, Ann(ann)",
-        "Participant",
-        "anon",
-        "LATE",
-        "_",
-        "_7001_9001_",
-        "_303",
-        " - ",
-        "(1)",
-        "é",
-        "\u{202e}",
-        "104840-170649 - ",
-        "Nov 20, 2026 1134 PM",
-        "_attempt_2026-11-20-10-00-00",
-        "_assignsubmission_file_",
-        "_assignsubmission_onlinetext_",
-        "_Submission attachment(s)_",
-        "_submissionText.html",
-        ".txt",
-        "camera.rs",
-        "hw-1.zip",
-        "Version 2",
-        "grades.csv",
-    ];
-    let usual = proptest::sample::select(usual.to_vec()).prop_map(str::to_owned);
-    prop_oneof![9 => usual, 1 => "[^/\0.]{1,8}"]
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
-
-    /// The names in an export can be anything: students choose their file names, and some platforms
-    /// let them choose their display names.
-    #[test]
-    fn whatever_names_an_export_has_each_is_graded_or_listed(
-        names in proptest::collection::btree_map(
-            proptest::collection::vec(name_part(), 1..6).prop_map(|parts| parts.concat()),
-            any::<bool>(),
-            1..6,
-        ),
-    ) {
-        let mut class = TestClass::named("class");
-        for (name, is_folder) in &names {
-            let inner = if *is_folder { "/camera.rs" } else { "" };
-            class = class.with(&format!("{name}{inner}"), "Name: Zoë (zoe)\n");
-        }
-        let root = list_folder(&class.input()).unwrap();
-        for layout in Layout::value_variants() {
-            let choice = LayoutChoice { layout: Some(*layout), title: None };
-            let is_of_clones = [Layout::GitHub, Layout::GitLab].contains(layout);
-            let found = match recognise(&choice, &root, None, &RAYS, &[]) {
-                // Clones are refused if most of their names, but not all of them, begin alike.
-                Err(_) if is_of_clones => continue,
-                found => found.unwrap(),
-            };
-            let is_known = |name: &str| {
-                let path = class.input().join(name);
-                found.unmatched.iter().any(|other| other.name.starts_with(name))
-                    || found.entries.iter().any(|entry| match &entry.source {
-                        Source::Path(own) => own.starts_with(&path),
-                        Source::Files(files) => files.iter().any(|(_, own)| *own == path),
-                        // The message asks a person to look at all files of the submission.
-                        Source::Missing(_) => true,
-                    })
-            };
-            // An archive from Canvas can be replaced by a newer archive, and Blackboard's receipts
-            // aren't submissions.
-            let is_other = *layout == Layout::Canvas || *layout == Layout::Blackboard;
-            for node in root.children().iter().filter(|node| node.name != "grades.csv") {
-                prop_assert!(is_other || is_known(&node.name), "{layout:?}: {}", node.name);
-            }
-        }
-    }
 }

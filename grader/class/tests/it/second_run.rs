@@ -137,9 +137,9 @@ fn every_final_grade_that_changes_is_listed_with_its_cause_and_no_other() {
     ann (Ann Lee): 30 → 33: days late 1 → 0
     no final grade changed (changed: the roster)
     1 final grade changed (changed: the policy)
-    ann (Ann Lee): 33 of 100 → 3 of 10: the policy
+    ann (Ann Lee): 33 of 100 → 3 of 10: `out_of` in the policy
     1 final grade changed (changed: the policy)
-    ann (Ann Lee): 3 of 10 → 7 of 20: the policy
+    ann (Ann Lee): 3 of 10 → 7 of 20: `out_of` in the policy
     ");
 }
 
@@ -210,6 +210,9 @@ fn a_grade_is_listed_if_an_earlier_or_later_attempt_has_none() {
             }
         }
         all.push(grade(&class));
+        let best = policy.replace("latest", "best");
+        let text = class.graded_with(&exam, &[("policy", &best)], &[]);
+        all.push(grade_changes(&class, &text));
     }
     insta::assert_snapshot!(all.join("\n"), @r"
     latest
@@ -221,6 +224,8 @@ fn a_grade_is_listed_if_an_earlier_or_later_attempt_has_none() {
     ann_2026-11-21-10-00-00 (ann): 2 → no points (nothing to grade): this attempt replaces ann_2026-11-20-10-00-00
     1 final grade changed
     ann_2026-11-20-10-00-00 (ann): no points (nothing to grade) → 2: this attempt counts instead of ann_2026-11-21-10-00-00
+    1 final grade changed (changed: the policy)
+    ann_2026-11-18-10-00-00 (ann): 2 → 3: this attempt counts instead of ann_2026-11-20-10-00-00, graded 2 → 3, `counts` in the policy
     best
     2 final grades changed
     bob_2026-11-20-10-00-00 (bob): 2 → 3: this attempt counts instead of bob_2026-11-18-10-00-00, graded 2 → 3
@@ -288,7 +293,7 @@ fn each_change_of_a_grade_names_the_causes_that_apply_to_this_person() {
     3 final grades changed (changed: the policy, the table of manual points)
     Ann_Lee_301 (Ann Lee): 3 → 2: manual points +0 → -1
     Bob_Kim_302 (Bob Kim): no points (nothing to grade) → 1: manual points +0 → +1
-    Eva_Roth_303 (Eva Roth): 3 → 2: the policy
+    Eva_Roth_303 (Eva Roth): 3 → 2: `percent_per_day` in the policy
     2 final grades changed (changed: the table of manual points)
     Ann_Lee_301 (Ann Lee): 2 → 3: manual points -1 → +0
     Bob_Kim_302 (Bob Kim): 1 → 2: now graded 2, manual points +1 → +0

@@ -191,15 +191,15 @@ fn file_list(files: &ReportFiles) -> String {
 
 /// Prints the text with the full paths of the task files.
 fn print_text(prepared: &PreparedSubmission, text: &str) {
-    // Insert the paths only now, so that they aren't cached with the report: the folder may be
-    // moved before the report is printed again.
+    // The full paths aren't cached with the report: the folder may be moved before the report is
+    // printed again.
     let text = &*prepared.source_paths().in_text(text);
     print_line(with_links_on_a_terminal(text, &prepared.workspace));
 }
 
 /// Returns the text with links to the built handout, if there is one and the reader can click
-/// links. The links are added only now, so that they aren't cached with the report, which may be
-/// printed somewhere else the next time.
+/// links. The links aren't cached with the report, because it may be printed elsewhere the next
+/// time.
 fn with_links_on_a_terminal<'a>(text: &'a str, workspace: &Workspace) -> Cow<'a, str> {
     let book = || Book::find(workspace);
     match io::stdout().is_terminal().then(book).flatten() {

@@ -173,11 +173,11 @@ fn caption(query: &BoxQuery) -> String {
         (_, None) => format!("The correct answer is {wanted}; your code gave no answer."),
         (Some(_), Some(None)) => {
             format!(
-                "All bars overlap during {wanted}: that is when the ray is in the box. You answered None."
+                "All bars overlap in {wanted}: that is when the ray is in the box. You answered None."
             )
         }
         (Some(_), Some(Some(span))) => format!(
-            "All bars overlap during {wanted}: that is when the ray is in the box. You answered {}.",
+            "All bars overlap in {wanted}: that is when the ray is in the box. You answered {}.",
             describe::interval(span)
         ),
         (None, Some(Some(span))) => format!(

@@ -15,7 +15,8 @@ pub(super) fn most_informative_first(task: &TaskScore) -> Vec<&ItemScore> {
     let mut failing: Vec<&ItemScore> = failing.collect();
     failing.sort_by_key(|item| match item.verdict.kind() {
         _ if !item.hints.is_empty() => 0,
-        VerdictKind::Failed if item.clue.is_some() => 1,
+        // A panic's clue is about its message, which says little about what else is wrong.
+        VerdictKind::Failed if item.clue.is_some() && item.at.is_none() => 1,
         VerdictKind::Failed => 2,
         VerdictKind::NoAnswer if item.evidence.is_some() => 3,
         VerdictKind::Passed

@@ -12,8 +12,9 @@ pub const KEPT_STATE: &str = "Your code answers the same question correctly in i
                               a `Cell`. An answer must depend only on the arguments of its call.";
 
 /// The clue for a panic in one of the submission's lines whose message says nothing about the cause.
-pub const UNKNOWN_PANIC: &str = "What does that line require? For the question shown, work out \
-                                 which value doesn't meet the requirement.";
+pub const UNKNOWN_PANIC: &str = "No method in this task needs to panic. When is that line reached, and \
+                                 what does it require? Work out which value in the question shown is the \
+                                 reason, and what the method should return instead.";
 
 /// The clue for an answer that is NaN or contains NaN.
 pub const NOT_A_NUMBER: &str = "Your answer is NaN, which usually comes from 0 / 0, from ∞ − ∞, or from the square \
@@ -95,13 +96,13 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
              was the index meant for a different list?"
         }
         PanicKind::Arithmetic if is_too_large => {
-            "The result is too large for the type of these integers. Convert them to `f32`, or to \
-             a larger type, before you calculate with them."
+            "The result is too large for the type of these integers. Do you need this calculation? If \
+             so, convert them to `f32`, or to a larger type, before you calculate with them."
         }
         PanicKind::Arithmetic if message.starts_with("attempt to subtract") => {
             "`usize` and `u32` can't be negative, and the second number is larger than the first here. \
-             Should the difference be an `f32`? Then convert both numbers first. Is it an index? Then \
-             treat this case separately."
+             Do you need to subtract anything? Should the difference be an `f32`? Then convert both \
+             numbers first. Is it an index? Then treat this case separately."
         }
         PanicKind::Arithmetic => {
             "An integer can't be divided by zero. What makes the divisor 0 here, and what should your code \

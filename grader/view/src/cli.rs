@@ -34,7 +34,7 @@ pub struct Arguments {
     #[arg(long, value_name = "VIEW", value_enum)]
     pub view: Option<View>,
 
-    /// The assignment of --item and --submission (course staff) [default: rays]
+    /// The assignment that --item and --submission refer to (course staff) [default: rays]
     #[arg(long, value_name = "ID", value_parser = HandedOut::find)]
     pub assignment: Option<&'static HandedOut>,
 

@@ -178,8 +178,8 @@ pub struct HintsArgs {
     /// costs no points
     #[arg(long, conflicts_with_all = ["seeds", "pairs"])]
     pub independent: bool,
-    /// Measure wrong solutions that aren't known mistakes, with the practice exam; fail if one of
-    /// them costs no points
+    /// Grade wrong solutions that aren't known mistakes with the practice exam; fail if any of them
+    /// loses no points
     #[arg(long, conflicts_with_all = ["seeds", "pairs", "independent"])]
     pub unknown: bool,
     /// Whether to record the result.

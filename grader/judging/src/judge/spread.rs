@@ -28,7 +28,7 @@ const SLICES: usize = 8192;
 /// The number of directions in each cell.
 pub type Counts = [[u32; CELLS[1]]; CELLS[0]];
 
-/// Directions and the maximum χ² of their numbers in the cells.
+/// Directions and the maximum χ² of their counts per cell.
 pub(super) struct Spread<'a> {
     pub(super) max_chi_squared: f64,
     pub(super) answer: &'a [ElementOutcome<LocalDirection>],
@@ -46,8 +46,8 @@ impl Spread<'_> {
         })
     }
 
-    /// Returns the largest χ² of the numbers of directions in the cells, for all sizes of parts, and
-    /// in the slices. Infinite if there are no directions.
+    /// Returns the largest χ² of the direction counts: per cell, for each size of the parts, and per
+    /// slice. Infinite if there are no directions.
     fn chi_squared(&self) -> f64 {
         let cells = PARTS.map(|parts| self.chi_squared_of_parts(parts));
         let slices = [0, 1, 2].map(|axis| self.chi_squared_of_slices(axis));

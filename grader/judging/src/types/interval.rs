@@ -1,5 +1,5 @@
-//! Intervals: parts of a ray, and the ranges of rays, whose ends may be infinite. Ends are compared
-//! as lengths.
+//! Intervals: parts of a ray, whose ends are compared as lengths, and the ranges of rays, which are
+//! compared exactly.
 
 use protocol::{Interval, Value};
 
@@ -47,16 +47,9 @@ impl FieldType for Range {
         text(self.0)
     }
 
-    fn tolerance(&self) -> Option<Tolerance> {
-        Some(Tolerance::Length)
-    }
-
-    fn error(&self, wanted: &Value, scale: f32) -> f64 {
-        let Value::Range(wanted) = wanted else {
-            return f64::INFINITY;
-        };
-        if self.0.max == wanted.max {
-            length::error(self.0.min, wanted.min, scale, length::TOLERANCE)
+    fn error(&self, wanted: &Value, _: f32) -> f64 {
+        if matches!(wanted, Value::Range(wanted) if self.0 == *wanted) {
+            0.0
         } else {
             f64::INFINITY
         }

@@ -68,10 +68,6 @@ fn spoiled(value: &Value, tolerances: f32, scale: f32) -> Option<Value<'static>>
             min: length(times.min),
             ..times
         }),
-        Value::Range(times) => Value::Range(Interval {
-            min: length(times.min),
-            ..times
-        }),
         Value::Color(at) => {
             let error = tolerances * portion::TOLERANCE as f32 * at.abs().max_element();
             Value::Color(at + Vec3::Z * error)
@@ -92,7 +88,9 @@ fn spoiled(value: &Value, tolerances: f32, scale: f32) -> Option<Value<'static>>
         | Value::RandomPair(_)
         | Value::Lights(_)
         | Value::Scene(_)
-        | Value::Map(_) => return None,
+        | Value::Map(_)
+        // Constants, which aren't computed.
+        | Value::Range(_) => return None,
     })
 }
 

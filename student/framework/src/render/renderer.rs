@@ -9,8 +9,8 @@ use crate::render::path_steps::{BadPath, FirstBadValues};
 use crate::scene::Scene;
 use crate::submission::World;
 
-/// The distance between the pixels whose first path is checked for bad values, since keeping the
-/// steps of a path takes time.
+/// The distance between the pixels whose first path is checked for bad values. Recording the steps
+/// of every path would take too long.
 const CHECKED_DISTANCE: u32 = 8;
 
 /// Computes a picture sample by sample. Each sample only depends on its pixel and its number.

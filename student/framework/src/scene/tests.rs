@@ -115,12 +115,13 @@ fn an_error_points_at_the_value_and_says_what_is_allowed() {
     let degrees = "2:31: `vertical_fov`: expected an angle in degrees, greater than 0 and less \
                    than 180, got 180";
     check("40", "180", degrees);
-    let kind = "4:25: `red`: expected an object in { } whose only key is its kind, got the string \"mirror\"";
+    let kind = "4:25: `red`: expected an object in { } whose only key is its kind, got the string \
+                \"mirror\"";
     check(RED, r#""red": "mirror""#, kind);
     check(
         SPHERE,
         r#"{ "sphere": {}, "mesh": {} }"#,
-        "6:5: `shapes`: expected an object in { } with",
+        "6:5: `shapes`: expected an object in { } whose",
     );
     for value in ["[0, 1e39, 0]", "[0, 0]", "[0, 0, 0, 1]", "[0, \"a\", 0]"] {
         let expected =

@@ -227,9 +227,9 @@ pub(super) const BBOX: TaskClues = TaskClues {
 pub(super) const BUILD: TaskClues = TaskClues {
     if_stack_overflows: Some(
         "Is there a call in bvh.rs that receives as many primitives as its caller? If so, that \
-         node should have become a leaf, or one side of its split is empty: do you use the same \
-         rule to count the two sides as to move the primitives? `--replay` shows the smallest set \
-         of primitives that still overflows the stack.",
+         node should have become a leaf, or one side of its split is empty, or the two sides \
+         overlap. Do you use the same rule to count the two sides as to move the primitives? \
+         `--replay` shows the smallest set of primitives that still overflows the stack.",
     ),
     section_if_stack_overflows: Some("building.md#a-side-without-primitives"),
     sections_on_crashes: &["building.md#when-all-centres-coincide"],

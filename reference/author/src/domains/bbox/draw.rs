@@ -269,7 +269,7 @@ fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(R
     is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
 }
 
-/// Picks a random ray that starts exactly on a face of the box, on an edge, or in a corner.
+/// Picks a random ray that starts exactly on a face of the box, on an edge, or at a corner.
 fn from_faces(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let sides = bounds.max - bounds.min;
     let mut origin = bounds.center() + 0.4 * rng.point(1.0) * sides;

@@ -596,7 +596,7 @@ const PICKED_RADIANCE: Aspect<Row<LightsSample>> = Aspect {
     },
 };
 
-/// The colour of the picked light, by how many channels it has.
+/// The colour of the picked light, classified by its number of channels.
 const PICKED_COLOR: Aspect<Row<LightsSample>> = Aspect {
     name: "channels of the picked light",
     classes: &["1", "2", "3"],

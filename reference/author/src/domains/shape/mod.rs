@@ -21,7 +21,7 @@ pub struct ShapeCall {
     pub shape: Shape,
     /// The ray.
     pub ray: Ray,
-    /// The ray of the previous call, if that call was on the same shape.
+    /// The ray from the previous call, if that call was on the same shape.
     pub before: Option<Ray>,
 }
 

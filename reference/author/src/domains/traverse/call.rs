@@ -17,7 +17,7 @@ use crate::tree::Tree;
 pub struct TraverseCall {
     pub(super) subject: Arc<Subject>,
     pub(super) ray: Ray,
-    /// The ray of the previous call on the same tree.
+    /// The ray from the previous call on the same tree.
     pub(super) previous: Option<Ray>,
     /// The decoy in front of the answer.
     pub(super) decoy: Option<Decoy>,

@@ -127,14 +127,19 @@ fn clue_on_symptom(
     symptom: &Symptom,
     handed_out: &HandedOut,
 ) -> Option<(&'static str, Option<Section>)> {
-    if item.has_look_for(symptom) {
+    let clues = &handed_out.assignment.info(item.task).clues;
+    let clue = clues.of_symptom(symptom);
+    // A clue about zero says more than an item's advice about every symptom.
+    let says_more = symptom.is_about_zero()
+        && item.look_fits.is_empty()
+        && clue.is_some_and(|clue| clue.symptoms.contains(symptom));
+    if item.has_look_for(symptom) && !says_more {
         return None;
     }
     if symptom.side == Some(Side::NotANumber) {
         return Some((clue::NOT_A_NUMBER, chapter(item, handed_out)));
     }
-    let clues = &handed_out.assignment.info(item.task).clues;
-    let clue = clues.of_symptom(symptom)?;
+    let clue = clue?;
     Some((clue.clue, Some(Section::new(clue.section))))
 }
 

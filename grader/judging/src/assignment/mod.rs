@@ -198,7 +198,8 @@ impl TaskInfo {
     pub fn constructor_of(&self, method: &str) -> Option<&'static str> {
         let (of_type, name) = method.rsplit_once("::")?;
         let mut methods = self.methods.iter().copied();
-        let constructor = methods.find(|other| other.rsplit_once("::") == Some((of_type, "new")))?;
+        let constructor =
+            methods.find(|other| other.rsplit_once("::") == Some((of_type, "new")))?;
         (name != "new").then_some(constructor)
     }
 

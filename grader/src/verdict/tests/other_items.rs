@@ -20,7 +20,10 @@ fn a_blocked_item_says_only_what_to_fix_first() {
         verdict: Verdict::Blocked { by },
         ..ItemScore::pending(&line.id, &line.title, 4)
     };
-    assert_eq!(blocked_score("triangle.inside", line.clone(), true), expected);
+    assert_eq!(
+        blocked_score("triangle.inside", line.clone(), true),
+        expected
+    );
     let waiting = blocked_score("triangle.inside", line, false);
     assert_eq!(waiting.message, "waits for triangle.inside: fix that first");
 }

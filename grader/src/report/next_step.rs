@@ -274,3 +274,116 @@ fn row(text: &str) -> String {
         .collect();
     format!("  next    {}\n\n", lines.join("\n          "))
 }
+
+#[cfg(test)]
+mod tests {
+    use judging::exam::Exam;
+    use judging::exam_file::ExamName;
+    use judging::symptom::Symptom;
+
+    use super::*;
+    use crate::handed_out::{LIGHT, MethodPosition};
+    use crate::score::tests::small_exam::{boxes, item};
+    use crate::verdict::pending_score;
+
+    /// Returns the step for an item about environment maps whose failure `change` describes.
+    fn step(change: impl FnOnce(&mut ItemScore)) -> String {
+        let items = vec![item("environment.pdf", vec![boxes(1)])];
+        let exam = Exam::new(LIGHT.assignment, "small", items);
+        let name = ExamName {
+            id: exam.id.clone(),
+            hash: String::new(),
+        };
+        let mut score = pending_score(&exam, name, "ann", &LIGHT);
+        let methods = [
+            ("uniform_sphere", 10, 19, true),
+            ("Environment::new", 30, 39, true),
+            ("Environment::sample", 50, 59, false),
+            ("Environment::pdf", 70, 79, true),
+        ];
+        let methods = methods.map(|(path, line, last_line, is_changed)| MethodPosition {
+            path,
+            line,
+            last_line,
+            is_changed,
+        });
+        score.tasks[0].methods = methods.into();
+        change(&mut score.tasks[0].items[0]);
+        let (task, item) = (&score.tasks[0], &score.tasks[0].items[0]);
+        if item.verdict == Verdict::Unimplemented {
+            writing_step(&score, LIGHT.assignment, task, item)
+        } else {
+            debugging_step(&score, LIGHT.assignment, task, item)
+        }
+    }
+
+    fn at(line: u32) -> Option<CodeLocation> {
+        Some(CodeLocation {
+            file: "environment.rs".to_owned(),
+            line,
+        })
+    }
+
+    #[test]
+    fn a_panic_is_in_the_method_that_contains_the_line() {
+        let panicked = |called, line: Option<u32>| {
+            step(|item| {
+                item.verdict = Verdict::Panicked;
+                item.called = Some(called);
+                item.at = line.and_then(at);
+            })
+        };
+        let pdf = "Environment::pdf";
+        for (step, expected) in [
+            (
+                panicked(pdf, Some(35)),
+                "find out why `Environment::new` panics (environment.rs:35)",
+            ),
+            // The line is in one of the student's own functions.
+            (
+                panicked(pdf, Some(45)),
+                "find out why `Environment::pdf` panics (environment.rs:45)",
+            ),
+            (
+                panicked("uniform_sphere", None),
+                "find out why `uniform_sphere` panics (environment.rs:10)",
+            ),
+        ] {
+            assert_eq!(step, expected);
+        }
+    }
+
+    #[test]
+    fn a_wrong_answer_can_come_from_the_constructor() {
+        let wrong = |called| {
+            step(|item| {
+                item.verdict = Verdict::Wrong;
+                item.symptom = Some(Symptom::of("pdf"));
+                item.called = Some(called);
+            })
+        };
+        let expected = "find out why `Environment::new` (environment.rs:30) or `Environment::pdf` \
+                        (environment.rs:70) gives a wrong answer";
+        assert_eq!(wrong("Environment::pdf"), expected);
+        let expected = "find out why `uniform_sphere` gives a wrong answer (environment.rs:10)";
+        assert_eq!(wrong("uniform_sphere"), expected);
+    }
+
+    #[test]
+    fn a_method_with_code_of_the_students_own_is_to_be_finished() {
+        let unwritten = |line| {
+            step(|item| {
+                item.verdict = Verdict::Unimplemented;
+                item.called = Some("Environment::pdf");
+                item.at = at(line);
+            })
+        };
+        for (line, expected) in [
+            (55, "write `Environment::sample` in environment.rs:55"),
+            (75, "finish `Environment::pdf` in environment.rs:75"),
+            (45, "finish `Environment::pdf` in environment.rs:45"),
+        ] {
+            assert_eq!(unwritten(line), expected);
+        }
+    }
+}

@@ -192,15 +192,14 @@ const BLOCKED: Declaration = Declaration {
         let tiny = (1e-4, DVec3::ZERO);
         let places = [vec![tiny], places(rng)].concat();
         rooms_at(rng, &places, with_screens, |rng, room| {
-            // Other surfaces belong to `OTHER_MATERIALS`.
-            let is_matte =
-                |surface: &Surface64| matches!(surface.material, Material64::Lambertian { .. });
-            let mut cases: Vec<DirectCase> = (0..CALLS)
+            let mut cases: Vec<_> = (0..CALLS)
                 .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
                 .collect();
-            cases.extend(
-                (0..CALLS).map(|_| direct_case(rng, room, |surface, _, _| is_matte(surface))),
-            );
+            cases.extend((0..CALLS).map(|_| {
+                direct_case(rng, room, |surface, numbers, _| {
+                    is_like_matte(room, surface, numbers)
+                })
+            }));
             // The direction toward a light is blocked, but scattering finds a light.
             cases.extend((0..CALLS / 2).map(|_| {
                 direct_case(rng, room, |surface, numbers, light| {
@@ -218,7 +217,8 @@ const BLOCKED: Declaration = Declaration {
                 cases.extend((0..CALLS / 2).map(|_| {
                     direct_case(rng, room, |surface, numbers, _| {
                         let blocker = blocker(room, surface, numbers);
-                        is_matte(surface) && blocker.as_ref().is_some_and(is_kind)
+                        blocker.as_ref().is_some_and(is_kind)
+                            && is_like_matte(room, surface, numbers)
                     })
                 }));
             }
@@ -439,6 +439,15 @@ fn seen(room: &Room, surface: &Surface64, direction: DVec3) -> Option<Surface64>
         max: f64::INFINITY,
     };
     room.hit(&ray, Some(surface)).value
+}
+
+/// Returns whether a surface is matte, or would get no light if it were. The other surfaces are
+/// those that [`OTHER_MATERIALS`] is about.
+fn is_like_matte(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool {
+    let mut matte = *surface;
+    matte.material = Material64::Lambertian { albedo: DVec3::ONE };
+    matches!(surface.material, Material64::Lambertian { .. })
+        || !is_lit(oracle::direct(room, &matte, numbers).value)
 }
 
 /// Cases that get light, and as many that get none if the room has any.

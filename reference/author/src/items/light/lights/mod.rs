@@ -167,8 +167,9 @@ const DIRECTION: Declaration = Declaration {
     id: "lights.direction",
     points: 2,
     title: "a sample is the unit direction to the given point on the light",
-    look: "Which point does your direction start from, which point does it lead to, and how long \
-        is it? In front of the light, its dot product with the light's normal is negative.",
+    look: "Does your direction lead from the point shown to the one that `AreaLight::point` \
+           returns, and how long is it? In front of the light, its dot product with the light's \
+           normal is negative.",
     look_fits: &[Symptom::of("direction"), Symptom::less(SOME_OR_NONE)],
     section: "light/lights.md#from-the-point-to-the-light",
     tests: &[

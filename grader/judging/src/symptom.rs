@@ -32,6 +32,10 @@ pub enum Side {
     Less,
     /// The answer is too large, or there should be none.
     More,
+    /// The answer is 0, and the expected answer is positive.
+    Zero,
+    /// The answer is positive, and the expected answer is 0.
+    NotZero,
     /// The answer is the opposite direction.
     Reversed,
     /// The answer is NaN, or a vector that contains NaN.
@@ -68,6 +72,27 @@ impl Symptom {
         }
     }
 
+    /// Creates the symptom of a quantity that is 0 where it should be positive.
+    pub const fn zero(what: &'static str) -> Self {
+        Symptom {
+            side: Some(Side::Zero),
+            what: Cow::Borrowed(what),
+        }
+    }
+
+    /// Creates the symptom of a quantity that is positive where it should be 0.
+    pub const fn not_zero(what: &'static str) -> Self {
+        Symptom {
+            side: Some(Side::NotZero),
+            what: Cow::Borrowed(what),
+        }
+    }
+
+    /// Returns whether the answer is 0 and shouldn't be, or the other way round.
+    pub fn is_about_zero(&self) -> bool {
+        matches!(self.side, Some(Side::Zero | Side::NotZero))
+    }
+
     /// Creates the symptom of a direction that points the opposite way.
     pub const fn reversed(what: &'static str) -> Self {
         Symptom {
@@ -80,7 +105,11 @@ impl Symptom {
     /// observed symptom.
     pub fn includes(&self, observed: &Symptom) -> bool {
         let is_side = match self.side {
-            Some(_) => self.side == observed.side,
+            Some(Side::Less) => matches!(observed.side, Some(Side::Less | Side::Zero)),
+            Some(Side::More) => matches!(observed.side, Some(Side::More | Side::NotZero)),
+            Some(Side::Zero | Side::NotZero | Side::Reversed | Side::NotANumber) => {
+                self.side == observed.side
+            }
             None => !matches!(observed.side, Some(Side::Reversed | Side::NotANumber)),
         };
         self.what == observed.what && is_side
@@ -94,6 +123,16 @@ impl Side {
         if is_there { Side::More } else { Side::Less }
     }
 
+    /// Returns the side on which an amount is wrong, which is never negative: a density, a fraction
+    /// or the light in a colour.
+    pub fn of_amount(got: f32, wanted: f32) -> Option<Self> {
+        match Side::of(got, wanted)? {
+            Side::Less if got == 0.0 => Some(Side::Zero),
+            Side::More if wanted == 0.0 => Some(Side::NotZero),
+            side => Some(side),
+        }
+    }
+
     /// Returns the side on which a value is wrong, or `None` if it equals the expected value.
     pub fn of(got: f32, wanted: f32) -> Option<Self> {
         if got.is_nan() {
@@ -105,5 +144,31 @@ impl Side {
         } else {
             None
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_amount_that_is_or_should_be_zero_is_a_side_of_its_own() {
+        for (got, wanted, side) in [
+            (0.0, 2.0, Side::Zero),
+            (2.0, 0.0, Side::NotZero),
+            (1.0, 2.0, Side::Less),
+            (-1.0, 0.0, Side::Less),
+            (2.0, 1.0, Side::More),
+            (f32::NAN, 0.0, Side::NotANumber),
+        ] {
+            assert_eq!(Side::of_amount(got, wanted), Some(side), "{got}, {wanted}");
+        }
+        assert_eq!(Side::of_amount(0.0, 0.0), None);
+        // Zero is also too small.
+        assert!(Symptom::less("pdf").includes(&Symptom::zero("pdf")));
+        assert!(Symptom::of("pdf").includes(&Symptom::zero("pdf")));
+        assert!(Symptom::more("pdf").includes(&Symptom::not_zero("pdf")));
+        assert!(!Symptom::more("pdf").includes(&Symptom::zero("pdf")));
+        assert!(!Symptom::zero("pdf").includes(&Symptom::less("pdf")));
     }
 }

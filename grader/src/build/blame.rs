@@ -114,7 +114,7 @@ pub(super) fn blame(
         let Some(mut why) = NotCompiled::of_errors(file.name, of_file.clone()) else {
             continue;
         };
-        let is_elsewhere = !of_file.clone().any(|error| error.originates_in(file.name));
+        let is_elsewhere = of_file.clone().any(|error| !error.originates_in(file.name));
         let text = text.as_ref().ok().filter(|_| is_elsewhere);
         let changed = text.and_then(|text| changed_declaration(file, text));
         let is_all_elsewhere = of_file

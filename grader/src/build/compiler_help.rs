@@ -18,7 +18,7 @@ const BORROWS: &str = "cpp.md#recursion-that-fills-a-vector";
 
 /// Triples of an error code, words in the compiler's text, and the section that explains errors
 /// that match both. For syntax errors, the code is empty. The first match is used.
-const SECTIONS: [(&str, &str, &str); 77] = [
+const SECTIONS: [(&str, &str, &str); 79] = [
     ("", "expected `;`", BLOCKS),
     ("", "expected one of `.`, `;`", BLOCKS),
     ("", "expected one of `!`", BLOCKS),
@@ -33,6 +33,12 @@ const SECTIONS: [(&str, &str, &str); 77] = [
     ("E0308", "found `()`", BLOCKS),
     ("E0308", "`Option<", OPTION),
     ("E0308", "`()`", BLOCKS),
+    ("E0308", "expected `Vec3`, found `f32`", VECTORS),
+    (
+        "E0308",
+        "expected `Vec3`, found floating-point number",
+        VECTORS,
+    ),
     ("E0308", "`f32`", NUMBERS),
     ("E0308", "`f64`", NUMBERS),
     ("E0308", "`usize`", NUMBERS),
@@ -171,6 +177,7 @@ mod tests {
             ),
             (Some("E0308"), "expected `f32`, found `f64`", Some(NUMBERS)),
             (Some("E0308"), "expected `Vec3`, found `Vec2`", None),
+            (Some("E0308"), "expected `Vec3`, found `f32`", Some(VECTORS)),
             (
                 Some("E0277"),
                 "the trait bound `f32: Ord` is not satisfied",

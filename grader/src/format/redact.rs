@@ -108,6 +108,7 @@ pub(super) fn redact(item: &ItemScore, visibility: Visibility, hidden: &[String]
             symptom_clue: None,
             clue_section: None,
             symptom: None,
+            wrong_answers: None,
             called: None,
             hints: item.hints.clone(),
             evidence: None,

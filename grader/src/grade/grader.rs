@@ -201,7 +201,7 @@ impl<'a> Grader<'a> {
             let file = self.options.handed_out.assignment.info(task.id).file;
             if let Some(method) = build.methods.get(&task.id) {
                 task.method = format!("{file}:{}", method.line);
-                task.methods.clone_from(&method.lines);
+                task.methods.clone_from(&method.methods);
             }
             let warnings = build.warnings.iter();
             task.warnings = warnings

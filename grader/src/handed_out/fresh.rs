@@ -6,13 +6,26 @@ use super::method_span::{find_method, methods};
 use super::tokens::tokens;
 use super::{HandedOut, TaskFile, starter_methods};
 
+/// A method's position in a submission's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MethodPosition {
+    /// The method, such as `Sphere::hit`.
+    pub path: &'static str,
+    /// The number of the line with its name, counted from 1.
+    pub line: u32,
+    /// The number of its last line.
+    pub last_line: u32,
+    /// Whether it differs from the starter's version in more than formatting and comments.
+    pub is_changed: bool,
+}
+
 /// A task's methods in a submission's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TaskMethods {
     /// The methods' names, such as `Sphere::hit`, separated by commas.
     pub names: String,
-    /// Each method and the number of the line with its name, counted from 1.
-    pub lines: Vec<(&'static str, u32)>,
+    /// The methods and their positions in the file.
+    pub methods: Vec<MethodPosition>,
     /// The number of the line with the name of the first method that hasn't been changed, counted
     /// from 1. If all methods have been changed, it is the line of the first method.
     pub line: u32,
@@ -38,7 +51,7 @@ impl HandedOut {
             .task_file(info.file)
             .expect("every task has a task file");
         let mut fresh_text = text.to_owned();
-        let mut lines = Vec::new();
+        let mut methods = Vec::new();
         let mut first_unchanged_line = None;
         let mut is_changed = false;
         for path in info.methods {
@@ -46,13 +59,22 @@ impl HandedOut {
             let handed_out = handed_out.map_err(|why| cannot_find(path, file, why))?;
             let handed_out = &file.starter[handed_out.bytes];
             let span = find_method(text, path).map_err(|why| cannot_find(path, file, why))?;
-            let before = text[..span.name_start].matches('\n').count();
-            let line = u32::try_from(1 + before).unwrap_or(u32::MAX);
-            lines.push((*path, line));
-            if tokens(&text[span.bytes]) == tokens(handed_out) {
-                first_unchanged_line.get_or_insert(line);
+            let line_at = |byte| {
+                let before = text[..byte].matches('\n').count();
+                u32::try_from(1 + before).unwrap_or(u32::MAX)
+            };
+            let method = MethodPosition {
+                path,
+                line: line_at(span.name_start),
+                last_line: line_at(span.bytes.end),
+                is_changed: tokens(&text[span.bytes]) != tokens(handed_out),
+            };
+            if !method.is_changed {
+                first_unchanged_line.get_or_insert(method.line);
+                methods.push(method);
                 continue;
             }
+            methods.push(method);
             is_changed = true;
             fresh_text = replaced(&fresh_text, path, handed_out)
                 .map_err(|why| cannot_find(path, file, why))?;
@@ -60,9 +82,9 @@ impl HandedOut {
         Ok(TaskMethods {
             names: info.methods.join(", "),
             line: first_unchanged_line
-                .or(lines.first().map(|(_, line)| *line))
+                .or(methods.first().map(|method| method.line))
                 .unwrap_or(1),
-            lines,
+            methods,
             is_changed,
             fresh_text,
         })

@@ -18,7 +18,7 @@ use judging::assignment::{Assignment, TaskInfo};
 use method_span::{MethodSpan, methods};
 use tokens::{contains, tokens};
 
-pub use fresh::{ChangedDeclaration, TaskMethods, changed_declaration};
+pub use fresh::{ChangedDeclaration, MethodPosition, TaskMethods, changed_declaration};
 pub use judging::assignment::TaskFile;
 pub use light::LIGHT;
 pub use method_span::find_method;

@@ -12,7 +12,7 @@ use crate::machine::printing::wrap;
 use crate::report::failing_items::first_to_fix;
 use crate::report::text::{HintDetail, MAX_WARNINGS, joined_hints};
 use crate::sandbox::Isolation;
-use crate::score::{CodeLocation, Score, TaskScore, Verdict, VerdictKind};
+use crate::score::{CodeLocation, ItemScore, Score, TaskScore, Verdict, VerdictKind};
 
 /// The width of the text to the right of the labels.
 const TEXT_WIDTH: usize = 70;
@@ -57,35 +57,14 @@ pub fn first_step(
         return labelled(notes(score)) + &row(&after_all_points(assignment));
     };
     let info = assignment.info(task.id);
-    let place = match &item.at {
-        Some(at) => format!("{}:{}", at.file, at.line),
-        None => place_of_method(task, item.called, info.file),
-    };
     let step = match item.verdict.kind() {
-        VerdictKind::Unwritten => {
-            let unwritten = item
-                .at
-                .as_ref()
-                .and_then(|at| method_at(score, assignment, at));
-            let names = unwritten.unwrap_or_else(|| info.method_names("and"));
-            format!("write {names} in {place}")
-        }
+        VerdictKind::Unwritten => writing_step(score, assignment, task, item),
         VerdictKind::NotCompiled => compile_step(score, info.file, &item.message),
         VerdictKind::Blocked => format!("{} {}", item.id, item.message),
-        kind @ (VerdictKind::Passed
+        VerdictKind::Passed
         | VerdictKind::Failed
         | VerdictKind::NoAnswer
-        | VerdictKind::Pending) => {
-            let called = item.called.map(|called| info.method_name(called));
-            let names = called.unwrap_or_else(|| info.method_names("or"));
-            // The mistake itself can be in code that this method calls or relies on.
-            let result = if kind == VerdictKind::NoAnswer {
-                "no answer"
-            } else {
-                "a wrong answer"
-            };
-            format!("find out why {names} gives {result} ({place})")
-        }
+        | VerdictKind::Pending => debugging_step(score, assignment, task, item),
     };
     let what = format!("{}: {}", item.id, item.message);
     // What is wrong can be something other than the item's title says, such as a miss instead of a
@@ -115,30 +94,97 @@ pub fn first_step(
     format!("\n{}", labelled(rows.chain(notes(score)).chain(warnings)))
 }
 
-/// Returns the file and the line of a task's method or, if it isn't known, of the task's first
-/// method that isn't written yet.
-fn place_of_method(task: &TaskScore, called: Option<&str>, file: &str) -> String {
-    let mut methods = task.methods.iter();
-    match methods.find(|(method, _)| Some(*method) == called) {
-        Some((_, line)) => format!("{file}:{line}"),
-        None => task.method.clone(),
+/// Returns the step for an item whose method still contains `todo!`.
+fn writing_step(
+    score: &Score,
+    assignment: &Assignment,
+    task: &TaskScore,
+    item: &ItemScore,
+) -> String {
+    let info = assignment.info(task.id);
+    let Some(at) = &item.at else {
+        return format!("write {} in {}", info.method_names("and"), task.method);
+    };
+    let place = format!("{}:{}", at.file, at.line);
+    match (method_at(score, assignment, at), item.called) {
+        (Some((name, false)), _) => format!("write {name} in {place}"),
+        (Some((name, true)), _) => format!("finish {name} in {place}"),
+        // The line is in one of the student's own functions.
+        (None, Some(called)) => format!("finish {} in {place}", info.method_name(called)),
+        (None, None) => format!("finish {} in {place}", info.method_names("and")),
     }
 }
 
-/// Returns the name of the method at this place: the last one that begins above it.
-fn method_at(score: &Score, assignment: &Assignment, at: &CodeLocation) -> Option<String> {
-    let infos = score
-        .tasks
-        .iter()
-        .map(|task| (task, assignment.info(task.id)));
-    let in_file = infos.filter(|(_, info)| info.file == at.file);
-    let methods = in_file.flat_map(|(task, info)| {
-        let methods = task.methods.iter();
-        methods.map(move |(method, line)| (info, *method, *line))
+/// Returns the step for an item with a wrong answer or without an answer. The mistake itself can be
+/// in code that the named methods call or rely on.
+fn debugging_step(
+    score: &Score,
+    assignment: &Assignment,
+    task: &TaskScore,
+    item: &ItemScore,
+) -> String {
+    let info = assignment.info(task.id);
+    // A wrong answer has a symptom.
+    let is_panic = match item.verdict {
+        Verdict::Panicked => true,
+        Verdict::Partial => item.symptom.is_none(),
+        Verdict::Pass
+        | Verdict::Wrong
+        | Verdict::Unimplemented
+        | Verdict::TimedOut
+        | Verdict::OutOfMemory
+        | Verdict::Crashed
+        | Verdict::Protocol
+        | Verdict::NotCompiled
+        | Verdict::Blocked { .. }
+        | Verdict::Pending => false,
+    };
+    let result = match item.verdict.kind() {
+        _ if is_panic => "panics",
+        VerdictKind::NoAnswer => "gives no answer",
+        VerdictKind::Passed
+        | VerdictKind::Failed
+        | VerdictKind::Unwritten
+        | VerdictKind::NotCompiled
+        | VerdictKind::Blocked
+        | VerdictKind::Pending => "gives a wrong answer",
+    };
+    let called = item.called.map(|called| info.method_name(called));
+    let called = called.unwrap_or_else(|| info.method_names("or"));
+    if let Some(at) = item.at.as_ref().filter(|_| is_panic) {
+        let name = method_at(score, assignment, at).map_or(called, |(name, _)| name);
+        return format!("find out why {name} {result} ({}:{})", at.file, at.line);
+    }
+    let position = |path: &str| {
+        let mut methods = task.methods.iter();
+        let method = methods.find(|method| method.path == path)?;
+        Some(format!("{}:{}", info.file, method.line))
+    };
+    let own_position = item.called.and_then(position);
+    // What a method returns also depends on what its type's constructor has prepared.
+    let constructor = item.called.and_then(|called| info.constructor_of(called));
+    if let Some(constructor) = constructor
+        && let (Some(first), Some(second)) = (position(constructor), &own_position)
+    {
+        let constructor = info.method_name(constructor);
+        return format!("find out why {constructor} ({first}) or {called} ({second}) {result}");
+    }
+    let place = own_position.as_ref().unwrap_or(&task.method);
+    format!("find out why {called} {result} ({place})")
+}
+
+/// Returns the name of the method that contains this line, and whether it differs from the
+/// starter's version.
+fn method_at(score: &Score, assignment: &Assignment, at: &CodeLocation) -> Option<(String, bool)> {
+    let tasks = score.tasks.iter();
+    let mut methods = tasks.flat_map(|task| {
+        let info = assignment.info(task.id);
+        let methods = task.methods.iter().filter(|_| info.file == at.file);
+        methods.map(move |method| (info, method))
     });
-    let above = methods.filter(|(_, _, line)| *line <= at.line);
-    let (info, method, _) = above.max_by_key(|(_, _, line)| *line)?;
-    Some(info.method_name(method))
+    let (info, method) =
+        methods.find(|(_, method)| (method.line..=method.last_line).contains(&at.line))?;
+    Some((info.method_name(method.path), method.is_changed))
 }
 
 /// Returns the notes on the submission's files, with a label.
@@ -227,4 +273,117 @@ fn row(text: &str) -> String {
         .flat_map(|line| wrap(line.trim(), TEXT_WIDTH))
         .collect();
     format!("  next    {}\n\n", lines.join("\n          "))
+}
+
+#[cfg(test)]
+mod tests {
+    use judging::exam::Exam;
+    use judging::exam_file::ExamName;
+    use judging::symptom::Symptom;
+
+    use super::*;
+    use crate::handed_out::{LIGHT, MethodPosition};
+    use crate::score::tests::small_exam::{boxes, item};
+    use crate::verdict::pending_score;
+
+    /// Returns the step for an item about environment maps whose failure `change` describes.
+    fn step(change: impl FnOnce(&mut ItemScore)) -> String {
+        let items = vec![item("environment.pdf", vec![boxes(1)])];
+        let exam = Exam::new(LIGHT.assignment, "small", items);
+        let name = ExamName {
+            id: exam.id.clone(),
+            hash: String::new(),
+        };
+        let mut score = pending_score(&exam, name, "ann", &LIGHT);
+        let methods = [
+            ("uniform_sphere", 10, 19, true),
+            ("Environment::new", 30, 39, true),
+            ("Environment::sample", 50, 59, false),
+            ("Environment::pdf", 70, 79, true),
+        ];
+        let methods = methods.map(|(path, line, last_line, is_changed)| MethodPosition {
+            path,
+            line,
+            last_line,
+            is_changed,
+        });
+        score.tasks[0].methods = methods.into();
+        change(&mut score.tasks[0].items[0]);
+        let (task, item) = (&score.tasks[0], &score.tasks[0].items[0]);
+        if item.verdict == Verdict::Unimplemented {
+            writing_step(&score, LIGHT.assignment, task, item)
+        } else {
+            debugging_step(&score, LIGHT.assignment, task, item)
+        }
+    }
+
+    fn at(line: u32) -> Option<CodeLocation> {
+        Some(CodeLocation {
+            file: "environment.rs".to_owned(),
+            line,
+        })
+    }
+
+    #[test]
+    fn a_panic_is_in_the_method_that_contains_the_line() {
+        let panicked = |called, line: Option<u32>| {
+            step(|item| {
+                item.verdict = Verdict::Panicked;
+                item.called = Some(called);
+                item.at = line.and_then(at);
+            })
+        };
+        let pdf = "Environment::pdf";
+        for (step, expected) in [
+            (
+                panicked(pdf, Some(35)),
+                "find out why `Environment::new` panics (environment.rs:35)",
+            ),
+            // The line is in one of the student's own functions.
+            (
+                panicked(pdf, Some(45)),
+                "find out why `Environment::pdf` panics (environment.rs:45)",
+            ),
+            (
+                panicked("uniform_sphere", None),
+                "find out why `uniform_sphere` panics (environment.rs:10)",
+            ),
+        ] {
+            assert_eq!(step, expected);
+        }
+    }
+
+    #[test]
+    fn a_wrong_answer_can_come_from_the_constructor() {
+        let wrong = |called| {
+            step(|item| {
+                item.verdict = Verdict::Wrong;
+                item.symptom = Some(Symptom::of("pdf"));
+                item.called = Some(called);
+            })
+        };
+        let expected = "find out why `Environment::new` (environment.rs:30) or `Environment::pdf` \
+                        (environment.rs:70) gives a wrong answer";
+        assert_eq!(wrong("Environment::pdf"), expected);
+        let expected = "find out why `uniform_sphere` gives a wrong answer (environment.rs:10)";
+        assert_eq!(wrong("uniform_sphere"), expected);
+    }
+
+    #[test]
+    fn a_method_with_code_of_the_students_own_is_to_be_finished() {
+        let unwritten = |line| {
+            step(|item| {
+                item.verdict = Verdict::Unimplemented;
+                item.called = Some("Environment::pdf");
+                item.at = at(line);
+            })
+        };
+        for (line, expected) in [
+            (55, "write `Environment::sample` in environment.rs:55"),
+            (75, "finish `Environment::pdf` in environment.rs:75"),
+            (45, "finish `Environment::pdf` in environment.rs:45"),
+        ] {
+            assert_eq!(unwritten(line), expected);
+        }
+    }
 }

@@ -107,9 +107,9 @@ impl<'a> TaskSessions<'a> {
             return Ok((line, answers));
         };
         match self.build.substituted_program(file)? {
-            SubstitutedProgram::NoReference => Ok((blocked_score(by, line), answers)),
+            SubstitutedProgram::NoReference => Ok((blocked_score(by, line, !is_hopeless), answers)),
             SubstitutedProgram::NotCompiled if is_hopeless => {
-                Ok((blocked_score(by, line), answers))
+                Ok((blocked_score(by, line, false), answers))
             }
             SubstitutedProgram::NotCompiled => Ok((line, answers)),
             SubstitutedProgram::Program(program) => {

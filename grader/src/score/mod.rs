@@ -15,7 +15,7 @@ use judging::section::Section;
 use judging::symptom::Symptom;
 use serde::Serialize;
 
-use crate::handed_out::HandedOut;
+use crate::handed_out::{HandedOut, MethodPosition};
 use crate::sandbox::Isolation;
 use crate::score::rerun_command::RerunCommand;
 use crate::score::stage_times::StageTimes;
@@ -91,10 +91,9 @@ pub struct TaskScore {
     /// not found. Used for advice. Not stored in the file.
     #[serde(skip)]
     pub method: String,
-    /// The task's methods that were found, each with its line. Used for advice. Not stored in the
-    /// file.
+    /// The positions of the task's methods that were found. Used for advice. Not stored in the file.
     #[serde(skip)]
-    pub methods: Vec<(&'static str, u32)>,
+    pub methods: Vec<MethodPosition>,
     /// The compiler's warnings about the task's file, one line each. Not stored in the file.
     #[serde(skip)]
     pub warnings: Vec<String>,
@@ -144,6 +143,10 @@ pub struct ItemScore {
     /// item's message names it.
     #[serde(skip)]
     pub symptom: Option<Symptom>,
+    /// The number of wrong answers and the number of all answers. Used for advice. Not stored in the
+    /// file, since the item's message states both.
+    #[serde(skip)]
+    pub wrong_answers: Option<(usize, usize)>,
     /// The method of the task that gave the first wrong answer, or that gave none. Used for advice. Not
     /// stored in the file.
     #[serde(skip)]
@@ -378,6 +381,7 @@ impl ItemScore {
             symptom_clue: None,
             clue_section: None,
             symptom: None,
+            wrong_answers: None,
             called: None,
             hints: Vec::new(),
             evidence: None,

@@ -66,9 +66,19 @@ fn fix_first(earlier: &str) -> String {
     format!("{earlier} fails in the same way: fix that first.")
 }
 
+/// Returns whether the `earlier` item has less than half the item's share of wrong answers. Then the
+/// mistake has more to do with the item's own idea than with that of the earlier item.
+fn is_much_rarer(earlier: &ItemScore, item: &ItemScore) -> bool {
+    let share = |item: &ItemScore| match item.wrong_answers {
+        Some((wrong, all)) => wrong as f64 / all as f64,
+        None => 1.0,
+    };
+    share(earlier) < 0.5 * share(item)
+}
+
 /// Adds the clue for the quantity that is wrong in an item, unless the item is explained already or
 /// its own advice is about that quantity. If an `earlier` item of the task fails in the same way,
-/// the clue says to fix that item first.
+/// and not much more rarely, the clue says to fix that item first.
 fn add_symptom_clue(
     item: &Item,
     line: &mut ItemScore,
@@ -88,7 +98,9 @@ fn add_symptom_clue(
         return;
     };
     let is_alike = |other: &&ItemScore| {
-        other.symptom.as_ref() == Some(symptom) && other.verdict.kind() == VerdictKind::Failed
+        other.symptom.as_ref() == Some(symptom)
+            && other.verdict.kind() == VerdictKind::Failed
+            && !is_much_rarer(other, line)
     };
     if line.clue_section.is_some() {
         // The item has a clue with a section of its own.
@@ -115,14 +127,19 @@ fn clue_on_symptom(
     symptom: &Symptom,
     handed_out: &HandedOut,
 ) -> Option<(&'static str, Option<Section>)> {
-    if item.has_look_for(symptom) {
+    let clues = &handed_out.assignment.info(item.task).clues;
+    let clue = clues.of_symptom(symptom);
+    // A clue about zero says more than an item's advice about every symptom.
+    let says_more = symptom.is_about_zero()
+        && item.look_fits.is_empty()
+        && clue.is_some_and(|clue| clue.symptoms.contains(symptom));
+    if item.has_look_for(symptom) && !says_more {
         return None;
     }
     if symptom.side == Some(Side::NotANumber) {
         return Some((clue::NOT_A_NUMBER, chapter(item, handed_out)));
     }
-    let clues = &handed_out.assignment.info(item.task).clues;
-    let clue = clues.of_symptom(symptom)?;
+    let clue = clue?;
     Some((clue.clue, Some(Section::new(clue.section))))
 }
 
@@ -324,6 +341,20 @@ mod tests {
         assert_eq!(lines[2].symptom_clue.as_deref(), Some(hit.clue));
         let first = "sphere.near_side fails in the same way: fix that first.";
         assert_eq!(lines[3].symptom_clue.as_deref(), Some(first));
+        // An earlier item that fails much more rarely isn't named.
+        let with_rare = |wrong| {
+            let mut lines: Vec<ItemScore> = pending(&exam).items().cloned().collect();
+            for line in &mut lines {
+                line.verdict = Verdict::Wrong;
+                line.symptom = Some(Symptom::MISS);
+                line.wrong_answers = Some((40, 80));
+            }
+            lines[0].wrong_answers = Some((wrong, 100));
+            explain_items(&exam, &mut lines, &Observations::default(), None, &RAYS);
+            lines.into_iter().map(|line| line.symptom_clue).nth(1)
+        };
+        let named = [10, 25].map(|wrong| with_rare(wrong).flatten().as_deref() == Some(first));
+        assert_eq!(named, [false, true]);
         // No item's own advice is about NaN.
         let nan = |what| Symptom {
             side: Some(Side::NotANumber),

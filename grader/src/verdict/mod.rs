@@ -261,7 +261,12 @@ fn score_answers(
                 what: what.clone().into(),
                 side: *side,
             });
-            score.message = wrong_answer_message(what, item, judgements, (question, failure));
+            score.wrong_answers = wrong_answers(item, judgements, (question, failure));
+            score.message = wrong_answer_message(
+                what,
+                score.wrong_answers,
+                item.number(question, failure.element),
+            );
             (partial(Verdict::Wrong), got.clone(), wanted.clone())
         }
         FailureKind::Uneven { got, wanted } => {
@@ -365,15 +370,9 @@ fn evidence(item: &Item, (question, element): (usize, usize), answers: [String; 
 }
 
 /// Returns a message that gives the number of wrong answers and says `what` is wrong with the
-/// answer shown.
-fn wrong_answer_message(
-    what: &str,
-    item: &Item,
-    judgements: &[Judgement],
-    (question, failure): (usize, &Failure),
-) -> String {
-    let number = item.number(question, failure.element);
-    match wrong_answers(item, judgements, (question, failure)) {
+/// answer shown, which is the one with this number.
+fn wrong_answer_message(what: &str, wrong: Option<(usize, usize)>, number: usize) -> String {
+    match wrong {
         Some((1, of)) if of > 1 => format!("1 of {of} answers is wrong: {what}"),
         Some((wrong, of)) if of > 1 => {
             format!("{wrong} of {of} answers are wrong; in #{number}: {what}")
@@ -420,18 +419,24 @@ pub fn unwritten_score(item: &Item, file: &str, method: u32, handed_out: &Handed
 
 /// Returns the score of an item that depends on the failed item `by`. If the item earned nothing,
 /// it is reported as blocked, because without substituted parts it is impossible to tell which of
-/// the two tasks contains the mistake.
-pub fn blocked_score(by: &str, line: ItemScore) -> ItemScore {
+/// the two tasks contains the mistake. An item that was not run may not even use the code that `by`
+/// tests.
+pub fn blocked_score(by: &str, line: ItemScore, is_run: bool) -> ItemScore {
     if line.points > 0 || line.verdict == Verdict::Pending {
         return line;
     }
     ItemScore {
         verdict: Verdict::Blocked { by: by.to_owned() },
-        message: format!("depends on {by}: fix that first"),
+        message: if is_run {
+            format!("depends on {by}: fix that first")
+        } else {
+            format!("waits for {by}: fix that first")
+        },
         at: None,
         look: None,
         clue: None,
         symptom: None,
+        wrong_answers: None,
         called: None,
         symptom_clue: None,
         section: None,

@@ -194,6 +194,15 @@ impl TaskInfo {
         }
     }
 
+    /// Returns the constructor to write for a method's type, unless the method is that constructor.
+    pub fn constructor_of(&self, method: &str) -> Option<&'static str> {
+        let (of_type, name) = method.rsplit_once("::")?;
+        let mut methods = self.methods.iter().copied();
+        let constructor =
+            methods.find(|other| other.rsplit_once("::") == Some((of_type, "new")))?;
+        (name != "new").then_some(constructor)
+    }
+
     /// Returns the method that a question calls, if it is one of the task's.
     pub fn called_by(&self, question: &Question) -> Option<&'static str> {
         let table = question.table()?;
@@ -252,6 +261,18 @@ mod tests {
             assert_eq!(assignment.points(), 100);
             assert!(assignment.tasks().all(|task| ids.insert(task)));
         }
+    }
+
+    #[test]
+    fn only_a_type_whose_constructor_is_to_be_written_has_one() {
+        let environment = LIGHT.find("environment").unwrap();
+        let new = Some("Environment::new");
+        assert_eq!(environment.constructor_of("Environment::pdf"), new);
+        for other in ["Environment::new", "uniform_sphere"] {
+            assert_eq!(environment.constructor_of(other), None, "{other}");
+        }
+        let camera = RAYS.find("camera").unwrap();
+        assert_eq!(camera.constructor_of("Camera::sample_ray"), None);
     }
 
     #[test]

@@ -37,7 +37,7 @@ impl FieldType for Color {
         let Value::Color(wanted) = wanted else {
             return None;
         };
-        Side::of(self.0.element_sum(), wanted.element_sum())
+        Side::of_amount(self.0.element_sum(), wanted.element_sum())
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {

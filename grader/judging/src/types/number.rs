@@ -23,9 +23,29 @@ pub fn number(value: f32) -> String {
     }
 }
 
+/// Formats a random number in `[0, 1)`. A number just below 1 isn't rounded to 1.
+pub(super) fn random(value: f32) -> String {
+    if (0.999_999..1.0).contains(&value) {
+        value.to_string()
+    } else {
+        number(value)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_random_number_is_never_printed_as_one() {
+        for (value, text) in [
+            (0.5, "0.5"),
+            (0.999_999_6, "0.9999996"),
+            (1.0_f32.next_down(), "0.99999994"),
+        ] {
+            assert_eq!(random(value), text);
+        }
+    }
 
     #[test]
     fn prints_six_significant_digits() {

@@ -60,7 +60,7 @@ impl FieldType for Portion<'_> {
     }
 
     fn side(&self, wanted: &Value) -> Option<Side> {
-        Side::of(number_in(self.0)?, number_in(wanted)?)
+        Side::of_amount(number_in(self.0)?, number_in(wanted)?)
     }
 
     fn in_tolerances(&self, _: f32) -> Vec<f32> {

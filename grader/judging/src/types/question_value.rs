@@ -2,6 +2,7 @@
 
 use protocol::Value;
 
+use super::number::random;
 use super::{FieldType, light, number, uv};
 
 pub(super) struct QuestionValue<'a>(pub(super) &'a Value<'a>);
@@ -15,8 +16,8 @@ impl FieldType for QuestionValue<'_> {
             Value::Pixel(pixel) => format!("({}, {})", pixel.x, pixel.y),
             Value::Offset(offset) => uv(*offset),
             Value::Nodes(nodes) => nodes.len().to_string(),
-            Value::Random(random) => number(*random),
-            Value::RandomPair(random) => uv(*random),
+            Value::Random(value) => random(*value),
+            Value::RandomPair(pair) => format!("({}, {})", random(pair.x), random(pair.y)),
             Value::Lights(lights) => light::text(lights),
             Value::Scene(room) => light::room_text(room),
             Value::Map(map) => light::map_text(map),

@@ -119,7 +119,7 @@ fn no_hint(score: &Score, selection: &TaskSelection, hints: HintDetail) -> &'sta
     let is_wrong = items().any(|item| item.verdict.kind() == VerdictKind::Failed);
     let has_hint = items().any(|item| !item.hints.is_empty());
     if hints == HintDetail::Full && is_wrong && !has_hint {
-        "\n  --hints: these answers don't match any known mistake\n"
+        "\n  --hints: no known mistake explains all of these answers\n"
     } else {
         ""
     }

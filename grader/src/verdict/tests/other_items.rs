@@ -20,7 +20,12 @@ fn a_blocked_item_says_only_what_to_fix_first() {
         verdict: Verdict::Blocked { by },
         ..ItemScore::pending(&line.id, &line.title, 4)
     };
-    assert_eq!(blocked_score("triangle.inside", line), expected);
+    assert_eq!(
+        blocked_score("triangle.inside", line.clone(), true),
+        expected
+    );
+    let waiting = blocked_score("triangle.inside", line, false);
+    assert_eq!(waiting.message, "waits for triangle.inside: fix that first");
 }
 
 #[test]
@@ -30,10 +35,10 @@ fn an_item_that_earned_points_in_spite_of_a_failed_one_is_not_blocked() {
             points,
             ..full_score()
         };
-        assert_eq!(blocked_score("triangle.inside", line.clone()), line);
+        assert_eq!(blocked_score("triangle.inside", line.clone(), true), line);
     }
     let line = without_answer(&ItemOutcome::Pending);
-    assert_eq!(blocked_score("triangle.inside", line.clone()), line);
+    assert_eq!(blocked_score("triangle.inside", line.clone(), true), line);
 }
 
 fn mistake(id: &str, section: Option<&str>) -> KnownMistake {

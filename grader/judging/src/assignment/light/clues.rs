@@ -70,8 +70,9 @@ pub(super) const LIGHTS: TaskClues = TaskClues {
     by_symptom: &[
         SymptomClue {
             symptoms: &[Symptom::less(SOME_OR_NONE)],
-            clue: "The light that `choice` picks doesn't face away, but your code returns `None`. Which of your \
-                conditions causes this: the one about the list, the picked light, or the cosine at the light?",
+            clue: "The light that `choice` picks doesn't face away, but your code returns `None`. With several \
+                lights, does it pick the right one? In front of a light, the direction toward it and its normal have \
+                a negative dot product: is yours negative?",
             section: "light/lights.md#pick-a-light-by-its-power",
         },
         SymptomClue {
@@ -93,9 +94,21 @@ pub(super) const LIGHTS: TaskClues = TaskClues {
         },
         SymptomClue {
             symptoms: &[Symptom::of("direction")],
-            clue: "Work out by hand which light `choice` picks, and which point on it `random` picks. Does \
-                your direction lead from the point shown to that one?",
+            clue: "Work out by hand which light `choice` picks, and which point on it `AreaLight::point` returns \
+                for `random`. Does your direction lead from the point shown to that one?",
             section: "light/lights.md#from-the-point-to-the-light",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::zero("pdf")],
+            clue: "The direction hits the front of a light, but your density is 0. Which direction do you pass to \
+                `intersect`, what is the sign of your cosine, and does your sum run over all lights?",
+            section: "light/lights.md#the-density-of-an-area-light",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::not_zero("pdf")],
+            clue: "No sample leads in this direction, but your density isn't 0. Does the direction hit a light at \
+                all, and from which side? Find that out before you use the formula.",
+            section: "light/lights.md#past-the-light-there-is-no-density",
         },
     ],
     ..TaskClues::NONE
@@ -104,18 +117,43 @@ pub(super) const LIGHTS: TaskClues = TaskClues {
 /// The clues for direct light.
 pub(super) const DIRECT: TaskClues = TaskClues {
     sections_on_panics: &[(PanicKind::NoValue, "light/direct.md#without-a-light-sample")],
+    by_symptom: &[
+        SymptomClue {
+            symptoms: &[Symptom::zero("value")],
+            clue: "Your result is 0, although one of the two directions finds light. What makes your code drop it? \
+                And is each direction in the right frame: the surface's for the material, world space for `World`?",
+            section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::of("value")],
+            clue: "Work out both terms for the question shown: evaluate × radiance / (light pdf + scattering pdf). \
+                Which factor is different in your code, and which frame is its direction in?",
+            section: "light/direct.md#what-to-return",
+        },
+    ],
     ..TaskClues::NONE
 };
 
 /// The clues for paths.
 pub(super) const PATH: TaskClues = TaskClues {
-    sections_on_panics: &[(PanicKind::NoValue, "light/paths.md#what-is-counted-where")],
-    by_symptom: &[SymptomClue {
-        symptoms: &[Symptom::of("value")],
-        clue: "Follow your path for the question shown. At each surface, write down what your code adds and \
-            what the throughput is. Which of the steps in the handout does your code do differently?",
-        section: "light/paths.md#what-to-return",
-    }],
+    sections_on_panics: &[(
+        PanicKind::NoValue,
+        "light/paths.md#a-surface-that-scatters-nothing",
+    )],
+    by_symptom: &[
+        SymptomClue {
+            symptoms: &[Symptom::zero("value")],
+            clue: "Your result is 0, so your path finds no light, or loses what it has found. Where does the path \
+                of the question shown end, and what do you return there for the light found so far?",
+            section: "light/paths.md#what-to-return",
+        },
+        SymptomClue {
+            symptoms: &[Symptom::of("value")],
+            clue: "Follow your path for the question shown. At each surface, write down what your code adds and \
+                what the throughput is. Which of the steps in the handout does your code do differently?",
+            section: "light/paths.md#what-to-return",
+        },
+    ],
     ..TaskClues::NONE
 };
 
@@ -128,15 +166,15 @@ pub(super) const ENVIRONMENT: TaskClues = TaskClues {
     by_symptom: &[
         SymptomClue {
             symptoms: &[LENGTH],
-            clue: "A direction has length one. Add up the squares of your three components, and compare each of \
-                them with the formula: which one lacks a factor?",
+            clue: "A direction has length one: add up the squares of your components. At the height h = cos θ, the \
+                other two are on a circle: what is its radius in the formula, and what is it in your code?",
             section: "light/environment.md#three-components-and-two-angles",
         },
         SymptomClue {
             symptoms: &[Symptom::of("direction"), Symptom::reversed("direction")],
-            clue: "Pass your direction and the correct one to `Environment::index`. If both are in \
-                   the same pixel, look at the position in the pixel and at the two angles. \
-                   Otherwise, look at the weights and the search.",
+            clue: "Pass the correct direction to `Environment::index`. If your search returns the same \
+                   index, check how you turn it and `random` into two angles. Otherwise, check the \
+                   weights (luminance × sine in the middle of the row) and the search.",
             section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
         },
         SymptomClue {

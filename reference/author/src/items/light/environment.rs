@@ -78,9 +78,9 @@ const PICK: Declaration = Declaration {
     id: "environment.pick",
     points: 3,
     title: "pixels are picked in proportion to their weight, row by row from the top",
-    look: "Pass your direction and the correct one to `Environment::index`. If the pixels differ, \
-           add up the weights in order: which pixel does `choice` times the total fall on, and what are \
-           its row and column? If they match, check the two angles.",
+    look: "Pass the correct direction to `Environment::index`. If your search returns the same index, \
+           check the pixel's row and column and the two angles. Otherwise, add up the weights in order: \
+           is each one luminance × sine in the middle of the row?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[

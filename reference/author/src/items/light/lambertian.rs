@@ -92,7 +92,7 @@ const BELOW: Declaration = Declaration {
     points: 2,
     title: "nothing is scattered unless both directions are above the surface",
     look: "What do you return if z is negative or 0 in `out`, in `incoming`, or in both?",
-    section: "light/materials.md#light-from-below-is-not-scattered",
+    section: "light/materials.md#both-directions-must-be-above-the-surface",
     tests: &["The result is zero unless both directions are above the surface (z > 0)."],
     questions: |rng| {
         surfaces(rng, |rng, matte| {

@@ -212,8 +212,8 @@ const FRESNEL_ENTERING: Declaration = Declaration {
     id: "specular.fresnel_entering",
     points: 2,
     title: "outside, the reflected fraction follows the Fresnel equations at every angle",
-    look: "Work out both ratios at 60°, and compare them with those in your code. The result is the \
-           mean of their squares.",
+    look: "Work out both ratios at 60°. The result is the mean of their squares, and an approximation \
+           such as Schlick's isn't close enough to it. Which step is different in your code?",
     section: "light/glass.md#how-much-is-reflected",
     tests: &[
         "Returns the fraction of unpolarised light that the surface of a medium with index of \
@@ -262,7 +262,8 @@ const FRESNEL_TOTAL: Declaration = Declaration {
     id: "specular.fresnel_total",
     points: 1,
     title: "everything is reflected beyond the critical angle, and only a part below it",
-    look: "What do you return where `refract` returns `None`?",
+    look: "Is the squared sine of the refracted angle above 1 for the question shown? Then nothing is \
+           refracted: what do you return? Otherwise, compare both ratios with those in your code.",
     section: "light/glass.md#total-reflection-is-full-reflection",
     tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
     questions: |rng| {

@@ -1,6 +1,7 @@
 //! The item about direct light from an environment map.
 
 use glam::DVec3;
+use judging::symptom::Symptom;
 
 use super::super::groups::{
     DIRECT_MAPS, LIGHT_DENSITIES, LIGHT_SAMPLES, MAPS, MATTE, MATTE_SAMPLES,
@@ -17,6 +18,7 @@ pub(super) const MAP: Declaration = Declaration {
     title: "both samples find an environment map, even if there are lights",
     look: "An environment map has a light pdf too. Which method of `World` returns the light pdf \
            of any direction, whether it leads to a light or to the map?",
+    look_fits: &[Symptom::of("value")],
     section: "light/direct.md#the-light-pdf-of-the-world",
     tests: &[
         "Each term uses both densities of its own direction, no matter which way that direction \

@@ -4,6 +4,7 @@ mod map;
 
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
+use judging::symptom::Symptom;
 use protocol::Table;
 use protocol::light::LightQuestion;
 
@@ -48,8 +49,9 @@ const SMALL_LIGHT: Declaration = Declaration {
     id: "direct.small_light",
     points: 2,
     title: "sampling the light finds a small light where nothing is in the way",
-    look: "Each of the two terms is evaluate × radiance / (light pdf + scattering pdf), all for its \
-           own direction. Work out both for the question shown: which of them is wrong in your code?",
+    look: "Work out both terms, evaluate × radiance / (light pdf + scattering pdf), for the question \
+           shown. Which one is wrong, and is its direction in the surface's frame for the \
+           material, and in world space for `World`?",
     section: "light/direct.md#two-ways-to-find-a-light",
     tests: &[
         "Estimates the direct light that a surface scatters back along the path, from one \
@@ -87,6 +89,7 @@ const SKY: Declaration = Declaration {
     look: "Without lights, only the material's direction remains. Is it the one that `scatter` \
            returns for `numbers.direct`, do you convert it to world space, and what do you divide \
            by?",
+    look_fits: &[Symptom::of("value")],
     section: "light/direct.md#an-even-sky-is-found-by-scattering",
     tests: &[
         "The second is the one that `Lambertian::scatter` returns for the random numbers \
@@ -178,6 +181,7 @@ const BLOCKED: Declaration = Declaration {
     title: "light arrives from a direction only if nothing is in the way",
     look: "Which method of `World` tells you whether anything is between the surface and the \
            light?",
+    look_fits: &[Symptom::more("value")],
     section: "light/direct.md#something-in-the-way",
     tests: &[
         "It is zero if something is in the way: see [`World::emitted`].",
@@ -188,7 +192,14 @@ const BLOCKED: Declaration = Declaration {
         let tiny = (1e-4, DVec3::ZERO);
         let places = [vec![tiny], places(rng)].concat();
         rooms_at(rng, &places, with_screens, |rng, room| {
-            let mut cases = LIT_AND_DARK(rng, room);
+            let mut cases: Vec<_> = (0..CALLS)
+                .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
+                .collect();
+            cases.extend((0..CALLS).map(|_| {
+                direct_case(rng, room, |surface, numbers, _| {
+                    is_like_matte(room, surface, numbers)
+                })
+            }));
             // The direction toward a light is blocked, but scattering finds a light.
             cases.extend((0..CALLS / 2).map(|_| {
                 direct_case(rng, room, |surface, numbers, light| {
@@ -205,9 +216,9 @@ const BLOCKED: Declaration = Declaration {
             for is_kind in kinds {
                 cases.extend((0..CALLS / 2).map(|_| {
                     direct_case(rng, room, |surface, numbers, _| {
-                        blocker(room, surface, numbers)
-                            .as_ref()
-                            .is_some_and(is_kind)
+                        let blocker = blocker(room, surface, numbers);
+                        blocker.as_ref().is_some_and(is_kind)
+                            && is_like_matte(room, surface, numbers)
                     })
                 }));
             }
@@ -224,6 +235,7 @@ const TURNED: Declaration = Declaration {
     title: "directions are converted to and from the frame of a tilted surface",
     look: "Which of your directions are in world space, and which are in the surface's frame? \
            Check where you convert one to the other.",
+    look_fits: &[Symptom::of("value")],
     section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
     tests: &["The result is the sum, over both directions, of evaluate × radiance / …"],
     questions: |rng| {
@@ -273,6 +285,7 @@ const NO_SAMPLE: Declaration = Declaration {
     title: "the material's direction is used with and without a direction toward a light",
     look: "If `World::sample_light` returns `None`, only the first term is zero: do you still \
            compute the second one?",
+    look_fits: &[Symptom::of("value")],
     section: "light/direct.md#without-a-light-sample",
     tests: &["If it returns `None`, the first term is zero."],
     questions: |rng| {
@@ -324,6 +337,7 @@ const OTHER_MATERIALS: Declaration = Declaration {
     title: "only matte surfaces look for direct light",
     look: "If the correct result is 0, the surface may be a mirror, glass or a light: what do you \
            return for these? Otherwise, it is matte: check each factor of the formula.",
+    look_fits: &[Symptom::of("value")],
     section: "light/direct.md#no-light-sample-at-mirrors-and-glass",
     tests: &[
         "Only matte surfaces look for direct light.",
@@ -425,6 +439,15 @@ fn seen(room: &Room, surface: &Surface64, direction: DVec3) -> Option<Surface64>
         max: f64::INFINITY,
     };
     room.hit(&ray, Some(surface)).value
+}
+
+/// Returns whether a surface is matte, or would get no light if it were. The other surfaces are
+/// those that [`OTHER_MATERIALS`] is about.
+fn is_like_matte(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool {
+    let mut matte = *surface;
+    matte.material = Material64::Lambertian { albedo: DVec3::ONE };
+    matches!(surface.material, Material64::Lambertian { .. })
+        || !is_lit(oracle::direct(room, &matte, numbers).value)
 }
 
 /// Cases that get light, and as many that get none if the room has any.

@@ -98,6 +98,7 @@ const BEHIND: Declaration = Declaration {
     title: "a light's density is 0 from behind, and positive in front",
     look: "If the correct density is 0, the point is behind the light: what is the sign of your \
            cosine? Otherwise, compare each factor of the formula with your code.",
+    look_fits: &[Symptom::of("pdf")],
     section: "light/lights.md#the-back-of-a-light-is-dark",
     tests: &["The result is zero if the direction misses the light, and from behind, …"],
     questions: |rng| {
@@ -117,6 +118,7 @@ const PAST: Declaration = Declaration {
     title: "only a direction that hits the light has a density",
     look: "If the correct density is 0, `intersect` finds nothing: what do you return then? \
            Otherwise, compare each factor of the formula with your code.",
+    look_fits: &[Symptom::of("pdf")],
     section: "light/lights.md#past-the-light-there-is-no-density",
     tests: &[
         "The result is zero if the direction misses the light, and from behind, where the light \
@@ -165,9 +167,10 @@ const DIRECTION: Declaration = Declaration {
     id: "lights.direction",
     points: 2,
     title: "a sample is the unit direction to the given point on the light",
-    look: "Which point does your direction start from, which point does it lead to, and how long \
-        is it?",
-    look_fits: &[Symptom::of("direction")],
+    look: "Does your direction lead from the point shown to the one that `AreaLight::point` \
+           returns, and how long is it? In front of the light, its dot product with the light's \
+           normal is negative.",
+    look_fits: &[Symptom::of("direction"), Symptom::less(SOME_OR_NONE)],
     section: "light/lights.md#from-the-point-to-the-light",
     tests: &[
         "Samples a direction from a point to a light with random numbers in `[0, 1)`.",
@@ -226,7 +229,7 @@ const FACES_AWAY: Declaration = Declaration {
     title: "there is a sample only if there are lights and the picked one doesn't face away",
     look: "If the light that was picked faces away, do you pick another light, or return a \
         direction anyway?",
-    look_fits: &[Symptom::of(SOME_OR_NONE)],
+    look_fits: &[Symptom::more(SOME_OR_NONE)],
     section: "light/lights.md#the-picked-light-may-face-away",
     tests: &[
         "The result is `None` if there are no lights, or if the light that was picked faces away.",

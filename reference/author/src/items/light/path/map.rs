@@ -1,6 +1,7 @@
 //! The item about paths under an environment map.
 
 use glam::{DVec3, dvec3};
+use judging::symptom::Symptom;
 
 use super::super::color;
 use super::super::groups::{
@@ -23,6 +24,7 @@ pub(super) const MAP: Declaration = Declaration {
     title: "an environment map is counted like a light, in the direction of the ray",
     look: "A map doesn't look the same in every direction. Which direction do you look it up in, \
         and in which cases?",
+    look_fits: &[Symptom::of("value")],
     section: "light/paths.md#a-ray-that-hits-nothing",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \

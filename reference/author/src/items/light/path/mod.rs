@@ -61,6 +61,7 @@ const SEEN: Declaration = Declaration {
     title: "with 0 bounces, the ray sees only emitted light or the environment",
     look: "What do you add if the ray hits a light, and what if it hits nothing? With 0 bounces, \
            nothing else is added.",
+    look_fits: &[Symptom::of("value")],
     section: "light/paths.md#what-is-counted-where",
     tests: &[
         "Estimates the radiance that arrives at the origin of a ray, by following one path.",
@@ -274,6 +275,7 @@ const MIRROR: Declaration = Declaration {
     title: "mirrors show the lights and the sky, and a light is black from behind",
     look: "At a mirror, `direct` returns zero, so the light that the path hits next must be \
            counted, multiplied by the throughput. Which value of `pdf` tells you that?",
+    look_fits: &[Symptom::of("value")],
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \
@@ -349,6 +351,7 @@ const GLASS: Declaration = Declaration {
     look: "Follow the path of the question shown. At each surface, write down which side it \
            continues on, the light that is added and the throughput. From bounce 3 on, roulette \
            divides the throughput by q.",
+    look_fits: &[Symptom::of("value")],
     section: "light/paths.md#a-mirror-shows-the-light",
     tests: &[
         "The light that a surface emits, or the environment if the ray hits nothing, is counted \
@@ -489,6 +492,7 @@ const SIZES: Declaration = Declaration {
     title: "a path doesn't hit the surface that it leaves, in a room of any size",
     look: "Where does your next ray start? Use `Surface::leave`, which takes into account how far \
            rounding can move a point.",
+    look_fits: &[Symptom::of("value")],
     section: "light/paths.md#leave-the-surface",
     tests: &[
         "At each bounce, the path adds [`direct`] light and continues in the direction that …",

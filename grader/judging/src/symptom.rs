@@ -126,11 +126,14 @@ impl Side {
     /// Returns the side on which an amount is wrong, which is never negative: a density, a fraction
     /// or the light in a colour.
     pub fn of_amount(got: f32, wanted: f32) -> Option<Self> {
-        match Side::of(got, wanted)? {
-            Side::Less if got == 0.0 => Some(Side::Zero),
-            Side::More if wanted == 0.0 => Some(Side::NotZero),
-            side => Some(side),
-        }
+        let side = Side::of(got, wanted)?;
+        Some(if got == 0.0 && side == Side::Less {
+            Side::Zero
+        } else if wanted == 0.0 && side == Side::More {
+            Side::NotZero
+        } else {
+            side
+        })
     }
 
     /// Returns the side on which a value is wrong, or `None` if it equals the expected value.

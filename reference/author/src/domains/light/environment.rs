@@ -22,6 +22,7 @@ pub static UNIFORM_SPHERE: FunctionDomain<Row<UniformSphere>> = FunctionDomain {
     subject_aspects: &[],
     aspects: &[Aspect::RANDOM_X, Aspect::RANDOM_Y],
     pairs: &[["random.x", "random.y"]],
+    fields: &[],
     calls: rows_of!(UniformSphere),
     not_asked: &[
         not_asked(&["first call"], &[], &[], "The function has no subject."),
@@ -49,6 +50,7 @@ pub static MAP_SAMPLE: FunctionDomain<Row<EnvironmentSample>> = FunctionDomain {
         Aspect::RANDOM_Y,
     ],
     pairs: &[],
+    fields: &["choice", "random", "map"],
     calls: rows_of!(EnvironmentSample),
     not_asked: &[
         not_asked(
@@ -87,6 +89,7 @@ pub static MAP_PDF: FunctionDomain<Row<EnvironmentPdf>> = FunctionDomain {
         LONGITUDE,
     ],
     pairs: &[],
+    fields: &["direction", "map"],
     calls: rows_of!(EnvironmentPdf),
     not_asked: &[not_asked(
         &["longitude"],

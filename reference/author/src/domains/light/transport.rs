@@ -47,6 +47,7 @@ pub static DIRECT: FunctionDomain<DirectCall> = FunctionDomain {
         [LIGHT_SAMPLE.name, SCATTERED.name],
         ["lights", LIGHT_SAMPLE.name],
     ],
+    fields: &["origin", "direction", "light", "on_light", "direct", "scene"],
     calls: direct_calls,
     not_asked: &[not_asked(
         &["lights"],
@@ -77,6 +78,7 @@ pub static RADIANCE: FunctionDomain<PathCall> = FunctionDomain {
         FIRST_SCATTERED,
     ],
     pairs: &[["environment", FIRST.name]],
+    fields: &["origin", "direction", "seed", "bounces", "scene"],
     calls: path_calls,
     not_asked: &[],
 };

@@ -184,8 +184,28 @@ pub fn color_class(color: Vec3) -> usize {
     }
 }
 
+/// The classes of colours with several channels, by the dimmest one as a fraction of the brightest.
+pub const CONTRASTS: &[&str] = &["above 0.1", "above 1e-3", "smaller"];
+
+/// Returns the class of a colour, or `None` if it has fewer than two channels.
+pub fn contrast_class(color: Vec3) -> Option<usize> {
+    let channels = color.to_array().into_iter().filter(|channel| *channel > 0.0);
+    let channels: Vec<f32> = channels.collect();
+    let dimmest = channels.iter().copied().fold(f32::INFINITY, f32::min);
+    let limits = [0.1, 1e-3];
+    let contrast = dimmest / color.max_element();
+    (channels.len() > 1).then(|| limits.iter().filter(|limit| contrast < **limit).count())
+}
+
+/// Returns factors for the channels of a colour, one of which is very small.
+pub fn saturation(rng: &mut Rng) -> DVec3 {
+    let mut factors = DVec3::ONE;
+    factors[rng.index(3)] = rng.log_uniform(1e-5, 4e-5);
+    factors
+}
+
 /// Picks random reflectances, so that each class of colours occurs, and each class of channels in
-/// each channel. One of them is dark in all channels.
+/// each channel. One of them is dark in all channels, and one in a single channel.
 pub fn reflectances(rng: &mut Rng) -> Vec<DVec3> {
     let count = CHANNELS.len();
     let mut all: Vec<DVec3> = (0..count)
@@ -198,7 +218,9 @@ pub fn reflectances(rng: &mut Rng) -> Vec<DVec3> {
     let grey = DVec3::splat(channel(rng, 2));
     let dark = DVec3::from_array([2; 3].map(|class| channel(rng, class)));
     let dark = rng.log_uniform(1e-3, 0.015) * dark;
-    all.extend([channel(rng, 2) * axis, grey, dark, DVec3::ONE, DVec3::ZERO]);
+    let saturated = channel(rng, 2) * saturation(rng);
+    all.extend([channel(rng, 2) * axis, grey, dark, saturated]);
+    all.extend([DVec3::ONE, DVec3::ZERO]);
     all
 }
 

@@ -8,8 +8,8 @@ use protocol::light::specular::{
 };
 
 use super::fields::{
-    ALONG, AZIMUTHS, CHANNELS, COLORS, HEIGHTS, INDICES, NOT_ABOVE, azimuth_class, channel_class,
-    color_class, height_class, index_class,
+    ALONG, AZIMUTHS, CHANNELS, COLORS, CONTRASTS, HEIGHTS, INDICES, NOT_ABOVE, azimuth_class,
+    channel_class, color_class, contrast_class, height_class, index_class,
 };
 use super::{Outgoing, Row, rows_of};
 use crate::domains::{Aspect, FunctionDomain, UntestedClasses, not_asked};
@@ -243,6 +243,13 @@ impl<F: Function<Subject: Colored>> Aspect<Row<F>> {
         class: |row| Some(channel_class(row.subject.color().max_element())),
     };
 
+    /// The contrast between the channels of the material's colour.
+    pub const CONTRAST: Self = Aspect {
+        name: "dimmest over brightest channel",
+        classes: CONTRASTS,
+        class: |row| contrast_class(row.subject.color()),
+    };
+
     /// All aspects of the material's colour.
     const COLORS: &'static [Self] = &[
         Self::RED,
@@ -250,6 +257,7 @@ impl<F: Function<Subject: Colored>> Aspect<Row<F>> {
         Self::BLUE,
         Self::COLOR,
         Self::BRIGHTEST,
+        Self::CONTRAST,
     ];
 }
 

@@ -32,7 +32,11 @@ impl FieldType for Color {
         let channels = error.to_array().into_iter().zip(wanted.abs().to_array());
         let errors = channels.map(|(error, wanted)| {
             // `f64::max` would ignore a channel that is NaN.
-            let error = if error.is_finite() { error } else { f64::INFINITY };
+            let error = if error.is_finite() {
+                error
+            } else {
+                f64::INFINITY
+            };
             in_units_of(TOLERANCE * wanted.max(dimmest), error)
         });
         errors.fold(0.0, f64::max)

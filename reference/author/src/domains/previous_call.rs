@@ -86,7 +86,9 @@ fn only_change(previous: &AnsweredCall, call: &AnsweredCall) -> Option<&'static 
 fn changed_fields(a: &dyn Record, b: &dyn Record) -> Vec<(&'static str, bool)> {
     let values = a.names().iter().zip(a.values().zip(b.values()));
     let changed = values.filter(|(_, (a, b))| a != b);
-    changed.map(|(name, (a, b))| (*name, size(&a) == size(&b))).collect()
+    changed
+        .map(|(name, (a, b))| (*name, size(&a) == size(&b)))
+        .collect()
 }
 
 /// Returns the number of lights in a list or of pixels in a map, which a function could compare
@@ -125,5 +127,52 @@ fn components(value: &Value) -> Vec3 {
         Vec3::splat(number.unwrap_or(-1.0))
     } else {
         Vec3::ZERO
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use judging::exam::ExpectedRows;
+    use protocol::light::LightQuestion;
+    use protocol::light::specular::{GlassSample, Medium};
+    use protocol::{Fraction, Table};
+
+    use super::*;
+
+    const FIELDS: &[&str] = &["out", "random", "ior"];
+
+    /// Returns a question whose answers are these numbers.
+    fn question(ior: f32, rows: &[(Vec3, f32, f32)]) -> ExamQuestion {
+        let calls = rows
+            .iter()
+            .map(|&(out, random, _)| GlassSample { out, random });
+        let table = Table::of_list(Medium { ior }, calls.collect());
+        let answers = rows.iter().map(|&(_, _, fraction)| Fraction { fraction });
+        let rows = ExpectedRows::Fractions(answers.collect());
+        ExamQuestion::new(
+            LightQuestion::GlassScatter(table).into(),
+            Key::table(&["fraction"], rows),
+        )
+    }
+
+    #[test]
+    fn the_only_changed_field_is_found_if_the_answer_changes_too() {
+        let first = question(1.5, &[(Vec3::X, 0.5, 0.1)]);
+        let second = question(
+            2.0,
+            &[
+                // Only the index has changed.
+                (Vec3::X, 0.5, 0.2),
+                (Vec3::Y, 0.5, 0.3),
+                (Vec3::Y, 0.7, 0.4),
+                // The answer stays the same.
+                (Vec3::Y, 0.8, 0.4),
+                // Two fields change.
+                (Vec3::Z, 0.9, 0.5),
+            ],
+        );
+        let changes = only_changes(FIELDS, &second, Some(&first));
+        assert_eq!(changes, [Some(2), Some(0), Some(1), None, None]);
+        assert_eq!(only_changes(FIELDS, &second, None)[0], None);
     }
 }

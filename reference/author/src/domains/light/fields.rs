@@ -189,7 +189,10 @@ pub const CONTRASTS: &[&str] = &["above 0.1", "above 1e-3", "smaller"];
 
 /// Returns the class of a colour, or `None` if it has fewer than two channels.
 pub fn contrast_class(color: Vec3) -> Option<usize> {
-    let channels = color.to_array().into_iter().filter(|channel| *channel > 0.0);
+    let channels = color
+        .to_array()
+        .into_iter()
+        .filter(|channel| *channel > 0.0);
     let channels: Vec<f32> = channels.collect();
     let dimmest = channels.iter().copied().fold(f32::INFINITY, f32::min);
     let limits = [0.1, 1e-3];
@@ -348,7 +351,10 @@ mod tests {
             let drawn: Vec<f32> = (0..2000).map(|_| index(&mut rng, class)).collect();
             let ends = [f32::min, f32::max].map(|end| drawn.iter().copied().reduce(end));
             for (end, limit) in ends.into_iter().flatten().zip(&limits[class..]) {
-                assert!((end / limit - 1.0).abs() < 0.02, "{end} isn't close to {limit}");
+                assert!(
+                    (end / limit - 1.0).abs() < 0.02,
+                    "{end} isn't close to {limit}"
+                );
             }
         }
     }

@@ -9,6 +9,7 @@ use protocol::light::lights::{
 use super::fields::{LENGTHS, MAGNITUDES, SHARES, length_class, magnitude_class, share_class};
 use super::{Row, rows_of};
 use crate::domains::fields::{DIRECTIONS, OCTANTS, class_up_to, direction_class, octant};
+use crate::domains::previous_call::NAME as ONLY_CHANGE;
 use crate::domains::{Aspect, FunctionDomain, UntestedClasses, not_asked};
 use crate::oracle::light::flat_shape::FlatShape;
 use crate::oracle::light::lights::{FlatLight64, Light64};
@@ -142,6 +143,18 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
             SHARES.split_at(3).0,
             &[],
             "A light with so little power is only picked by numbers close to a border.",
+        ),
+        not_asked(
+            &["shared with another light"],
+            &[],
+            &["`None`"],
+            "Whether the picked light faces away doesn't depend on the other lights.",
+        ),
+        not_asked(
+            &[ONLY_CHANGE],
+            &["random", "lights"],
+            &["`None`"],
+            "An answer kept from other random numbers or lights is noticed where both exist.",
         ),
         not_asked(
             &["radiance of the picked light"],
@@ -524,9 +537,8 @@ const ALIKE: &[&str] = &[
 /// Returns what a flat light has in common with another one in the list.
 fn alike_class(list: &LightList, light: &FlatLight64) -> usize {
     let lights: Vec<FlatLight64> = list.lights.iter().filter_map(flat).collect();
-    let is_shared = |is_alike: &dyn Fn(&&FlatLight64) -> bool| {
-        lights.iter().filter(is_alike).count() > 1
-    };
+    let is_shared =
+        |is_alike: &dyn Fn(&&FlatLight64) -> bool| lights.iter().filter(is_alike).count() > 1;
     // Sums and products of the same numbers can be rounded differently.
     let is_equal = |a: f64, b: f64| (a - b).abs() <= 1e-6 * a.max(b);
     match () {

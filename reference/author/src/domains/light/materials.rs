@@ -12,6 +12,7 @@ use super::fields::{
     channel_class, color_class, contrast_class, height_class, index_class,
 };
 use super::{Outgoing, Row, rows_of};
+use crate::domains::previous_call::NAME as ONLY_CHANGE;
 use crate::domains::{Aspect, FunctionDomain, UntestedClasses, not_asked};
 use crate::oracle::light::specular;
 
@@ -50,7 +51,21 @@ pub static MATTE_SCATTER: FunctionDomain<Row<Scatter>> = FunctionDomain {
     pairs: &[["random.x", "random.y"]],
     fields: &["random", "albedo"],
     calls: rows_of!(LambertianScatter),
-    not_asked: &[FROM_ABOVE],
+    not_asked: &[
+        FROM_ABOVE,
+        not_asked(
+            &[ONLY_CHANGE],
+            &["random"],
+            &["attenuation"],
+            "The attenuation doesn't depend on the random numbers.",
+        ),
+        not_asked(
+            &[ONLY_CHANGE],
+            &["albedo"],
+            &["direction", "unit_direction", "pdf"],
+            "Only the attenuation depends on the albedo.",
+        ),
+    ],
 };
 
 /// The domain of `reflect`.
@@ -103,6 +118,12 @@ pub static REFRACTED: FunctionDomain<Row<Refract>> = FunctionDomain {
             THROUGH,
             &["`None`"],
             "The path is refracted.",
+        ),
+        not_asked(
+            &[ONLY_CHANGE],
+            &["ior"],
+            &["`None`"],
+            "An answer kept from another medium is noticed where both refract.",
         ),
     ],
 };

@@ -53,7 +53,14 @@ pub static DIRECT: FunctionDomain<DirectCall> = FunctionDomain {
         [LIGHT_SAMPLE.name, SCATTERED.name],
         ["lights", LIGHT_SAMPLE.name],
     ],
-    fields: &["origin", "direction", "light", "on_light", "direct", "scene"],
+    fields: &[
+        "origin",
+        "direction",
+        "light",
+        "on_light",
+        "direct",
+        "scene",
+    ],
     calls: direct_calls,
     not_asked: &[not_asked(
         &["lights"],
@@ -637,7 +644,10 @@ const DEPTHS: &[&str] = &["0", "1 to 8", "9 to 32", "33 to 64", "more"];
 /// Returns the class of the last bounce at which a path adds light from a kind of surface.
 fn last_depth(call: &PathCall, hit: PathHit) -> Option<usize> {
     let is_lit = |step: &PathStep| step.hit == hit && step.light != Vec3::ZERO;
-    Some(class_up_to(&[0, 8, 32, 64], call.steps.iter().rposition(is_lit)?))
+    Some(class_up_to(
+        &[0, 8, 32, 64],
+        call.steps.iter().rposition(is_lit)?,
+    ))
 }
 
 /// The last bounce at which emitted light is counted.

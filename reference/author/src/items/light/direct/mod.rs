@@ -180,12 +180,13 @@ const BOTH: Declaration = Declaration {
             };
             questions.push(question(&low, (0..CALLS).map(case).collect()));
         }
-        // The second question begins with the call that the first one ends with.
+        // Each question begins with the call that the previous one ends with.
         let room = with_shining_ceiling(rng);
         let mut calls = lit(rng, &room, CALLS / 2);
-        questions.push(question(&room, calls.clone()));
-        calls.reverse();
-        questions.push(question(&repainted(&room, 0.6), calls));
+        for factor in [1.0, 0.6, 0.3] {
+            questions.push(question(&repainted(&room, factor), calls.clone()));
+            calls.reverse();
+        }
         questions
     },
     needs: NEEDS,
@@ -247,7 +248,7 @@ const TURNED: Declaration = Declaration {
     section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
     tests: &["The result is the sum, over both directions, of evaluate × radiance / …"],
     questions: |rng| {
-        rooms(
+        let mut questions = rooms(
             rng,
             |rng| {
                 let mut quads: Vec<Quad> = Vec::new();
@@ -265,14 +266,12 @@ const TURNED: Declaration = Declaration {
             },
             |rng, room| {
                 let mut cases = LIT_AND_DARK(rng, room);
-                for most in [0.049, 0.0199, 0.0049] {
-                    cases.extend((0..CALLS / 2).map(|_| {
-                        direct_case(rng, room, |surface, _, light| {
-                            let most = (2.0 * least_cosine(room)).max(most);
-                            is_lit(light) && surface.out.z < most
-                        })
-                    }));
-                }
+                cases.extend((0..CALLS / 2).map(|_| {
+                    direct_case(rng, room, |surface, _, light| {
+                        let most = (2.0 * least_cosine(room)).max(0.049);
+                        is_lit(light) && surface.out.z < most
+                    })
+                }));
                 // The light that was picked is below the surface, but scattering finds the other.
                 cases.extend((0..CALLS / 2).map(|_| {
                     direct_case(rng, room, |surface, numbers, _| {
@@ -283,7 +282,16 @@ const TURNED: Declaration = Declaration {
                 }));
                 cases
             },
-        )
+        );
+        // Close above a large floor, rays can hit it almost along it.
+        let floor = below_a_close_light(rng);
+        let cases = [0.0199, 0.0199, 0.0199, 0.0049, 0.0049, 0.0049].map(|most| {
+            direct_case(rng, &floor, |surface, _, light| {
+                is_lit(light) && surface.out.z < most
+            })
+        });
+        questions.push(question(&floor, cases.into()));
+        questions
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -493,6 +501,19 @@ fn below_a_far_light(rng: &mut Rng, sizes: Range<f64>) -> Room {
     let light = Material64::Emitter { radiance };
     let light = panel(center, 1, -1.0, DVec3::splat(half), light);
     Room::new(vec![open(rng).swap_remove(0), light], DARK)
+}
+
+/// Returns a floor with a light close above it. The floor is at y = 0, so that heights above it are
+/// hardly rounded.
+fn below_a_close_light(rng: &mut Rng) -> Room {
+    let half = dvec3(8.0, 0.0, 8.0);
+    let height = 0.2 * DVec3::Y;
+    let light = emitter(rng);
+    let mut floor = |center| panel(center, 1, 1.0, half, matte(rng));
+    // Rays start around the middle of the room, which is at the height of the upper floor.
+    let mut quads = vec![floor(DVec3::ZERO), floor(-height)];
+    quads.push(panel(height, 1, -1.0, 0.8 * half, light));
+    Room::new(quads, DARK)
 }
 
 /// Returns one question for each of two rooms.

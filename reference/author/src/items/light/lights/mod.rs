@@ -318,8 +318,10 @@ const SHARES: Declaration = Declaration {
                 last = Some(calls[0]);
                 let again = Vec::from_iter(last);
                 let exchanged = with_exchanged_powers(&lights);
-                let mut questions =
-                    vec![list_densities(&lights, [same, calls, again.clone()].concat())];
+                let mut questions = vec![list_densities(
+                    &lights,
+                    [same, calls, again.clone()].concat(),
+                )];
                 if (2..40).contains(&count) {
                     questions.push(list_densities(&exchanged, again));
                 }

@@ -59,6 +59,9 @@ pub(super) const SAMPLES: Declaration = Declaration {
                 calls.extend((0..2 * FROM_INSIDE).filter_map(|index| {
                     let kinds: [fn(&Light64) -> bool; 2] = [|_| true, |light| !is_sphere(light)];
                     let kind = kinds[index % 2];
+                    if !lights.iter().any(kind) {
+                        return None;
+                    }
                     rng.attempt(1_000, |rng| {
                         let call = sample_of(rng, lights, inside, kind);
                         let is_some = sample(lights, &call).value.is_some();
@@ -108,19 +111,22 @@ fn lists(
 ) -> Vec<ExamQuestion> {
     let counts = [(1, 0), (1, 1), (2, 0), (2, 1), (2, 3), (20, 20)];
     let sizes = every_size(rng);
-    let questions = counts.into_iter().zip(sizes).map(|((spheres, others), size)| {
-        // Larger spheres would leave no space for the points that they light.
-        let size = size.min(0.25 * FURTHEST);
-        let mut lights: Vec<Light64> = (0..spheres).map(|_| sphere(rng, size)).collect();
-        lights.extend((0..others).map(|_| {
-            let form = EVERY_FORM[rng.index(EVERY_FORM.len())];
-            Light64::Flat(light(rng, form, size))
-        }));
-        let lights = lights.into_iter().map(|light| similar(rng, light));
-        let lights: Vec<Light64> = lights.collect();
-        let lights = rng.shuffled(lights);
-        question(rng, &lights)
-    });
+    let questions = counts
+        .into_iter()
+        .zip(sizes)
+        .map(|((spheres, others), size)| {
+            // Larger spheres would leave no space for the points that they light.
+            let size = size.min(0.25 * FURTHEST);
+            let mut lights: Vec<Light64> = (0..spheres).map(|_| sphere(rng, size)).collect();
+            lights.extend((0..others).map(|_| {
+                let form = EVERY_FORM[rng.index(EVERY_FORM.len())];
+                Light64::Flat(light(rng, form, size))
+            }));
+            let lights = lights.into_iter().map(|light| similar(rng, light));
+            let lights: Vec<Light64> = lights.collect();
+            let lights = rng.shuffled(lights);
+            question(rng, &lights)
+        });
     questions.collect()
 }
 

@@ -12,8 +12,8 @@ use protocol::light::transport::PathStart;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
 use super::rooms::{
-    DARK, HALF, beside_a_light, block, emitter, grazing_path_case, is_clear_path, is_lit, matte, moved,
-    panel, path_case, path_case_along, path_light, repainted, sky, subject, walls,
+    DARK, HALF, beside_a_light, block, emitter, grazing_path_case, is_clear_path, is_lit, matte,
+    moved, panel, path_case, path_case_along, path_light, repainted, sky, subject, walls,
     with_shining_ceiling,
 };
 use super::{color, colors, table, with_changes};
@@ -22,9 +22,9 @@ use crate::domains::light::transport::last_two;
 use crate::items::{AuthoredTask, Declaration, Group};
 use crate::oracle::Ray64;
 use crate::oracle::light::light_sources::Environment64;
+use crate::oracle::light::path_steps::path_steps;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::path_steps::path_steps;
 use crate::oracle::light::{Numbers64, numbers_of_path, transport as oracle};
 use crate::seed::Rng;
 
@@ -122,14 +122,15 @@ const ONE_BOUNCE: Declaration = Declaration {
             },
             |rng, room| cases(rng, room, 1, lit),
         );
-        // The second question begins with the call that the first one ends with.
+        // Each question begins with the call that the previous one ends with.
         let sky = sky(rng);
         let room = bright(rng, sky);
         let mut calls = cases(rng, &room, 1, first_is_matte);
         calls.truncate(CALLS / 2);
-        questions.push(question(&room, calls.clone()));
-        calls.reverse();
-        questions.push(question(&repainted(&room, 0.6), calls));
+        for factor in [1.0, 0.6, 0.3] {
+            questions.push(question(&repainted(&room, factor), calls.clone()));
+            calls.reverse();
+        }
         questions
     },
     needs: NEEDS,
@@ -181,7 +182,9 @@ const BOUNCES: Declaration = Declaration {
         let long = lit_corridor(rng);
         let depths = [(40, 9..33), (100, 33..65), (100, 65..101)];
         let kinds = [PathHit::Matte, PathHit::Light, PathHit::Nothing];
-        let each = depths.into_iter().flat_map(|depth| kinds.map(|kind| (depth.clone(), kind)));
+        let each = depths
+            .into_iter()
+            .flat_map(|depth| kinds.map(|kind| (depth.clone(), kind)));
         let calls = each.flat_map(|((bounces, depths), kind)| {
             [(); 2].map(|()| {
                 path_case_along(rng, &long, bounces, |ray, numbers, light| {
@@ -290,16 +293,20 @@ const THROUGHPUT: Declaration = Declaration {
         // In a dark room, the first light that a path finds can be very dim, at least in one channel.
         let dark = [(3, 0.04), (4, 0.004), (3, 4e-4)].map(|(n, albedo)| (n, DVec3::splat(albedo)));
         let saturation = saturation(rng);
-        questions.extend(dark.into_iter().chain([(2, saturation)]).map(|(bounces, albedo)| {
-            let room = dim(rng, albedo);
-            let case = |_| {
-                path_case_along(rng, &room, bounces, |ray, numbers, light| {
-                    let shorter = without_the_last(&room, ray, numbers);
-                    light != DVec3::ZERO && shorter == DVec3::ZERO
-                })
-            };
-            question(&room, (0..CALLS / 2).map(case).collect())
-        }));
+        questions.extend(
+            dark.into_iter()
+                .chain([(2, saturation)])
+                .map(|(bounces, albedo)| {
+                    let room = dim(rng, albedo);
+                    let case = |_| {
+                        path_case_along(rng, &room, bounces, |ray, numbers, light| {
+                            let shorter = without_the_last(&room, ray, numbers);
+                            light != DVec3::ZERO && shorter == DVec3::ZERO
+                        })
+                    };
+                    question(&room, (0..CALLS / 2).map(case).collect())
+                }),
+        );
         questions
     },
     needs: NEEDS,
@@ -713,7 +720,7 @@ fn corridor(rng: &mut Rng) -> Room {
 /// Returns two mirrors that face each other, above a matte floor and below a light.
 fn lit_corridor(rng: &mut Rng) -> Room {
     let height = 20.0;
-    let half = DVec3::new(1.0, height, 200.0);
+    let half = DVec3::new(1.0, height, height);
     let mut quads = Vec::new();
     for side in [-1.0, 1.0] {
         let reflectance = color(rng).lerp(DVec3::ONE, 0.9);
@@ -731,7 +738,12 @@ fn lit_corridor(rng: &mut Rng) -> Room {
 /// of surfaces of which the second is a mirror or glass.
 fn after_two_surfaces(rng: &mut Rng) -> [ExamQuestion; 2] {
     let sky = sky(rng);
-    let open = Room::new(shiny(rng).quads()[1..].to_vec(), sky);
+    let mut open = shiny(rng).quads().to_vec();
+    let is_matte = |quad: &Quad| matches!(quad.material(), Material64::Lambertian { .. });
+    if let Some(wall) = open.iter().position(is_matte) {
+        open.remove(wall);
+    }
+    let open = Room::new(open, sky);
     let rooms = [(shiny(rng), PathHit::Light), (open, PathHit::Nothing)];
     rooms.map(|(room, end)| {
         let calls = (0..6).flat_map(|kinds| {

@@ -29,7 +29,8 @@ pub fn only_changes(
     let of_same_function = before.filter(|before| name(before) == name(asked));
     let mut previous = of_same_function.and_then(|before| calls(before).last());
     let changes = calls(asked).map(|call| {
-        let field = only_change(previous.as_ref()?, &call);
+        let previous_one = previous.as_ref();
+        let field = previous_one.and_then(|previous| only_change(previous, &call));
         previous = Some(call);
         fields.iter().position(|name| Some(*name) == field)
     });

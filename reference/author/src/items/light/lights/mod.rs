@@ -213,6 +213,7 @@ const PICK: Declaration = Declaration {
             .collect();
         lists.insert(3, with_exchanged_powers(&lists[2]));
         lists.insert(2, with_exchanged_powers(&lists[1]));
+        lists.insert(1, with_exchanged_powers(&lists[0]));
         let size = size(rng, 3);
         lists.push(alike(rng, size));
         // Most questions start with the call that the previous one ends with.
@@ -221,8 +222,8 @@ const PICK: Declaration = Declaration {
             let all = Lights64::new(lights.iter().copied());
             let same = last.filter(|call| is_clear(&all, call));
             let mut calls = Vec::from_iter(same);
-            calls.extend(samples(rng, &lights, 2 * CALLS, Option::is_some));
             calls.extend(past_rounding(rng, &lights));
+            calls.extend(samples(rng, &lights, 2 * CALLS, Option::is_some));
             last = calls.last().copied();
             sampled(&lights, calls)
         });

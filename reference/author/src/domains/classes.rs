@@ -37,10 +37,14 @@ impl Classes {
     pub fn of_item(domain: &dyn Domain, item: &Item) -> Self {
         let mut counted = Classes::default();
         let pairs = pairs_of_aspects(domain);
-        let before = item.questions.iter().map(|asked| Some(&asked.question));
-        let before = std::iter::once(None).chain(before);
+        let before = std::iter::once(None).chain(item.questions.iter().map(Some));
         for (asked, before) in item.questions.iter().zip(before) {
-            let calls = domain.classes(&asked.question, before);
+            let question_before = before.map(|before| &before.question);
+            let mut calls = domain.classes(&asked.question, question_before);
+            let changes = domain.only_changes(asked, before).into_iter();
+            for (classes, change) in calls.iter_mut().zip(changes) {
+                classes.push(change);
+            }
             let Key::Table { judged, rows, .. } = &asked.key else {
                 let judged = judged_without_rows(&asked.key);
                 counted.add_all(&pairs, &calls, |_| {

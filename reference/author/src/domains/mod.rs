@@ -14,6 +14,7 @@ pub mod classes;
 pub mod fields;
 pub mod light;
 mod placed;
+pub mod previous_call;
 pub mod shape;
 pub mod sphere;
 mod tables;
@@ -22,6 +23,7 @@ pub mod triangle;
 
 use std::fmt::Debug;
 
+use judging::exam::ExamQuestion;
 use protocol::Question;
 
 use crate::seed::Rng;
@@ -76,6 +78,9 @@ pub struct FunctionDomain<C: 'static> {
     pub aspects: &'static [Aspect<C>],
     /// The pairs of aspects whose classes are tested in all combinations.
     pub pairs: &'static [[&'static str; 2]],
+    /// The fields, of the subject and the arguments, that some call has as its only change since
+    /// the previous call.
+    pub fields: &'static [&'static str],
     /// Returns the calls in a question about the function.
     pub calls: fn(&Question) -> Vec<C>,
     /// The classes that the exam need not test.
@@ -139,6 +144,15 @@ pub trait Domain: Debug + Sync {
     /// For each call in a question about the function, returns its class for each aspect that
     /// applies. `before` is the item's previous question, if any.
     fn classes(&self, question: &Question, before: Option<&Question>) -> Vec<Vec<Option<usize>>>;
+
+    /// For each call in a question about the function, returns its class for the last aspect: the
+    /// only field in which it differs from the previous call. See
+    /// [`only_changes`](previous_call::only_changes).
+    fn only_changes(
+        &self,
+        asked: &ExamQuestion,
+        before: Option<&ExamQuestion>,
+    ) -> Vec<Option<usize>>;
 }
 
 impl<C> FunctionDomain<C> {
@@ -155,7 +169,8 @@ impl<C: Debug> Domain for FunctionDomain<C> {
     fn aspects(&self) -> Vec<(&'static str, &'static [&'static str])> {
         let aspects = self.all_aspects();
         let aspects = aspects.map(|aspect| (aspect.name, aspect.classes));
-        aspects.chain([SUBJECT_BEFORE]).collect()
+        let only_change = (!self.fields.is_empty()).then_some((previous_call::NAME, self.fields));
+        aspects.chain([SUBJECT_BEFORE]).chain(only_change).collect()
     }
 
     fn pairs(&self) -> &'static [[&'static str; 2]] {
@@ -185,5 +200,18 @@ impl<C: Debug> Domain for FunctionDomain<C> {
             classes.chain([of_first]).collect()
         });
         classes.collect()
+    }
+
+    fn only_changes(
+        &self,
+        asked: &ExamQuestion,
+        before: Option<&ExamQuestion>,
+    ) -> Vec<Option<usize>> {
+        let table = asked.question.table();
+        let is_other = table.is_none_or(|table| table.name() != self.function);
+        if is_other || self.fields.is_empty() {
+            return Vec::new();
+        }
+        previous_call::only_changes(self.fields, asked, before)
     }
 }

@@ -51,6 +51,7 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
         ["size", "start"],
         ["form", "way past the centre"],
     ],
+    fields: &[],
     calls,
     not_asked: &[
         not_asked(&["distance"], &[], &["`None`"], "A miss has no distance."),

@@ -76,6 +76,7 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         WORK,
     ],
     pairs: &[],
+    fields: &[],
     calls: |question| BuildCall::of(question).into_iter().collect(),
     not_asked: &[
         not_asked(

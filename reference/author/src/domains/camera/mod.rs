@@ -46,6 +46,7 @@ pub static CAMERA: FunctionDomain<CameraCall> = FunctionDomain {
         ["sensor", "columns of the film"],
         ["sensor", "rows of the film"],
     ],
+    fields: &[],
     calls,
     not_asked: &[not_asked(
         &[

@@ -22,6 +22,7 @@ pub static UNIFORM_SPHERE: FunctionDomain<Row<UniformSphere>> = FunctionDomain {
     subject_aspects: &[],
     aspects: &[Aspect::RANDOM_X, Aspect::RANDOM_Y],
     pairs: &[["random.x", "random.y"]],
+    fields: &[],
     calls: rows_of!(UniformSphere),
     not_asked: &[
         not_asked(&["first call"], &[], &[], "The function has no subject."),
@@ -37,7 +38,7 @@ pub static UNIFORM_SPHERE: FunctionDomain<Row<UniformSphere>> = FunctionDomain {
 /// The domain of `Environment::sample`.
 pub static MAP_SAMPLE: FunctionDomain<Row<EnvironmentSample>> = FunctionDomain {
     function: "Environment::sample",
-    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK, Aspect::PEAK],
+    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK, Aspect::PEAK, Aspect::TOTAL],
     aspects: &[
         Aspect::PIXEL_ROW,
         Aspect::PIXEL_COLUMN,
@@ -49,6 +50,7 @@ pub static MAP_SAMPLE: FunctionDomain<Row<EnvironmentSample>> = FunctionDomain {
         Aspect::RANDOM_Y,
     ],
     pairs: &[],
+    fields: &["choice", "random", "map"],
     calls: rows_of!(EnvironmentSample),
     not_asked: &[
         not_asked(
@@ -75,7 +77,7 @@ pub static MAP_SAMPLE: FunctionDomain<Row<EnvironmentSample>> = FunctionDomain {
 /// The domain of `Environment::pdf`.
 pub static MAP_PDF: FunctionDomain<Row<EnvironmentPdf>> = FunctionDomain {
     function: "Environment::pdf",
-    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK, Aspect::PEAK],
+    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK, Aspect::PEAK, Aspect::TOTAL],
     aspects: &[
         Aspect::PIXEL_ROW,
         Aspect::PIXEL_COLUMN,
@@ -87,6 +89,7 @@ pub static MAP_PDF: FunctionDomain<Row<EnvironmentPdf>> = FunctionDomain {
         LONGITUDE,
     ],
     pairs: &[],
+    fields: &["direction", "map"],
     calls: rows_of!(EnvironmentPdf),
     not_asked: &[not_asked(
         &["longitude"],
@@ -168,13 +171,14 @@ impl<F: Function<Subject = MapImage, Input: OnMap>> Aspect<Row<F>> {
     /// How many pixels are black.
     pub const BLACK: Self = Aspect {
         name: "black pixels",
-        classes: &["none", "some", "most", "all"],
+        classes: &["none", "some", "most", "all but one", "all"],
         class: |row| {
             let pixels = &row.subject.pixels;
             let black = pixels.iter().filter(|pixel| **pixel == Vec3::ZERO).count();
             Some(match black {
                 0 => 0,
-                _ if black == pixels.len() => 3,
+                _ if black == pixels.len() => 4,
+                _ if black + 1 == pixels.len() => 3,
                 _ if 2 * black > pixels.len() => 2,
                 _ => 1,
             })
@@ -192,6 +196,18 @@ impl<F: Function<Subject = MapImage, Input: OnMap>> Aspect<Row<F>> {
             let brightest = luminances.iter().copied().fold(0.0, f64::max);
             let ratio = brightest * luminances.len() as f64 / sum;
             (sum > 0.0).then(|| [10.0, 1e3].iter().filter(|limit| ratio > **limit).count())
+        },
+    };
+
+    /// The sum of the pixels' luminances.
+    pub const TOTAL: Self = Aspect {
+        name: "sum of the luminances",
+        classes: &["below 1e-7", "below 1", "below 1,000", "more"],
+        class: |row| {
+            let pixels = row.subject.pixels.iter();
+            let sum: f64 = pixels.map(|it| luminance(it.as_dvec3())).sum();
+            let limits = [1e-7, 1.0, 1e3];
+            (sum > 0.0).then(|| limits.iter().filter(|limit| sum >= **limit).count())
         },
     };
 
@@ -245,11 +261,25 @@ fn place_class(index: u32, count: u32) -> usize {
 /// The density of the direction.
 const DENSITY: Aspect<Row<EnvironmentPdf>> = Aspect {
     name: "density",
-    classes: MAGNITUDES,
+    classes: &[
+        "0",
+        "below 0.1",
+        "0.1",
+        "1",
+        "10",
+        "100",
+        "1000",
+        "1e4",
+        "above 1e5",
+    ],
     class: |row| {
         let map = Map64::new(row.subject.size, &row.subject.pixels);
         let density = map.pdf(row.input.direction.as_dvec3()).value;
-        Some(magnitude_class(density))
+        Some(match density {
+            1e5.. => 8,
+            1e4.. => 7,
+            _ => magnitude_class(density),
+        })
     },
 };
 

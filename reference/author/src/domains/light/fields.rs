@@ -184,8 +184,31 @@ pub fn color_class(color: Vec3) -> usize {
     }
 }
 
+/// The classes of colours with several channels, by the dimmest one as a fraction of the brightest.
+pub const CONTRASTS: &[&str] = &["above 0.1", "above 1e-3", "smaller"];
+
+/// Returns the class of a colour, or `None` if it has fewer than two channels.
+pub fn contrast_class(color: Vec3) -> Option<usize> {
+    let channels = color
+        .to_array()
+        .into_iter()
+        .filter(|channel| *channel > 0.0);
+    let channels: Vec<f32> = channels.collect();
+    let dimmest = channels.iter().copied().fold(f32::INFINITY, f32::min);
+    let limits = [0.1, 1e-3];
+    let contrast = dimmest / color.max_element();
+    (channels.len() > 1).then(|| limits.iter().filter(|limit| contrast < **limit).count())
+}
+
+/// Returns factors for the channels of a colour, one of which is very small.
+pub fn saturation(rng: &mut Rng) -> DVec3 {
+    let mut factors = DVec3::ONE;
+    factors[rng.index(3)] = rng.log_uniform(1e-5, 4e-5);
+    factors
+}
+
 /// Picks random reflectances, so that each class of colours occurs, and each class of channels in
-/// each channel. One of them is dark in all channels.
+/// each channel. One of them is dark in all channels, and one in a single channel.
 pub fn reflectances(rng: &mut Rng) -> Vec<DVec3> {
     let count = CHANNELS.len();
     let mut all: Vec<DVec3> = (0..count)
@@ -198,18 +221,22 @@ pub fn reflectances(rng: &mut Rng) -> Vec<DVec3> {
     let grey = DVec3::splat(channel(rng, 2));
     let dark = DVec3::from_array([2; 3].map(|class| channel(rng, class)));
     let dark = rng.log_uniform(1e-3, 0.015) * dark;
-    all.extend([channel(rng, 2) * axis, grey, dark, DVec3::ONE, DVec3::ZERO]);
+    let saturated = channel(rng, 2) * saturation(rng);
+    all.extend([channel(rng, 2) * axis, grey, dark, saturated]);
+    all.extend([DVec3::ONE, DVec3::ZERO]);
     all
 }
 
 /// The classes of indices of refraction.
 pub const INDICES: &[&str] = &[
     "below 0.5",
-    "0.5 to 0.98",
+    "0.5 to 0.9",
+    "0.9 to 0.98",
     "just below 1",
     "1",
     "just above 1",
-    "1.02 to 2",
+    "1.02 to 1.1",
+    "1.1 to 2",
     "above 2",
 ];
 
@@ -217,25 +244,31 @@ pub const INDICES: &[&str] = &[
 pub fn index_class(ior: f32) -> usize {
     match ior {
         ..0.5 => 0,
-        ..0.98 => 1,
-        ..1.0 => 2,
-        1.0 => 3,
-        ..1.02 => 4,
-        ..=2.0 => 5,
-        _ => 6,
+        ..0.9 => 1,
+        ..0.98 => 2,
+        ..1.0 => 3,
+        1.0 => 4,
+        ..1.02 => 5,
+        ..1.1 => 6,
+        ..=2.0 => 7,
+        _ => 8,
     }
 }
 
 /// Picks a random index of refraction in this class.
 pub fn index(rng: &mut Rng, class: usize) -> f32 {
-    let dense = match class.abs_diff(3) {
-        0 => return 1.0,
-        1 => 1.0 + rng.log_uniform(1e-5, 5e-3),
-        2 => rng.uniform(1.05, 1.95),
-        _ => rng.log_uniform(2.05, 10.0),
+    let index = match class {
+        0 => rng.log_uniform(0.1, 0.4999),
+        1 => rng.uniform(0.5001, 0.8999),
+        2 => rng.uniform(0.9001, 0.9799),
+        3 => 1.0 - rng.log_uniform(1e-5, 0.0199),
+        4 => 1.0,
+        5 => 1.0 + rng.log_uniform(1e-5, 0.0199),
+        6 => rng.uniform(1.0201, 1.0999),
+        7 => rng.uniform(1.1001, 1.9999),
+        _ => rng.log_uniform(2.0001, 10.0),
     };
-    let is_dense = class > 3;
-    (if is_dense { dense } else { 1.0 / dense }) as f32
+    index as f32
 }
 
 /// The classes of lengths and distances: decades, named after their lower limits.
@@ -307,6 +340,22 @@ mod tests {
                 assert_eq!(channel_class(channel(&mut rng, class) as f32), class);
             }
             assert!((0.0..1.0).contains(&number(&mut rng)));
+        }
+    }
+
+    #[test]
+    fn indices_reach_both_ends_of_their_classes() {
+        let mut rng = Seed(1).rng("fields");
+        let limits = [0.1, 0.5, 0.9, 0.98, 1.0, 1.0, 1.02, 1.1, 2.0, 10.0];
+        for class in 0..INDICES.len() {
+            let drawn: Vec<f32> = (0..2000).map(|_| index(&mut rng, class)).collect();
+            let ends = [f32::min, f32::max].map(|end| drawn.iter().copied().reduce(end));
+            for (end, limit) in ends.into_iter().flatten().zip(&limits[class..]) {
+                assert!(
+                    (end / limit - 1.0).abs() < 0.02,
+                    "{end} isn't close to {limit}"
+                );
+            }
         }
     }
 

@@ -9,6 +9,7 @@ use protocol::light::lights::{
 use super::fields::{LENGTHS, MAGNITUDES, SHARES, length_class, magnitude_class, share_class};
 use super::{Row, rows_of};
 use crate::domains::fields::{DIRECTIONS, OCTANTS, class_up_to, direction_class, octant};
+use crate::domains::previous_call::NAME as ONLY_CHANGE;
 use crate::domains::{Aspect, FunctionDomain, UntestedClasses, not_asked};
 use crate::oracle::light::flat_shape::FlatShape;
 use crate::oracle::light::lights::{FlatLight64, Light64};
@@ -28,6 +29,7 @@ pub static AREA_LIGHT_PDF: FunctionDomain<Row<AreaLightPdf>> = FunctionDomain {
         Aspect::RAY_DIRECTION,
     ],
     pairs: &[["form of the light", "seen"]],
+    fields: &["from", "direction", "lights"],
     calls: rows_of!(AreaLightPdf),
     not_asked: &[WITHIN_THE_SCENE],
 };
@@ -45,9 +47,12 @@ pub static LIGHTS_PDF: FunctionDomain<Row<LightsPdf>> = FunctionDomain {
         Aspect::RAY_DIRECTION,
         LIGHTS_AHEAD,
         SHARE_AHEAD,
+        ALIKE_AHEAD,
         SPHERE_AHEAD,
+        SPHERE_AHEAD_RADIUS,
     ],
     pairs: &[],
+    fields: &["from", "direction", "lights"],
     calls: rows_of!(LightsPdf),
     not_asked: &[WITHIN_THE_SCENE, NOT_THAT_SLANTED],
 };
@@ -70,11 +75,18 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
         PICKED_DISTANCE,
         PICKED_COSINE,
         PICKED_OCTANT,
+        PICKED_ALIKE,
         PICKED_SPHERE,
+        PICKED_SPHERE_RADIUS,
         INSIDE,
         WITHOUT_POWER,
     ],
-    pairs: &[],
+    pairs: &[
+        ["kind of the picked light", "choice"],
+        ["kind of the picked light", "random.x"],
+        ["kind of the picked light", "random.y"],
+    ],
+    fields: &["from", "choice", "random", "lights"],
     calls: rows_of!(LightsSample),
     not_asked: &[
         WITHIN_THE_SCENE,
@@ -133,6 +145,18 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
             "A light with so little power is only picked by numbers close to a border.",
         ),
         not_asked(
+            &["shared with another light"],
+            &[],
+            &["`None`"],
+            "Whether the picked light faces away doesn't depend on the other lights.",
+        ),
+        not_asked(
+            &[ONLY_CHANGE],
+            &["random", "lights"],
+            &["`None`"],
+            "An answer kept from other random numbers or lights is noticed where both exist.",
+        ),
+        not_asked(
             &["radiance of the picked light"],
             &["0"],
             &[],
@@ -146,6 +170,7 @@ const WITHIN_THE_SCENE: UntestedClasses = not_asked(
     &[
         "longer edge of the light",
         "longer edge of the picked light",
+        "radius of the sphere",
     ],
     &["1000"],
     &[],
@@ -169,13 +194,15 @@ const FORMS: &[&str] = &[
     "rectangle",
     "narrow rectangle",
     "parallelogram",
+    "very narrow rectangle",
     "right triangle",
     "narrow right triangle",
     "triangle",
+    "very narrow right triangle",
 ];
 
 /// Returns the class of a light's form. A rectangle is narrow if it is more than five times as long
-/// as it is wide.
+/// as it is wide, and very narrow if it is more than a hundred times as long.
 fn form_class(light: &FlatLight64) -> usize {
     let [e0, e1] = light.shape.edges;
     let lengths = [e0.length(), e1.length()];
@@ -183,10 +210,11 @@ fn form_class(light: &FlatLight64) -> usize {
     let ratio = lengths[0] / lengths[1];
     let class = match ratio.max(1.0 / ratio) {
         _ if cosine.abs() > 1e-3 => 2,
+        100.0.. => 3,
         5.0.. => 1,
         _ => 0,
     };
-    class + 3 * usize::from(light.shape.is_triangle)
+    class + 4 * usize::from(light.shape.is_triangle)
 }
 
 /// Returns the class of a light's longer edge.
@@ -474,18 +502,60 @@ fn spheres(list: &LightList) -> impl Iterator<Item = SphericalLight64> {
     })
 }
 
+/// Returns a sphere that has a density or that the point is inside of.
+fn sphere_ahead(row: &Row<LightsPdf>) -> Option<SphericalLight64> {
+    let Toward { from, direction } = row.input;
+    let pdf = |light: &SphericalLight64| light.pdf(from.as_dvec3(), direction.as_dvec3()).value;
+    spheres(&row.subject).find(|light| {
+        let is_inside = radii_class(light, from) == 0;
+        is_inside || pdf(light) > 0.0
+    })
+}
+
 /// The distance of a sphere that has a density or that the point is inside of.
 const SPHERE_AHEAD: Aspect<Row<LightsPdf>> = Aspect {
     name: "distance in radii",
     classes: RADII,
+    class: |row| Some(radii_class(&sphere_ahead(row)?, row.input.from)),
+};
+
+/// The radius of that sphere.
+const SPHERE_AHEAD_RADIUS: Aspect<Row<LightsPdf>> = Aspect {
+    name: "radius of the sphere",
+    classes: LENGTHS,
+    class: |row| Some(length_class(sphere_ahead(row)?.radius)),
+};
+
+/// The classes of lights, by what they have in common with another light in the list.
+const ALIKE: &[&str] = &[
+    "everything",
+    "the corner",
+    "the power",
+    "neither the corner nor the power",
+];
+
+/// Returns what a flat light has in common with another one in the list.
+fn alike_class(list: &LightList, light: &FlatLight64) -> usize {
+    let lights: Vec<FlatLight64> = list.lights.iter().filter_map(flat).collect();
+    let is_shared =
+        |is_alike: &dyn Fn(&&FlatLight64) -> bool| lights.iter().filter(is_alike).count() > 1;
+    // Sums and products of the same numbers can be rounded differently.
+    let is_equal = |a: f64, b: f64| (a - b).abs() <= 1e-6 * a.max(b);
+    match () {
+        () if is_shared(&|it| *it == light) => 0,
+        () if is_shared(&|it| it.shape.corner == light.shape.corner) => 1,
+        () if is_shared(&|it| is_equal(it.power(), light.power())) => 2,
+        () => 3,
+    }
+}
+
+/// What the light that is seen has in common with another one.
+const ALIKE_AHEAD: Aspect<Row<LightsPdf>> = Aspect {
+    name: "shared with another light",
+    classes: ALIKE,
     class: |row| {
-        let Toward { from, direction } = row.input;
-        let pdf = |light: &SphericalLight64| light.pdf(from.as_dvec3(), direction.as_dvec3()).value;
-        let ahead = spheres(&row.subject).find(|light| {
-            let is_inside = radii_class(light, from) == 0;
-            is_inside || pdf(light) > 0.0
-        });
-        Some(radii_class(&ahead?, from))
+        let sight = main_sight(&row.subject, &row.input).filter(Sight::is_lit)?;
+        Some(alike_class(&row.subject, &sight.light))
     },
 };
 
@@ -643,6 +713,23 @@ const PICKED_SPHERE: Aspect<Row<LightsSample>> = Aspect {
         Light64::Sphere(light) => Some(radii_class(&light, row.input.from)),
         Light64::Flat(_) => None,
     },
+};
+
+/// The radius of the picked sphere.
+const PICKED_SPHERE_RADIUS: Aspect<Row<LightsSample>> = Aspect {
+    name: "radius of the sphere",
+    classes: LENGTHS,
+    class: |row| match pick(row)?.light {
+        Light64::Sphere(light) => Some(length_class(light.radius)),
+        Light64::Flat(_) => None,
+    },
+};
+
+/// What the picked light has in common with another one.
+const PICKED_ALIKE: Aspect<Row<LightsSample>> = Aspect {
+    name: "shared with another light",
+    classes: ALIKE,
+    class: |row| Some(alike_class(&row.subject, &pick(row)?.flat()?)),
 };
 
 /// The classes of points, by whether they are inside a sphere.

@@ -8,10 +8,11 @@ use protocol::light::specular::{
 };
 
 use super::fields::{
-    ALONG, AZIMUTHS, CHANNELS, COLORS, HEIGHTS, INDICES, NOT_ABOVE, azimuth_class, channel_class,
-    color_class, height_class, index_class,
+    ALONG, AZIMUTHS, CHANNELS, COLORS, CONTRASTS, HEIGHTS, INDICES, NOT_ABOVE, azimuth_class,
+    channel_class, color_class, contrast_class, height_class, index_class,
 };
 use super::{Outgoing, Row, rows_of};
+use crate::domains::previous_call::NAME as ONLY_CHANGE;
 use crate::domains::{Aspect, FunctionDomain, UntestedClasses, not_asked};
 use crate::oracle::light::specular;
 
@@ -21,6 +22,7 @@ pub static MATTE_EVALUATE: FunctionDomain<Row<Evaluate>> = FunctionDomain {
     subject_aspects: Aspect::COLORS,
     aspects: Aspect::DIRECTIONS,
     pairs: &[],
+    fields: &["out", "incoming", "albedo"],
     calls: rows_of!(Evaluate),
     not_asked: &[],
 };
@@ -31,6 +33,7 @@ pub static MATTE_PDF: FunctionDomain<Row<Pdf>> = FunctionDomain {
     subject_aspects: Aspect::COLORS,
     aspects: Aspect::DIRECTIONS,
     pairs: &[],
+    fields: &["out", "incoming"],
     calls: rows_of!(LambertianPdf),
     not_asked: &[],
 };
@@ -46,8 +49,23 @@ pub static MATTE_SCATTER: FunctionDomain<Row<Scatter>> = FunctionDomain {
         Aspect::RANDOM_Y,
     ],
     pairs: &[["random.x", "random.y"]],
+    fields: &["random", "albedo"],
     calls: rows_of!(LambertianScatter),
-    not_asked: &[FROM_ABOVE],
+    not_asked: &[
+        FROM_ABOVE,
+        not_asked(
+            &[ONLY_CHANGE],
+            &["random"],
+            &["attenuation"],
+            "The attenuation doesn't depend on the random numbers.",
+        ),
+        not_asked(
+            &[ONLY_CHANGE],
+            &["albedo"],
+            &["direction", "unit_direction", "pdf"],
+            "Only the attenuation depends on the albedo.",
+        ),
+    ],
 };
 
 /// The domain of `reflect`.
@@ -56,6 +74,7 @@ pub static REFLECTION: FunctionDomain<Row<Reflect>> = FunctionDomain {
     subject_aspects: &[],
     aspects: &[Aspect::OUT, Aspect::OUT_AZIMUTH],
     pairs: &[],
+    fields: &["direction"],
     calls: rows_of!(Reflect),
     not_asked: &[not_asked(
         &["first call"],
@@ -71,19 +90,20 @@ pub static REFRACTED: FunctionDomain<Row<Refract>> = FunctionDomain {
     subject_aspects: &[],
     aspects: Aspect::REFRACTION,
     pairs: &[],
+    fields: &["direction", "ior"],
     calls: rows_of!(Refract),
     not_asked: &[
         NEVER_ALONG,
         NEVER_THROUGH,
         not_asked(
             &["index, from outside"],
-            INDICES.split_at(3).1,
+            INDICES.split_at(4).1,
             &["`None`"],
             "There is no total reflection outside a medium with this index.",
         ),
         not_asked(
             &["index, from inside"],
-            INDICES.split_at(4).0,
+            INDICES.split_at(5).0,
             &["`None`"],
             "There is no total reflection inside a medium with this index.",
         ),
@@ -99,6 +119,12 @@ pub static REFRACTED: FunctionDomain<Row<Refract>> = FunctionDomain {
             &["`None`"],
             "The path is refracted.",
         ),
+        not_asked(
+            &[ONLY_CHANGE],
+            &["ior"],
+            &["`None`"],
+            "An answer kept from another medium is noticed where both refract.",
+        ),
     ],
 };
 
@@ -108,6 +134,7 @@ pub static REFLECTED_FRACTION: FunctionDomain<Row<Fresnel>> = FunctionDomain {
     subject_aspects: &[],
     aspects: Aspect::REFRACTION,
     pairs: &[],
+    fields: &["direction", "ior"],
     calls: rows_of!(Fresnel),
     not_asked: &[NEVER_ALONG],
 };
@@ -118,6 +145,7 @@ pub static MIRROR_SCATTER: FunctionDomain<Row<MirrorScatter>> = FunctionDomain {
     subject_aspects: Aspect::COLORS,
     aspects: &[Aspect::OUT, Aspect::OUT_AZIMUTH],
     pairs: &[],
+    fields: &["direction", "reflectance"],
     calls: rows_of!(MirrorScatter),
     not_asked: &[FROM_ABOVE],
 };
@@ -137,6 +165,7 @@ pub static GLASS_SCATTER: FunctionDomain<Row<GlassScatter>> = FunctionDomain {
         BESIDE_THE_FRACTION,
     ],
     pairs: &[],
+    fields: &["out", "random", "ior"],
     calls: rows_of!(GlassScatter),
     not_asked: &[NEVER_ALONG],
 };
@@ -235,6 +264,13 @@ impl<F: Function<Subject: Colored>> Aspect<Row<F>> {
         class: |row| Some(channel_class(row.subject.color().max_element())),
     };
 
+    /// The contrast between the channels of the material's colour.
+    pub const CONTRAST: Self = Aspect {
+        name: "dimmest over brightest channel",
+        classes: CONTRASTS,
+        class: |row| contrast_class(row.subject.color()),
+    };
+
     /// All aspects of the material's colour.
     const COLORS: &'static [Self] = &[
         Self::RED,
@@ -242,6 +278,7 @@ impl<F: Function<Subject: Colored>> Aspect<Row<F>> {
         Self::BLUE,
         Self::COLOR,
         Self::BRIGHTEST,
+        Self::CONTRAST,
     ];
 }
 
@@ -378,8 +415,10 @@ const BESIDE_THE_FRACTION: Aspect<Row<GlassScatter>> = Aspect {
         "the fraction is 1",
         "the fraction is 0",
         "below a fraction of less than 2e-3",
+        "below a fraction of less than 2e-5",
         "both are 0",
         "above a fraction of more than 0.99",
+        "both are more than 0.998, and the number is less",
     ],
     class: |row| {
         let (out, ior) = (row.input.out.as_dvec3(), f64::from(row.subject.ior));
@@ -387,10 +426,12 @@ const BESIDE_THE_FRACTION: Aspect<Row<GlassScatter>> = Aspect {
         let above = f64::from(row.input.random) - fraction;
         Some(match above {
             _ if fraction == 1.0 => 4,
-            0.0 if ior == 1.0 => 7,
+            0.0 if ior == 1.0 => 8,
             _ if ior == 1.0 => 5,
+            ..0.0 if fraction < 2e-5 => 7,
             ..0.0 if fraction < 2e-3 => 6,
-            0.0.. if fraction > 0.99 => 8,
+            ..0.0 if row.input.random > 0.998 => 10,
+            0.0.. if fraction > 0.99 => 9,
             ..-0.03 => 0,
             ..0.0 => 1,
             ..0.03 => 2,

@@ -3,14 +3,17 @@
 
 use std::rc::Rc;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use judging::drawing_data::{PathHit, PathStep};
 use protocol::light::transport::{DirectSample, PathStart};
 use protocol::{LightQuestion, Question, Ray};
 
+use super::fields::{CONTRASTS, contrast_class};
 use crate::domains::fields::{OCTANTS, class_up_to, octant};
 use crate::domains::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::Ray64;
 use crate::oracle::light::light_sources::Environment64;
+use crate::oracle::light::path_steps::path_steps;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
 use crate::oracle::light::transport::{self as oracle, emitted};
@@ -33,9 +36,12 @@ pub static DIRECT: FunctionDomain<DirectCall> = FunctionDomain {
         LIGHT_SAMPLE,
         BLOCKER,
         SAMPLE_HEIGHT,
+        ALBEDO_CONTRAST,
+        SAMPLE_VALUE,
         SAMPLE_PDF,
         SCATTERED,
         SCATTERED_HEIGHT,
+        SCATTERED_VALUE,
         LIGHT_PDF,
         LIGHT,
         ON_LIGHT_X,
@@ -46,6 +52,14 @@ pub static DIRECT: FunctionDomain<DirectCall> = FunctionDomain {
     pairs: &[
         [LIGHT_SAMPLE.name, SCATTERED.name],
         ["lights", LIGHT_SAMPLE.name],
+    ],
+    fields: &[
+        "origin",
+        "direction",
+        "light",
+        "on_light",
+        "direct",
+        "scene",
     ],
     calls: direct_calls,
     not_asked: &[not_asked(
@@ -75,8 +89,17 @@ pub static RADIANCE: FunctionDomain<PathCall> = FunctionDomain {
         LENGTH,
         SPECULAR,
         FIRST_SCATTERED,
+        LAST_EMISSION,
+        LAST_DIRECT,
+        LAST_ENVIRONMENT,
+        BEFORE_A_LIGHT,
+        BEFORE_THE_ENVIRONMENT,
+        LEAST_THROUGHPUT,
+        LARGEST_THROUGHPUT,
+        THROUGHPUT_CONTRAST,
     ],
     pairs: &[["environment", FIRST.name]],
+    fields: &["origin", "direction", "seed", "bounces", "scene"],
     calls: path_calls,
     not_asked: &[],
 };
@@ -97,6 +120,8 @@ pub struct PathCall {
     input: PathStart,
     /// The surfaces that the path hits, as if it always survived.
     surfaces: Vec<Surface64>,
+    /// The steps of the path, with the light that each adds.
+    steps: Vec<PathStep>,
 }
 
 fn direct_calls(question: &Question) -> Vec<DirectCall> {
@@ -119,10 +144,14 @@ fn path_calls(question: &Question) -> Vec<PathCall> {
     };
     let room = Rc::new(Room::in_question(&table.subject));
     let rows = table.rows.to_vec();
-    let calls = rows.iter().map(|input| PathCall {
-        surfaces: oracle::surfaces(&room, &Ray64::from(&input.ray), &numbers_of_path(input)),
-        room: room.clone(),
-        input: *input,
+    let calls = rows.iter().map(|input| {
+        let (ray, numbers) = (Ray64::from(&input.ray), numbers_of_path(input));
+        PathCall {
+            surfaces: oracle::surfaces(&room, &ray, &numbers),
+            steps: path_steps(&room, &ray, &numbers),
+            room: room.clone(),
+            input: *input,
+        }
     });
     calls.collect()
 }
@@ -271,10 +300,17 @@ const SURFACE: Aspect<DirectCall> = Aspect {
 /// because rounding moves such a hit along the surface.
 const SIDE: Aspect<DirectCall> = Aspect {
     name: "cosine of the ray",
-    classes: &["above 0.2", "above 0.05", "smaller"],
+    classes: &[
+        "above 0.2",
+        "above 0.05",
+        "above 0.02",
+        "above 0.005",
+        "smaller",
+    ],
     class: |call| {
         let cosine = matte(call)?.out.z;
-        Some([0.2, 0.05].iter().filter(|limit| cosine < **limit).count())
+        let limits = [0.2, 0.05, 0.02, 0.005];
+        Some(limits.iter().filter(|limit| cosine < **limit).count())
     },
 };
 
@@ -333,14 +369,68 @@ const SAMPLE_HEIGHT: Aspect<DirectCall> = Aspect {
     },
 };
 
+/// The contrast between the channels of a lit surface's albedo.
+const ALBEDO_CONTRAST: Aspect<DirectCall> = Aspect {
+    name: "dimmest over brightest channel",
+    classes: CONTRASTS,
+    class: |call| {
+        unblocked(call)?;
+        let Material64::Lambertian { albedo } = matte(call)?.material else {
+            return None;
+        };
+        contrast_class(albedo.as_vec3())
+    },
+};
+
+/// The classes of the largest channel of `evaluate`.
+const VALUES: &[&str] = &["above 1e-3", "above 1e-6", "smaller"];
+
+/// Returns the class of `evaluate` for a direction in a surface's frame.
+fn value_class(surface: &Surface64, incoming: DVec3) -> Option<usize> {
+    let Material64::Lambertian { albedo } = surface.material else {
+        return None;
+    };
+    let value = lambertian::evaluate(albedo, surface.out, incoming).max_element();
+    let limits = [1e-3, 1e-6];
+    (value > 0.0).then(|| limits.iter().filter(|limit| value < **limit).count())
+}
+
+/// The value of `evaluate` for the direction toward a light that isn't blocked.
+const SAMPLE_VALUE: Aspect<DirectCall> = Aspect {
+    name: "evaluate of the light sample",
+    classes: VALUES,
+    class: |call| {
+        let (surface, direction) = (matte(call)?, unblocked(call)?);
+        value_class(surface, surface.frame.to_local(direction))
+    },
+};
+
+/// The value of `evaluate` for the scattered direction, if it finds light.
+const SCATTERED_VALUE: Aspect<DirectCall> = Aspect {
+    name: "evaluate of the scattered direction",
+    classes: VALUES,
+    class: |call| {
+        let (surface, direction) = (matte(call)?, scattered(call));
+        let is_lit = found(call, surface, surface.frame.to_world(direction)) > 0;
+        value_class(surface, direction).filter(|_| is_lit)
+    },
+};
+
 /// The light pdf of the direction toward a light that isn't blocked.
 const SAMPLE_PDF: Aspect<DirectCall> = Aspect {
     name: "light pdf of the light sample",
-    classes: &["up to 1", "up to 100", "up to 10,000", "beyond"],
+    classes: &[
+        "up to 1",
+        "up to 100",
+        "up to 10,000",
+        "up to 100,000",
+        "beyond",
+    ],
     class: |call| {
         let (position, direction) = (matte(call)?.position, unblocked(call)?);
         let pdf = call.room.sources().pdf(position, direction).value;
-        Some([1.0, 1e2, 1e4].iter().filter(|limit| pdf > **limit).count())
+        let limits = [1.0, 1e2, 1e4, 1e5];
+        Some(limits.iter().filter(|limit| pdf > **limit).count())
     },
 };
 
@@ -548,10 +638,127 @@ const FIRST_SCATTERED: Aspect<PathCall> = Aspect {
     },
 };
 
+/// The classes of bounces at which light is counted.
+const DEPTHS: &[&str] = &["0", "1 to 8", "9 to 32", "33 to 64", "more"];
+
+/// Returns the class of the last bounce at which a path adds light from a kind of surface.
+fn last_depth(call: &PathCall, hit: PathHit) -> Option<usize> {
+    let is_lit = |step: &PathStep| step.hit == hit && step.light != Vec3::ZERO;
+    Some(class_up_to(
+        &[0, 8, 32, 64],
+        call.steps.iter().rposition(is_lit)?,
+    ))
+}
+
+/// The last bounce at which emitted light is counted.
+const LAST_EMISSION: Aspect<PathCall> = Aspect {
+    name: "last emission counted at bounce",
+    classes: DEPTHS,
+    class: |call| last_depth(call, PathHit::Light),
+};
+
+/// The last bounce at which direct light is counted.
+const LAST_DIRECT: Aspect<PathCall> = Aspect {
+    name: "last direct light counted at bounce",
+    classes: DEPTHS,
+    class: |call| last_depth(call, PathHit::Matte),
+};
+
+/// The last bounce at which the environment is counted.
+const LAST_ENVIRONMENT: Aspect<PathCall> = Aspect {
+    name: "environment counted at bounce",
+    classes: DEPTHS,
+    class: |call| last_depth(call, PathHit::Nothing),
+};
+
+/// The kinds of the last two surfaces before a path finds light that counts.
+const LAST_TWO: &[&str] = &[
+    "matte, mirror",
+    "matte, glass",
+    "mirror, mirror",
+    "mirror, glass",
+    "glass, mirror",
+    "glass, glass",
+];
+
+/// Returns the index in [`LAST_TWO`] of the surfaces before a path finds the light of `hit`.
+pub fn last_two(steps: &[PathStep], hit: PathHit) -> Option<usize> {
+    let [.., first, second, last] = steps else {
+        return None;
+    };
+    let is_lit = last.hit == hit && last.light != Vec3::ZERO;
+    let first = match first.hit {
+        PathHit::Matte => 0,
+        PathHit::Mirror => 2,
+        PathHit::Glass => 4,
+        PathHit::Nothing | PathHit::Light => return None,
+    };
+    let second = match second.hit {
+        PathHit::Mirror => 0,
+        PathHit::Glass => 1,
+        PathHit::Nothing | PathHit::Matte | PathHit::Light => return None,
+    };
+    is_lit.then_some(first + second)
+}
+
+/// The last two surfaces before a light.
+const BEFORE_A_LIGHT: Aspect<PathCall> = Aspect {
+    name: "before a light",
+    classes: LAST_TWO,
+    class: |call| last_two(&call.steps, PathHit::Light),
+};
+
+/// The last two surfaces before the environment.
+const BEFORE_THE_ENVIRONMENT: Aspect<PathCall> = Aspect {
+    name: "before the environment",
+    classes: LAST_TWO,
+    class: |call| last_two(&call.steps, PathHit::Nothing),
+};
+
+/// Returns the largest channels of the throughputs with which light is counted.
+fn throughputs(call: &PathCall) -> impl Iterator<Item = f32> {
+    let lit = call.steps.iter().filter(|step| step.light != Vec3::ZERO);
+    lit.map(|step| step.throughput.max_element())
+}
+
+/// The smallest throughput with which light is counted.
+const LEAST_THROUGHPUT: Aspect<PathCall> = Aspect {
+    name: "smallest throughput",
+    classes: &["above 1e-3", "above 1e-6", "above 1e-9", "smaller"],
+    class: |call| {
+        let least = throughputs(call).reduce(f32::min)?;
+        let limits = [1e-3, 1e-6, 1e-9];
+        Some(limits.iter().filter(|limit| least < **limit).count())
+    },
+};
+
+/// The largest throughput with which light is counted.
+const LARGEST_THROUGHPUT: Aspect<PathCall> = Aspect {
+    name: "largest throughput",
+    classes: &["up to 1", "up to 5", "up to 25", "beyond"],
+    class: |call| {
+        let largest = throughputs(call).reduce(f32::max)?;
+        let limits = [1.0, 5.0, 25.0];
+        Some(limits.iter().filter(|limit| largest > **limit).count())
+    },
+};
+
+/// The contrast between the channels of the throughput, where the path adds light for the first
+/// time.
+const THROUGHPUT_CONTRAST: Aspect<PathCall> = Aspect {
+    name: "dimmest over brightest channel",
+    classes: CONTRASTS,
+    class: |call| {
+        let mut steps = call.steps.iter();
+        let first = steps.find(|step| step.light != Vec3::ZERO)?;
+        contrast_class(first.throughput)
+    },
+};
+
 /// The largest index of refraction in the room.
 const INDEX: Aspect<PathCall> = Aspect {
     name: "index of refraction",
-    classes: &["none", "up to 2", "beyond"],
+    classes: &["none", "up to 2", "up to 5", "beyond"],
     class: |call| {
         let indices = call.room.quads().iter().map(|quad| match quad.material() {
             Material64::Glass { ior } => *ior,
@@ -560,6 +767,7 @@ const INDEX: Aspect<PathCall> = Aspect {
             | Material64::Emitter { .. } => 0.0,
         });
         let largest = indices.fold(0.0, f64::max);
-        Some([0.0, 2.0].iter().filter(|limit| largest > **limit).count())
+        let limits = [0.0, 2.0, 5.0];
+        Some(limits.iter().filter(|limit| largest > **limit).count())
     },
 };

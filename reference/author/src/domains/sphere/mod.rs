@@ -17,6 +17,7 @@ pub use line::Line;
 /// The domain of `Sphere::hit`.
 pub static SPHERE: FunctionDomain<ShapeCall> = FunctionDomain {
     pairs: &[["size", "direction"], ["size", "start"]],
+    fields: &[],
     calls: shape::calls,
     function: "Sphere::hit",
     subject_aspects: &[

@@ -73,6 +73,7 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         ["decoy", "decoy's history"],
         ["decoy", "range"],
     ],
+    fields: &[],
     calls,
     not_asked: &[
         not_asked(

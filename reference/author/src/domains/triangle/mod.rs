@@ -28,6 +28,7 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
         ["size", "cosine"],
         ["cosine", "crossing"],
     ],
+    fields: &[],
     calls: shape::calls,
     function: "Triangle::hit",
     subject_aspects: &[

@@ -1,5 +1,6 @@
 //! The items about environment maps.
 
+use std::f64::consts::PI;
 use std::ops::Range;
 
 use glam::{DVec3, UVec2, Vec2, Vec3, uvec2};
@@ -10,7 +11,7 @@ use protocol::light::LightQuestion;
 use protocol::light::environment::{MapImage, MapSample, RandomPair};
 
 use super::groups::MAPS;
-use super::{color, densities, directions, local, random_pair, single, table};
+use super::{color, densities, directions, local, random_pair, single, table, with_changes};
 use crate::domains::light::environment::{MAP_PDF, MAP_SAMPLE, UNIFORM_SPHERE, picked};
 use crate::domains::light::fields::{self, BELOW_ONE};
 use crate::items::{AuthoredTask, Declaration};
@@ -95,9 +96,10 @@ const PICK: Declaration = Declaration {
         // Most questions start with the call that the previous one ends with.
         let mut last = None;
         let maps = every_brightness(rng).into_iter();
-        let questions = maps.map(|map| {
+        let questions = maps.flat_map(|map| [(map.clone(), CALLS), (rotated(map), 2)]);
+        let questions = questions.map(|(map, count)| {
             let same = last.filter(|call| is_clear(&oracle(&map), call));
-            let calls = sample_calls(rng, &map, CALLS);
+            let calls = sample_calls(rng, &map, count);
             last = calls.last().copied();
             sampled(map, [Vec::from_iter(same), calls].concat())
         });
@@ -254,11 +256,16 @@ const BLACK: Declaration = Declaration {
             questions.push(pdfs(rng, map, |pdf| pdf > 0.0));
         }
         let size = uvec2(4, 2);
-        let black = MapImage {
+        let mut black = MapImage {
             size,
             pixels: vec![Vec3::ZERO; 8],
         };
-        questions.push(pdfs(rng, black, |_| true));
+        questions.push(pdfs(rng, black.clone(), |_| true));
+        // A single pixel has all the weight.
+        black.pixels[rng.index(8)] = color(rng).as_vec3();
+        questions.push(samples(rng, black.clone()));
+        questions.push(pdfs(rng, black.clone(), |pdf| pdf == 0.0));
+        questions.push(pdfs(rng, black, |pdf| pdf > 0.0));
         questions
     },
     ..Declaration::in_group(MAPS)
@@ -284,9 +291,11 @@ const PDF: Declaration = Declaration {
         // Most questions start with the direction that the previous one ends with.
         let mut last = None;
         let maps = every_brightness(rng).into_iter();
-        let questions = maps.map(|map| {
+        let questions = maps.flat_map(|map| [(map.clone(), CALLS), (rotated(map), 2)]);
+        let questions = questions.map(|(map, count)| {
             let same = last.filter(|same| oracle(&map).pdf(*same).margin > EDGE);
-            let calls = pdf_calls(rng, &map, |_| true);
+            let mut calls = pdf_calls(rng, &map, |_| true);
+            calls.truncate(count);
             last = calls.last().copied();
             densities_at(map, [Vec::from_iter(same), calls].concat())
         });
@@ -358,14 +367,16 @@ fn colorful(rng: &mut Rng, size: UVec2) -> MapImage {
     }
 }
 
-/// Returns maps in a few sizes: one is dim everywhere, and in another, the sun is about as bright
+/// Returns maps in a few sizes: two are dim everywhere, and in another, the sun is about as bright
 /// as all the other pixels together.
 fn every_brightness(rng: &mut Rng) -> Vec<MapImage> {
     let mut maps =
         [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)].map(|size| colorful(rng, size));
-    let dim = rng.log_uniform(1e-9, 1e-7) as f32;
-    for pixel in &mut maps[1].pixels {
-        *pixel *= dim;
+    for (map, dim) in [(1, 1e-12..1e-10), (2, 1e-6..1e-4)] {
+        let dim = rng.log_uniform(dim.start, dim.end) as f32;
+        for pixel in &mut maps[map].pixels {
+            *pixel *= dim;
+        }
     }
     let sunny = &mut maps[3].pixels;
     let sun = rng.index(sunny.len());
@@ -375,6 +386,14 @@ fn every_brightness(rng: &mut Rng) -> Vec<MapImage> {
         *pixel *= brightness;
     }
     maps.into()
+}
+
+/// Moves all pixels by one column. So the weights are the same, but in another order.
+fn rotated(mut map: MapImage) -> MapImage {
+    for row in map.pixels.chunks_mut(map.size.x as usize) {
+        row.rotate_right(1);
+    }
+    map
 }
 
 /// Returns a random colour: white, grey, or with one, two or three channels.
@@ -415,10 +434,11 @@ fn striped(rng: &mut Rng, size: UVec2, run: Range<u32>) -> MapImage {
 fn sunny(rng: &mut Rng) -> Vec<ExamQuestion> {
     let mut medium = striped(rng, uvec2(64, 32), 20..100);
     add_sun(rng, &mut medium, 2.0..10.0);
-    let mut large = large(rng);
-    add_sun(rng, &mut large, 1.0..20.0);
+    let mut bright = large(rng);
+    add_sun(rng, &mut bright, 1.0..20.0);
+    let polar = with_polar_suns(rng);
     let mut questions = vec![samples(rng, medium.clone())];
-    questions.extend([medium, large].map(|map| {
+    questions.extend([medium, bright, polar].map(|map| {
         let calls = [toward_the_sun(rng, &map), pdf_calls(rng, &map, |_| true)].concat();
         densities_at(map, rng.shuffled(calls))
     }));
@@ -435,7 +455,21 @@ fn add_sun(rng: &mut Rng, map: &mut MapImage, factor: Range<f64>) {
     map.pixels[sun] = factor * sum.max_element() * color(rng).lerp(DVec3::ONE, 0.8).as_vec3();
 }
 
-/// Returns directions to different points in the pixel that most samples pick.
+/// Returns a large map with two suns of about the same weight, one of them very close to the upper
+/// pole, where densities are the highest.
+fn with_polar_suns(rng: &mut Rng) -> MapImage {
+    let mut map = large(rng);
+    let sum = map.pixels.iter().sum::<Vec3>().max_element();
+    for row in [4, 20] {
+        let column = rng.index(map.size.x as usize);
+        let theta = PI * (f64::from(row) + 0.5) / f64::from(map.size.y);
+        let brightness = 10.0 * sum / libm::sin(theta) as f32;
+        map.pixels[row as usize * map.size.x as usize + column] = Vec3::splat(brightness);
+    }
+    map
+}
+
+/// Returns directions to different points in the pixels that most samples pick.
 fn toward_the_sun(rng: &mut Rng, map: &MapImage) -> Vec<DVec3> {
     let map64 = oracle(map);
     let direction = |_| {
@@ -487,10 +521,13 @@ fn sample(map: &Map64, call: &MapSample) -> WithMargin<Option<DVec3>> {
 
 fn sampled(map: MapImage, calls: Vec<MapSample>) -> ExamQuestion {
     let map64 = oracle(&map);
-    let direction = |call| sample(&map64, call).value.expect("the map isn't black");
-    let rows = directions(calls.iter().map(direction));
-    let question = LightQuestion::EnvironmentSample(Table::of_list(map, calls));
-    table(question, &["direction", "unit_direction"], rows)
+    let direction = |call: &MapSample| sample(&map64, call).value.expect("the map isn't black");
+    let ask = |calls: Vec<MapSample>| {
+        let rows = directions(calls.iter().map(direction));
+        let question = LightQuestion::EnvironmentSample(Table::of_list(map.clone(), calls));
+        table(question, &["direction", "unit_direction"], rows)
+    };
+    with_changes(calls, ask, |call| is_clear(&map64, call))
 }
 
 /// Returns a random direction. Some are close to a pole, and some between two axes.

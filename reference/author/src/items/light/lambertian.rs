@@ -7,7 +7,7 @@ use protocol::light::LightQuestion;
 use protocol::light::lambertian::{DirectionPair, Matte, MatteSample};
 
 use super::groups::{MATTE, MATTE_SAMPLES};
-use super::{colors, densities, scattered, table};
+use super::{colors, densities, scattered, table, with_changes};
 use crate::domains::light::fields::{self, ABOVE, BELOW_ONE, HORIZON};
 use crate::domains::light::materials::{MATTE_EVALUATE, MATTE_PDF, MATTE_SCATTER};
 use crate::items::{AuthoredTask, Declaration};
@@ -262,27 +262,27 @@ fn pairs(
 
 fn evaluations(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
     let albedo = matte.albedo.as_dvec3();
-    let rows = pairs
-        .iter()
-        .map(|pair| lambertian::evaluate(albedo, pair.out.as_dvec3(), pair.incoming.as_dvec3()));
-    let rows = colors(rows);
-    table(
-        LightQuestion::Evaluate(Table::of_list(matte, pairs)),
-        &["value"],
-        rows,
-    )
+    let ask = |pairs: Vec<DirectionPair>| {
+        let rows = pairs.iter().map(|pair| {
+            lambertian::evaluate(albedo, pair.out.as_dvec3(), pair.incoming.as_dvec3())
+        });
+        let rows = colors(rows);
+        let question = LightQuestion::Evaluate(Table::of_list(matte, pairs));
+        table(question, &["value"], rows)
+    };
+    with_changes(pairs, ask, |_| true)
 }
 
 fn pdfs(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
-    let rows = pairs
-        .iter()
-        .map(|pair| lambertian::pdf(pair.out.as_dvec3(), pair.incoming.as_dvec3()));
-    let rows = densities(rows);
-    table(
-        LightQuestion::LambertianPdf(Table::of_list(matte, pairs)),
-        &["pdf"],
-        rows,
-    )
+    let ask = |pairs: Vec<DirectionPair>| {
+        let rows = pairs
+            .iter()
+            .map(|pair| lambertian::pdf(pair.out.as_dvec3(), pair.incoming.as_dvec3()));
+        let rows = densities(rows);
+        let question = LightQuestion::LambertianPdf(Table::of_list(matte, pairs));
+        table(question, &["pdf"], rows)
+    };
+    with_changes(pairs, ask, |_| true)
 }
 
 /// Returns questions about samples of different surfaces. The first random number of some samples is
@@ -297,12 +297,15 @@ fn samples(rng: &mut Rng, judged: &[&str], ends: &[f32]) -> Vec<ExamQuestion> {
         let others: Vec<MatteSample> = firsts.map(|x| sample(rng, x)).collect();
         let calls = [vec![same], others, vec![same]].concat();
         let albedo = matte.albedo.as_dvec3();
-        let rows = calls
-            .iter()
-            .map(|call| lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2()));
-        let rows = scattered(rows);
-        let question = LightQuestion::LambertianScatter(Table::of_list(matte, calls));
-        vec![table(question, judged, rows)]
+        let ask = |calls: Vec<MatteSample>| {
+            let rows = calls.iter().map(|call| {
+                lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2())
+            });
+            let rows = scattered(rows);
+            let question = LightQuestion::LambertianScatter(Table::of_list(matte, calls));
+            table(question, judged, rows)
+        };
+        vec![with_changes(calls, ask, |_| true)]
     })
 }
 

@@ -14,10 +14,11 @@ mod specular;
 
 use glam::{DVec3, Vec2};
 use judging::exam::{ExamQuestion, ExpectedRows, Key};
-use protocol::{Color, Density, Fraction, LocalDirection, Question, Scattered};
+use protocol::{Color, Density, Fraction, LocalDirection, Question, Record, Scattered};
 
 use super::AuthoredTask;
 use crate::domains::light::fields;
+use crate::domains::previous_call::answers_differ;
 use crate::oracle::light::Scattered64;
 use crate::seed::Rng;
 
@@ -38,6 +39,35 @@ const MARGIN: f64 = 2e-3;
 /// Returns a question that expects these rows.
 fn table(question: impl Into<Question>, judged: &[&str], rows: ExpectedRows) -> ExamQuestion {
     ExamQuestion::new(question.into(), Key::table(judged, rows))
+}
+
+/// Returns a question about these calls and, before the last one, a few more: for each field, one
+/// that differs from the call before it in this field only and has a different answer. A function
+/// that keeps its last answer has to compare every field.
+///
+/// The values are those of the other calls. `is_clear` returns whether a call's answer doesn't
+/// depend on rounding.
+fn with_changes<I: Record + Clone>(
+    mut calls: Vec<I>,
+    ask: impl Fn(Vec<I>) -> ExamQuestion,
+    is_clear: impl Fn(&I) -> bool,
+) -> ExamQuestion {
+    let end = calls.len().saturating_sub(1);
+    let mut changed: Vec<I> = calls[..end].last().into_iter().cloned().collect();
+    for field in calls.first().map_or(0..0, |call| 0..call.names().len()) {
+        let Some(previous) = changed.last() else {
+            break;
+        };
+        let next = calls.iter().find_map(|other| {
+            let mut next = previous.clone();
+            next.set(field, other.value(field));
+            let asked = || ask(vec![previous.clone(), next.clone()]);
+            (is_clear(&next) && answers_differ(&asked())).then_some(next)
+        });
+        changed.extend(next);
+    }
+    calls.splice(end..end, changed.into_iter().skip(1));
+    ask(calls)
 }
 
 fn directions(rows: impl IntoIterator<Item = DVec3>) -> ExpectedRows {

@@ -14,23 +14,11 @@ use crate::oracle::light::environment::Map64;
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::{Numbers64, numbers_of_path, transport};
+use crate::oracle::light::{Numbers64, WithMargin, numbers_of_path, transport};
 use crate::seed::Rng;
 
 /// Half the size of most rooms.
 pub(super) const HALF: DVec3 = DVec3::new(2.5, 2.0, 3.0);
-
-/// A call of `direct` with its answer.
-pub(super) struct DirectCase {
-    pub(super) call: DirectSample,
-    pub(super) light: DVec3,
-}
-
-/// A call of `radiance` with its answer.
-pub(super) struct PathCase {
-    pub(super) call: PathStart,
-    pub(super) light: DVec3,
-}
 
 /// Returns a random colour. In some colours, one of the channels is black.
 fn tint(rng: &mut Rng) -> DVec3 {
@@ -198,7 +186,7 @@ pub(super) fn is_lit(light: DVec3) -> bool {
 /// An environment without light.
 pub(super) const DARK: Environment64 = Environment64::Constant(DVec3::ZERO);
 
-/// Returns a case in which `wanted` is true of the surface that a random ray hits, of the random
+/// Returns a call for which `wanted` is true of the surface that a random ray hits, of the random
 /// numbers and of the surface's direct light. In some calls, the scattered direction leads to a
 /// point on a light, since it would hardly ever find a small light by chance.
 #[track_caller]
@@ -206,7 +194,7 @@ pub(super) fn direct_case(
     rng: &mut Rng,
     room: &Room,
     wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectCase {
+) -> DirectSample {
     let direct = |rng: &mut Rng, surface: &Surface64| match rng.index(4) {
         0 => toward_a_light(rng, room, surface),
         _ => Some(random_pair(rng)),
@@ -225,7 +213,7 @@ pub(super) fn far_case(
     rng: &mut Rng,
     room: &Room,
     wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectCase {
+) -> DirectSample {
     let pairs = |rng: &mut Rng, _: &Surface64| Some([random_pair(rng), random_pair(rng)]);
     direct_case_with(rng, room, 1e-4, pairs, wanted)
 }
@@ -236,7 +224,7 @@ pub(super) fn grazing_case(
     rng: &mut Rng,
     room: &Room,
     wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectCase {
+) -> DirectSample {
     let pairs = |rng: &mut Rng, _: &Surface64| Some([random_pair(rng), along_the_surface(rng)]);
     direct_case_with(rng, room, 1e-4, pairs, wanted)
 }
@@ -248,7 +236,7 @@ pub(super) fn both_grazing_case(
     rng: &mut Rng,
     room: &Room,
     wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectCase {
+) -> DirectSample {
     let pairs = |rng: &mut Rng, _: &Surface64| {
         // Small numbers lead to the lower edge of the light.
         let low = rng.log_uniform(2e-3, 0.2) as f32;
@@ -305,11 +293,10 @@ fn direct_case_with(
     margin: f64,
     pairs: impl Fn(&mut Rng, &Surface64) -> Option<[Vec2; 2]>,
     wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectCase {
+) -> DirectSample {
     rng.retry(|rng| {
         let ray = random_ray(rng, room);
-        let hit = room.hit(&Ray64::from(&ray), None);
-        let surface = hit.value?;
+        let surface = room.hit(&Ray64::from(&ray), None).value?;
         let light = random(rng);
         let [on_light, direct] = pairs(rng, &surface)?;
         let call = DirectSample {
@@ -318,14 +305,36 @@ fn direct_case_with(
             on_light,
             direct,
         };
-        let numbers = Numbers64::from(&call);
-        let direct = transport::direct(room, &surface, &numbers);
-        let is_clear = hit.margin > self::margin(room)
-            && direct.margin > margin
-            && surface.out.z.abs() > least_cosine(room);
-        let light = direct.value;
-        (is_clear && wanted(&surface, &numbers, light)).then_some(DirectCase { call, light })
+        let is_wanted = is_clear(room, &call, margin)
+            && wanted(
+                &surface,
+                &Numbers64::from(&call),
+                direct_light(room, &call)?.value,
+            );
+        is_wanted.then_some(call)
     })
+}
+
+/// Returns the answer to a call of `direct`, or `None` if the ray hits nothing.
+pub(super) fn direct_light(room: &Room, call: &DirectSample) -> Option<WithMargin<DVec3>> {
+    let surface = room.hit(&Ray64::from(&call.ray), None).value?;
+    Some(transport::direct(room, &surface, &Numbers64::from(call)))
+}
+
+/// Returns whether a call's answer has the margin that calls in the room must have.
+pub(super) fn is_clear_direct(room: &Room, call: &DirectSample) -> bool {
+    is_clear(room, call, margin(room))
+}
+
+/// Returns whether a call's answer has at least this margin.
+fn is_clear(room: &Room, call: &DirectSample, margin: f64) -> bool {
+    let hit = room.hit(&Ray64::from(&call.ray), None);
+    let Some(surface) = &hit.value else {
+        return false;
+    };
+    hit.margin > self::margin(room)
+        && surface.out.z.abs() > least_cosine(room)
+        && direct_light(room, call).is_some_and(|light| light.margin > margin)
 }
 
 /// Returns a case in which `wanted` is true of the surface that a random ray hits first, if any, and
@@ -336,7 +345,7 @@ pub(super) fn path_case(
     room: &Room,
     bounces: u32,
     wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
-) -> PathCase {
+) -> PathStart {
     path_case_along(rng, room, bounces, |ray, numbers, light| {
         wanted(room.hit(ray, None).value.as_ref(), numbers, light)
     })
@@ -350,7 +359,7 @@ pub(super) fn path_case_along(
     room: &Room,
     bounces: u32,
     wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
-) -> PathCase {
+) -> PathStart {
     let seed = |rng: &mut Rng| rng.integer(0, 1 << 30);
     path_case_with(rng, room, bounces, margin(room), seed, wanted)
 }
@@ -362,7 +371,7 @@ pub(super) fn grazing_path_case(
     room: &Room,
     bounces: u32,
     wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
-) -> PathCase {
+) -> PathStart {
     path_case_with(rng, room, bounces, 1e-4, grazing_seed, wanted)
 }
 
@@ -386,20 +395,46 @@ fn path_case_with(
     margin: f64,
     seed: impl Fn(&mut Rng) -> u32,
     wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
-) -> PathCase {
+) -> PathStart {
     rng.retry(|rng| {
         let ray = random_ray(rng, room);
         let ray64 = Ray64::from(&ray);
         let seed = seed(rng);
         let call = PathStart { ray, seed, bounces };
-        let numbers = numbers_of_path(&call);
-        let radiance = transport::radiance(room, &ray64, &numbers);
+        let radiance = path_light(room, &call);
         let hit = room.hit(&ray64, None);
         let is_clear = hit.margin > self::margin(room) && radiance.margin > margin;
-        let light = radiance.value;
-        let is_wanted = is_clear && wanted(&ray64, &numbers, light);
-        is_wanted.then_some(PathCase { call, light })
+        let is_wanted = is_clear && wanted(&ray64, &numbers_of_path(&call), radiance.value);
+        is_wanted.then_some(call)
     })
+}
+
+/// Returns the answer to a call of `radiance`.
+pub(super) fn path_light(room: &Room, call: &PathStart) -> WithMargin<DVec3> {
+    transport::radiance(room, &Ray64::from(&call.ray), &numbers_of_path(call))
+}
+
+/// Returns whether a call's answer has the margin that calls in the room must have.
+pub(super) fn is_clear_path(room: &Room, call: &PathStart) -> bool {
+    let hit = room.hit(&Ray64::from(&call.ray), None);
+    hit.margin.min(path_light(room, call).margin) > margin(room)
+}
+
+/// Returns the room with matte surfaces whose albedo is multiplied by a factor.
+pub(super) fn repainted(room: &Room, factor: f64) -> Room {
+    let quads = room.quads().iter().map(|quad| {
+        let material = match *quad.material() {
+            Material64::Lambertian { albedo } => Material64::Lambertian {
+                albedo: factor * albedo,
+            },
+            other @ (Material64::Mirror { .. }
+            | Material64::Glass { .. }
+            | Material64::Emitter { .. }) => other,
+        };
+        let shape = quad.shape();
+        Quad::new(shape.corner, shape.edges, material)
+    });
+    Room::new(quads.collect(), room.sources().environment.clone())
 }
 
 /// Returns the room with a different size and position.

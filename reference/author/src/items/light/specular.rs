@@ -10,8 +10,8 @@ use protocol::light::specular::{GlassSample, Medium, MirrorColor};
 use protocol::{LocalDirection, Table};
 
 use super::groups::SPECULAR;
-use super::{MARGIN, above, below, directions, fractions, local, optional_directions, scattered};
-use super::{single, table};
+use super::{above, below, directions, fractions, local, optional_directions, scattered};
+use super::{single, table, with_changes};
 use crate::domains::light::fields::{self, ABOVE, HORIZON};
 use crate::domains::light::materials::{
     GLASS_SCATTER, MIRROR_SCATTER, REFLECTED_FRACTION, REFLECTION, REFRACTED,
@@ -444,11 +444,17 @@ fn straight_directions(rng: &mut Rng, medium: Medium) -> Vec<DVec3> {
 }
 
 /// The classes of indices of media that are denser than their surroundings.
-const DENSE: &[usize] = &[5, 6, 4];
+const DENSE: &[usize] = &[7, 8, 5, 6];
 /// The classes of indices of media that are thinner than their surroundings.
-const THIN: &[usize] = &[1, 0, 2];
+const THIN: &[usize] = &[1, 0, 3, 2];
 /// The class of the index of the surroundings.
-const SAME: &[usize] = &[3];
+const SAME: &[usize] = &[4];
+
+/// A call that refracts for every index, but not in the direction that it came from.
+const SLANTED: GlassSample = GlassSample {
+    out: Vec3::new(0.048, 0.064, 0.996_794_9),
+    random: 0.9,
+};
 
 /// Returns a question about a medium for each of these classes of indices.
 fn media(
@@ -574,22 +580,54 @@ fn near_critical(
 fn is_clear(out: DVec3, ior: f64) -> bool {
     /// A tenth of the tolerances for directions and fractions.
     const MOST: f64 = 1e-4;
-    let (near, far) = if out.z > 0.0 { (1.0, ior) } else { (ior, 1.0) };
-    let ratio = near / far;
-    let cosine = out.z.abs();
-    let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    let [least, most] = rounded_squares(out, ior);
+    let is_decided = least > 0.0 || most < 0.0;
+    let is_near = specular::critical_margin(out, ior) < critical_distance(ior);
+    let [a, b] = rounded_fractions(out, ior);
+    let [least, most] = [least, most].map(|square| square.max(0.0).sqrt());
+    is_decided
+        && !is_near
+        && most - least < MOST
+        && (a - b).abs() < MOST * a.max(b).max(SMALLEST_FRACTION)
+}
+
+/// Returns the smallest and the largest squared cosine of the refracted direction that rounding can
+/// lead to.
+fn rounded_squares(out: DVec3, ior: f64) -> [f64; 2] {
+    let ratio = if out.z > 0.0 { 1.0 / ior } else { ior };
+    let squared = 1.0 - ratio * ratio * (1.0 - out.z * out.z);
     let rounding = 2e-7 * (1.0 + ratio * ratio);
-    if squared.abs() < rounding || specular::critical_margin(out, ior) < critical_distance(ior) {
-        return false;
-    }
-    let [least, most] = [squared - rounding, squared + rounding].map(|it| it.max(0.0).sqrt());
-    let fraction = |refracted: f64| {
-        let square = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
+    [squared - rounding, squared + rounding]
+}
+
+/// Returns the reflected fractions for the [`rounded_squares`].
+fn rounded_fractions(out: DVec3, ior: f64) -> [f64; 2] {
+    let (near, far) = if out.z > 0.0 { (1.0, ior) } else { (ior, 1.0) };
+    let square = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
+    rounded_squares(out, ior).map(|squared| {
+        let (cosine, refracted) = (out.z.abs(), squared.max(0.0).sqrt());
         let perpendicular = square(near * cosine, far * refracted);
         0.5 * (perpendicular + square(far * cosine, near * refracted))
-    };
-    let [a, b] = [least, most].map(fraction);
-    most - least < MOST && (a - b).abs() < MOST * a.max(b).max(SMALLEST_FRACTION)
+    })
+}
+
+/// Returns how far a random number must be from the reflected fraction, so that rounding doesn't
+/// matter.
+fn fraction_margin(out: DVec3, ior: f64) -> f64 {
+    let [a, b] = rounded_fractions(out, ior);
+    // The fraction is a square. Its root, a difference of numbers of the order of one, is rounded,
+    // too.
+    2.0 * (a - b).abs() + 1e-5 * a.max(b).sqrt()
+}
+
+/// Returns whether it doesn't depend on rounding how glass scatters a path.
+fn is_clear_sample(call: &GlassSample, ior: f64) -> bool {
+    let (out, number) = (call.out.as_dvec3(), f64::from(call.random));
+    let is_far = (number - specular::fresnel(out, ior)).abs() > fraction_margin(out, ior);
+    // Along the normal of a medium with index 1, the fraction isn't rounded, and total reflection
+    // doesn't depend on the number.
+    let is_exactly_zero = ior == 1.0 && out.truncate() == DVec2::ZERO && number == 0.0;
+    is_clear(out, ior) && (is_far || is_exactly_zero || total(out, ior))
 }
 
 fn reflections(out: Vec<DVec3>) -> ExamQuestion {
@@ -621,7 +659,7 @@ fn glass(rng: &mut Rng, judged: &[&str]) -> Vec<ExamQuestion> {
         for (draw, side) in [(any_above as fn(&mut Rng) -> DVec3, 1.0), (any_below, -1.0)] {
             out.extend(few(rng, medium, draw, refracted));
             out.extend(near_critical(rng, medium, side, refracted));
-            for range in [1e-4..1.9e-3, 0.9952..0.9975] {
+            for range in [1e-6..1.9e-5, 1e-4..1.9e-3, 0.9952..0.9975, 0.9985..0.9999] {
                 out.extend(with_fraction(rng, medium, draw, range));
             }
             out.push(side * DVec3::Z);
@@ -637,8 +675,7 @@ fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]
     let mut calls = Vec::new();
     for out in out {
         let fraction = specular::fresnel(out, ior);
-        let margin = MARGIN * fraction.max(SMALLEST_FRACTION);
-        // Along the normal, the fraction isn't rounded.
+        let margin = fraction_margin(out, ior).max(1e-7);
         let is_exactly_zero = ior == 1.0 && out.truncate() == DVec2::ZERO;
         for is_below in [true, false] {
             let sample = rng.attempt(1_000, |rng| {
@@ -657,30 +694,27 @@ fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]
                     fields::number(rng)
                 };
                 let is_random = (0.0..1.0).contains(&number);
-                // Total reflection doesn't depend on the number.
-                let is_far = (f64::from(number) - fraction).abs() > margin;
-                let is_clear = is_far || is_exactly_zero || total(out, ior);
                 let is_wanted = (f64::from(number) < fraction) == is_below;
-                (is_random && is_clear && is_wanted).then_some(number)
+                let call = GlassSample {
+                    out: out.as_vec3(),
+                    random: number,
+                };
+                (is_random && is_wanted && is_clear_sample(&call, ior)).then_some(call)
             });
-            calls.extend(sample.map(|random| GlassSample {
-                out: out.as_vec3(),
-                random,
-            }));
+            calls.extend(sample);
         }
     }
     // The next question is about the same call first, which refracts for every index.
-    let same = GlassSample {
-        out: Vec3::Z,
-        random: 0.9,
+    let calls = [vec![SLANTED], rng.shuffled(calls), vec![SLANTED]].concat();
+    let ask = |calls: Vec<GlassSample>| {
+        let rows = calls
+            .iter()
+            .map(|call| specular::glass_scatter(ior, call.out.as_dvec3(), call.random.into()));
+        let rows = scattered(rows);
+        let question = LightQuestion::GlassScatter(Table::of_list(medium, calls));
+        table(question, judged, rows)
     };
-    let calls = [vec![same], rng.shuffled(calls), vec![same]].concat();
-    let rows = calls
-        .iter()
-        .map(|call| specular::glass_scatter(ior, call.out.as_dvec3(), call.random.into()));
-    let rows = scattered(rows);
-    let question = LightQuestion::GlassScatter(Table::of_list(medium, calls));
-    table(question, judged, rows)
+    with_changes(calls, ask, |call| is_clear_sample(call, ior))
 }
 
 fn locals(directions: Vec<DVec3>) -> Vec<LocalDirection> {

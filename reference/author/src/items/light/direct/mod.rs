@@ -2,19 +2,23 @@
 
 mod map;
 
+use std::ops::Range;
+
 use glam::{DVec3, dvec3};
 use judging::exam::ExamQuestion;
 use judging::symptom::Symptom;
 use protocol::Table;
 use protocol::light::LightQuestion;
+use protocol::light::transport::DirectSample;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
 use super::rooms::{
-    DARK, DirectCase, HALF, beside_a_light, both_grazing_case, direct_case, emitter, far_case,
-    grazing_case, is_lit, least_cosine, matte, moved, panel, sky, subject, tilted, walls,
-    with_shining_ceiling,
+    DARK, HALF, beside_a_light, both_grazing_case, direct_case, direct_light, emitter, far_case,
+    grazing_case, is_clear_direct, is_lit, least_cosine, matte, moved, panel, repainted, sky,
+    subject, tilted, walls, with_shining_ceiling,
 };
-use super::{color, colors, table};
+use super::{color, colors, table, with_changes};
+use crate::domains::light::fields::saturation;
 use crate::items::{AuthoredTask, Declaration, Group};
 use crate::oracle::Ray64;
 use crate::oracle::light::light_sources::Environment64;
@@ -73,9 +77,11 @@ const SMALL_LIGHT: Declaration = Declaration {
             LIT_AND_DARK,
         );
         // Farther away, the light looks even smaller, so its density is very high.
-        let far = below_a_far_light(rng);
-        let case = |_| far_case(rng, &far, |_, _, light| is_lit(light));
-        questions.push(question(&far, (0..CALLS).map(case).collect()));
+        for distances in [150.0..300.0, 400.0..750.0] {
+            let far = below_a_far_light(rng, distances);
+            let case = |_| far_case(rng, &far, |_, _, light| is_lit(light));
+            questions.push(question(&far, (0..CALLS).map(case).collect()));
+        }
         questions
     },
     needs: NEEDS,
@@ -139,7 +145,7 @@ const BOTH: Declaration = Declaration {
          was sampled.",
     ],
     questions: |rng| {
-        let lit = |rng: &mut Rng, room: &Room, count: usize| -> Vec<DirectCase> {
+        let lit = |rng: &mut Rng, room: &Room, count: usize| -> Vec<DirectSample> {
             let case = |_| direct_case(rng, room, |_, _, light| is_lit(light));
             (0..count).map(case).collect()
         };
@@ -147,7 +153,13 @@ const BOTH: Declaration = Declaration {
             lit(rng, room, 2 * CALLS)
         });
         // Light can be very bright or very dim, and walls can be very dark.
-        let extremes = [(1e7, 1.0), (1e-6, 1.0), (1.0, 1e-4)];
+        let saturation = saturation(rng);
+        let extremes = [
+            (1e7, DVec3::ONE),
+            (1e-6, DVec3::ONE),
+            (1.0, DVec3::splat(1e-4)),
+            (1.0, saturation),
+        ];
         questions.extend(extremes.map(|(brightness, albedo)| {
             let mut quads = walls(HALF, || Material64::Lambertian {
                 albedo: albedo * color(rng),
@@ -159,16 +171,25 @@ const BOTH: Declaration = Declaration {
             let cases = lit(rng, &room, CALLS);
             question(&room, cases)
         }));
-        // Almost along a floor, both terms are small, but neither is zero.
+        // Almost along a floor, both terms are small, but neither is zero, even if it is dark.
         let low = beside_a_light(rng, DARK);
-        let case = |_| {
-            both_grazing_case(rng, &low, |surface, numbers, light| {
-                is_lit(light)
-                    && surface.position.x < 4.0
-                    && scatters_to_a_light(&low, surface, numbers)
-            })
-        };
-        questions.push(question(&low, (0..CALLS).map(case).collect()));
+        for low in [repainted(&low, 1e-3), low] {
+            let case = |_| {
+                both_grazing_case(rng, &low, |surface, numbers, light| {
+                    is_lit(light)
+                        && surface.position.x < 4.0
+                        && scatters_to_a_light(&low, surface, numbers)
+                })
+            };
+            questions.push(question(&low, (0..CALLS).map(case).collect()));
+        }
+        // Each question begins with the call that the previous one ends with.
+        let room = with_shining_ceiling(rng);
+        let mut calls = lit(rng, &room, CALLS / 2);
+        for factor in [1.0, 0.6, 0.3] {
+            questions.push(question(&repainted(&room, factor), calls.clone()));
+            calls.reverse();
+        }
         questions
     },
     needs: NEEDS,
@@ -239,7 +260,7 @@ const TURNED: Declaration = Declaration {
     section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
     tests: &["The result is the sum, over both directions, of evaluate × radiance / …"],
     questions: |rng| {
-        rooms(
+        let mut questions = rooms(
             rng,
             |rng| {
                 let mut quads: Vec<Quad> = Vec::new();
@@ -273,7 +294,16 @@ const TURNED: Declaration = Declaration {
                 }));
                 cases
             },
-        )
+        );
+        // Close above a large floor, rays can hit it almost along it.
+        let floor = below_a_close_light(rng);
+        let cases = [0.0199, 0.0199, 0.0199, 0.0049, 0.0049, 0.0049].map(|most| {
+            direct_case(rng, &floor, |surface, _, light| {
+                is_lit(light) && surface.out.z < most
+            })
+        });
+        questions.push(question(&floor, cases.into()));
+        questions
     },
     needs: NEEDS,
     ..Declaration::in_group(DIRECT)
@@ -373,7 +403,7 @@ const OTHER_MATERIALS: Declaration = Declaration {
             },
             |rng, room| {
                 let is_matte = |material| matches!(material, Material64::Lambertian { .. });
-                let mut cases: Vec<DirectCase> = (0..CALLS)
+                let mut cases: Vec<DirectSample> = (0..CALLS)
                     .map(|_| {
                         direct_case(rng, room, |surface, _, light| {
                             is_matte(surface.material) && is_lit(light)
@@ -451,8 +481,8 @@ fn is_like_matte(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool 
 }
 
 /// Cases that get light, and as many that get none if the room has any.
-const LIT_AND_DARK: fn(&mut Rng, &Room) -> Vec<DirectCase> = |rng, room| {
-    let mut cases: Vec<DirectCase> = (0..CALLS)
+const LIT_AND_DARK: fn(&mut Rng, &Room) -> Vec<DirectSample> = |rng, room| {
+    let mut cases: Vec<DirectSample> = (0..CALLS)
         .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
         .collect();
     cases.extend((0..CALLS).map(|_| direct_case(rng, room, |_, _, _| true)));
@@ -485,10 +515,10 @@ fn with_screens(rng: &mut Rng) -> Room {
     Room::new(quads, DARK)
 }
 
-/// Returns a floor with a light high above it.
-fn below_a_far_light(rng: &mut Rng) -> Room {
+/// Returns a floor with a light high above it, as a multiple of the light's size.
+fn below_a_far_light(rng: &mut Rng, sizes: Range<f64>) -> Room {
     let height = rng.uniform(20.0, 40.0);
-    let half = height / rng.log_uniform(300.0, 600.0);
+    let half = 0.5 * height / rng.log_uniform(sizes.start, sizes.end);
     let center = rng.point(3.0).with_y(height);
     let radiance = color(rng) * rng.log_uniform(1e3, 1e6);
     let light = Material64::Emitter { radiance };
@@ -496,11 +526,24 @@ fn below_a_far_light(rng: &mut Rng) -> Room {
     Room::new(vec![open(rng).swap_remove(0), light], DARK)
 }
 
+/// Returns a floor with a light close above it. The floor is at y = 0, so that heights above it are
+/// hardly rounded.
+fn below_a_close_light(rng: &mut Rng) -> Room {
+    let half = dvec3(8.0, 0.0, 8.0);
+    let height = 0.2 * DVec3::Y;
+    let light = emitter(rng);
+    let mut floor = |center| panel(center, 1, 1.0, half, matte(rng));
+    // Rays start around the middle of the room, which is at the height of the upper floor.
+    let mut quads = vec![floor(DVec3::ZERO), floor(-height)];
+    quads.push(panel(height, 1, -1.0, 0.8 * half, light));
+    Room::new(quads, DARK)
+}
+
 /// Returns one question for each of two rooms.
 fn rooms(
     rng: &mut Rng,
     room: impl Fn(&mut Rng) -> Room,
-    cases: impl Fn(&mut Rng, &Room) -> Vec<DirectCase>,
+    cases: impl Fn(&mut Rng, &Room) -> Vec<DirectSample>,
 ) -> Vec<ExamQuestion> {
     let places = places(rng);
     rooms_at(rng, &places, room, cases)
@@ -524,7 +567,7 @@ fn rooms_at(
     rng: &mut Rng,
     places: &[(f64, DVec3)],
     room: impl Fn(&mut Rng) -> Room,
-    cases: impl Fn(&mut Rng, &Room) -> Vec<DirectCase>,
+    cases: impl Fn(&mut Rng, &Room) -> Vec<DirectSample>,
 ) -> Vec<ExamQuestion> {
     let of_room = |&(scale, shift): &(f64, DVec3)| {
         let room = moved(&room(rng), scale, shift);
@@ -534,12 +577,12 @@ fn rooms_at(
     places.iter().map(of_room).collect()
 }
 
-fn question(room: &Room, cases: Vec<DirectCase>) -> ExamQuestion {
-    let rows = colors(cases.iter().map(|case| case.light));
-    let calls = cases.iter().map(|case| case.call).collect();
-    table(
-        LightQuestion::Direct(Table::of_list(subject(room), calls)),
-        &["value"],
-        rows,
-    )
+fn question(room: &Room, calls: Vec<DirectSample>) -> ExamQuestion {
+    let ask = |calls: Vec<DirectSample>| {
+        let light = |call| direct_light(room, call).map_or(DVec3::ZERO, |light| light.value);
+        let rows = colors(calls.iter().map(light));
+        let question = LightQuestion::Direct(Table::of_list(subject(room), calls));
+        table(question, &["value"], rows)
+    };
+    with_changes(calls, ask, |call| is_clear_direct(room, call))
 }

@@ -10,13 +10,15 @@ use protocol::light::LightQuestion;
 use protocol::light::lights::{FlatLight, LightList, LightSample, ListedLight, Toward};
 
 use super::groups::{LIGHT_DENSITIES, LIGHT_SAMPLES};
-use super::{MARGIN, color, densities, optional_directions, random_pair, single, table};
+use super::{
+    MARGIN, color, densities, optional_directions, random_pair, single, table, with_changes,
+};
 use crate::domains::fields::{FURTHEST, direction as random_direction};
 use crate::domains::light::fields::{self, BELOW_ONE};
 use crate::domains::light::lights::{AREA_LIGHT_PDF, LIGHTS_PDF, LIGHTS_SAMPLE};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::flat_shape::FlatShape;
-use crate::oracle::light::lights::{FlatLight64, Lights64};
+use crate::oracle::light::lights::{FlatLight64, Light64, Lights64};
 use crate::oracle::light::nearest_border;
 use crate::seed::Rng;
 
@@ -64,7 +66,8 @@ const DENSITY: Declaration = Declaration {
         one_light(rng, &forms, |rng, light| {
             let mut calls = toward(rng, light, FRONT, CALLS / 2)?;
             calls.extend(toward(rng, light, CLOSE, CALLS / 2)?);
-            if length(light) < FURTHEST / (1.1 * FAR.distance[1]) {
+            let is_within_the_scene = length(light) < FURTHEST / (1.1 * FAR.distance[1]);
+            if is_within_the_scene && narrowness(light) < VERY_NARROW {
                 calls.extend(toward(rng, light, FAR, CALLS / 2)?);
             }
             Some(calls)
@@ -179,7 +182,8 @@ const DIRECTION: Declaration = Declaration {
     ],
     questions: |rng| {
         let sizes = every_size(rng);
-        let questions = EVERY_FORM.iter().zip(sizes).map(|(&form, size)| {
+        let forms_and_sizes = EVERY_FORM.iter().zip(sizes.into_iter().cycle());
+        let questions = forms_and_sizes.map(|(&form, size)| {
             let light = light(rng, form, size);
             let samples = samples(rng, &[light], CALLS, Option::is_some);
             sampled(&[light], samples)
@@ -206,15 +210,23 @@ const PICK: Declaration = Declaration {
     questions: |rng| {
         let counts = [2, 3, 7, 40, 100];
         let sizes = every_size(rng);
+        let lists = counts.into_iter().zip(sizes);
+        let mut lists: Vec<Vec<FlatLight64>> = lists
+            .map(|(count, size)| several(rng, count, size))
+            .collect();
+        lists.insert(3, with_exchanged_powers(&lists[2]));
+        lists.insert(2, with_exchanged_powers(&lists[1]));
+        lists.insert(1, with_exchanged_powers(&lists[0]));
+        let size = size(rng, 3);
+        lists.push(alike(rng, size));
         // Most questions start with the call that the previous one ends with.
         let mut last = None;
-        let questions = counts.into_iter().zip(sizes).map(|(count, size)| {
-            let lights = several(rng, count, size);
+        let questions = lists.into_iter().map(|lights| {
             let all = Lights64::new(lights.iter().copied());
             let same = last.filter(|call| is_clear(&all, call));
             let mut calls = Vec::from_iter(same);
-            calls.extend(samples(rng, &lights, 2 * CALLS, Option::is_some));
             calls.extend(past_rounding(rng, &lights));
+            calls.extend(samples(rng, &lights, 2 * CALLS, Option::is_some));
             last = calls.last().copied();
             sampled(&lights, calls)
         });
@@ -292,7 +304,7 @@ const SHARES: Declaration = Declaration {
         let mut questions: Vec<ExamQuestion> = counts
             .into_iter()
             .zip(sizes)
-            .map(|(count, size)| {
+            .flat_map(|(count, size)| {
                 let (lights, calls) = rng.retry(|rng| {
                     let mut lights = several(rng, count, size);
                     if count == 3 {
@@ -308,9 +320,25 @@ const SHARES: Declaration = Declaration {
                 let same = clear(&lights, Vec::from_iter(last));
                 // This one leads to a light.
                 last = Some(calls[0]);
-                list_densities(&lights, [same, calls, Vec::from_iter(last)].concat())
+                let again = Vec::from_iter(last);
+                let exchanged = with_exchanged_powers(&lights);
+                let mut questions = vec![list_densities(
+                    &lights,
+                    [same, calls, again.clone()].concat(),
+                )];
+                if (2..40).contains(&count) {
+                    questions.push(list_densities(&exchanged, again));
+                }
+                questions
             })
             .collect();
+        let (lights, calls) = rng.retry(|rng| {
+            let size = size(rng, 3);
+            let lights = alike(rng, size);
+            let calls = calls_of_list(rng, &lights)?;
+            Some((lights, calls))
+        });
+        questions.push(list_densities(&lights, calls));
         let calls = (0..3).map(|_| Toward {
             from: rng.point(3.0).as_vec3(),
             direction: rng.direction().as_vec3(),
@@ -428,23 +456,27 @@ const ALMOST_IN_ITS_PLANE_BEHIND: View = View {
 };
 
 /// The forms of lights, as indices of the classes of their domain.
-const EVERY_FORM: &[usize] = &[0, 1, 2, 3, 4, 5];
-const RECTANGLES: &[usize] = &[2, 0, 1];
-const TRIANGLES: &[usize] = &[5, 3, 4];
+const EVERY_FORM: &[usize] = &[0, 1, 2, 3, 4, 5, 6, 7];
+const RECTANGLES: &[usize] = &[2, 0, 1, 3];
+const TRIANGLES: &[usize] = &[6, 4, 5, 7];
+
+/// The smallest ratio of the edges of a very narrow light.
+const VERY_NARROW: f64 = 100.0;
 
 /// Returns a light at a random position, turned in a random direction.
 fn light(rng: &mut Rng, form: usize, size: f64) -> FlatLight64 {
     let first = rng.direction() * rng.uniform(0.5, 1.0) * size;
     let across = rng.perpendicular_to(first) * rng.uniform(0.3, 1.0) * size;
-    let second = match form % 3 {
+    let second = match form % 4 {
         0 => across,
         1 => across * rng.uniform(0.12, 0.18) * first.length() / across.length(),
+        3 => across.normalize() * first.length() / (VERY_NARROW * rng.uniform(1.1, 3.0)),
         _ => across + first * rng.uniform(0.1, 0.5) * rng.sign(),
     };
     let shape = FlatShape {
         corner: single(rng.point(size)),
         edges: [single(first), single(second)],
-        is_triangle: form >= 3,
+        is_triangle: form >= 4,
     };
     FlatLight64 {
         shape,
@@ -522,6 +554,42 @@ fn several(rng: &mut Rng, count: usize, size: f64) -> Vec<FlatLight64> {
     lights
 }
 
+/// Returns lights that have something in common: the halves of a rectangle, which share a corner,
+/// another light with the same power, and two lights that are the same.
+fn alike(rng: &mut Rng, size: f64) -> Vec<FlatLight64> {
+    let whole = light(rng, EVERY_FORM[0], size);
+    let [a, b] = whole.shape.edges;
+    let diagonal = single(a + b);
+    let [first, second] = [[a, diagonal], [diagonal, b]].map(|edges| FlatLight64 {
+        shape: FlatShape {
+            edges,
+            is_triangle: true,
+            ..whole.shape
+        },
+        ..whole
+    });
+    let mut moved = first;
+    moved.shape.corner = single(rng.point(size));
+    let mut other = light(rng, EVERY_FORM[2], size);
+    let power = rng.uniform(0.5, 2.0) * whole.power();
+    other.radiance = single(other.radiance * power / other.power());
+    vec![first, second, moved, other, other]
+}
+
+/// Returns the same lights, but each has the power of the next one. Their number and the sum of
+/// their powers are the same.
+fn with_exchanged_powers(lights: &[FlatLight64]) -> Vec<FlatLight64> {
+    let powers = lights.iter().map(FlatLight64::power);
+    let powers: Vec<f64> = powers.filter(|power| *power > 0.0).collect();
+    let mut next = powers.iter().cycle().skip(1);
+    let mut exchanged = lights.to_vec();
+    for light in exchanged.iter_mut().filter(|light| light.power() > 0.0) {
+        let factor = next.next().map_or(1.0, |next| next / light.power());
+        light.radiance = single(light.radiance * factor);
+    }
+    exchanged
+}
+
 /// Returns a copy of a light with a different position and radiance.
 fn shifted(rng: &mut Rng, light: &FlatLight64, offset: DVec3) -> FlatLight64 {
     FlatLight64 {
@@ -542,7 +610,7 @@ fn one_light(
     let sizes = every_size(rng);
     // Most questions start with the call that the previous one ends with.
     let mut last = None;
-    let question = |(&form, size)| {
+    let question = |(&form, size): (&usize, f64)| {
         let (light, calls) = rng.retry(|rng| {
             let light = light(rng, form, size);
             Some((light, calls(rng, &light)?))
@@ -551,16 +619,21 @@ fn one_light(
         last = calls.last().copied();
         one_light_densities(&light, [same, calls].concat())
     };
+    let sizes = sizes.into_iter().cycle();
     forms.iter().zip(sizes).map(question).collect()
 }
 
 fn one_light_densities(light: &FlatLight64, calls: Vec<Toward>) -> ExamQuestion {
-    let rows = calls
-        .iter()
-        .map(|call| light.pdf(call.from.as_dvec3(), call.direction.as_dvec3()));
-    let rows = densities(rows);
-    let question = LightQuestion::AreaLightPdf(Table::of_list(subject(&[*light]), calls));
-    table(question, &["pdf"], rows)
+    let ask = |calls: Vec<Toward>| {
+        let rows = calls
+            .iter()
+            .map(|call| light.pdf(call.from.as_dvec3(), call.direction.as_dvec3()));
+        let rows = densities(rows);
+        let question = LightQuestion::AreaLightPdf(Table::of_list(subject(&[*light]), calls));
+        table(question, &["pdf"], rows)
+    };
+    let lights = [Light64::Flat(*light)];
+    with_changes(calls, ask, |call| spheres::is_clear(&lights, call, MARGIN))
 }
 
 /// Returns the length of a light's first edge.
@@ -568,17 +641,29 @@ fn length(light: &FlatLight64) -> f64 {
     light.shape.edges[0].length()
 }
 
+/// Returns how many times a light is as long as it is wide.
+fn narrowness(light: &FlatLight64) -> f64 {
+    let [a, b] = light.shape.edges.map(DVec3::length);
+    (a / b).max(b / a)
+}
+
 /// Returns directions to points on a light. No direction is close to the light's edge. Returns
 /// `None` if there are no such directions, e.g. because the light is too narrow.
 fn toward(rng: &mut Rng, light: &FlatLight64, view: View, count: usize) -> Option<Vec<Toward>> {
     const ATTEMPTS: usize = 2_000;
+    let is_very_narrow = narrowness(light) > VERY_NARROW;
+    let margin = if is_very_narrow {
+        0.05 * view.margin
+    } else {
+        view.margin
+    };
     let call = |_| {
         rng.attempt(ATTEMPTS, |rng| {
             let along = DVec2::new(rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0));
             let call = toward_point(rng, light, view, light.shape.at(along))?;
             let (from, direction) = (call.from.as_dvec3(), call.direction.as_dvec3());
             let hit = light.shape.intersect_plane(from, direction);
-            hit.filter(|hit| hit.is_hit() && hit.margin() > view.margin)?;
+            hit.filter(|hit| hit.is_hit() && hit.margin() > margin)?;
             Some(call)
         })
     };
@@ -715,14 +800,8 @@ fn clear(lights: &[FlatLight64], calls: Vec<Toward>) -> Vec<Toward> {
 }
 
 fn list_densities(lights: &[FlatLight64], calls: Vec<Toward>) -> ExamQuestion {
-    let all = Lights64::new(lights.iter().copied());
-    let rows = calls.iter().map(|call| {
-        all.pdf(call.from.as_dvec3(), call.direction.as_dvec3())
-            .value
-    });
-    let rows = densities(rows);
-    let question = LightQuestion::LightsPdf(Table::of_list(subject(lights), calls));
-    table(question, &["pdf"], rows)
+    let all: Vec<Light64> = lights.iter().copied().map(Light64::Flat).collect();
+    spheres::list_densities(&all, calls)
 }
 
 /// Returns calls of `Lights::sample` whose results fulfil a condition.
@@ -802,9 +881,12 @@ fn sample(
 
 fn sampled(lights: &[FlatLight64], calls: Vec<LightSample>) -> ExamQuestion {
     let all = Lights64::new(lights.iter().copied());
-    let rows = optional_directions(calls.iter().map(|call| sample(&all, call).value));
-    let question = LightQuestion::LightsSample(Table::of_list(subject(lights), calls));
-    table(question, &["direction", "unit_direction"], rows)
+    let ask = |calls: Vec<LightSample>| {
+        let rows = optional_directions(calls.iter().map(|call| sample(&all, call).value));
+        let question = LightQuestion::LightsSample(Table::of_list(subject(lights), calls));
+        table(question, &["direction", "unit_direction"], rows)
+    };
+    with_changes(calls, ask, |call| is_clear(&all, call))
 }
 
 fn subject(lights: &[FlatLight64]) -> LightList {

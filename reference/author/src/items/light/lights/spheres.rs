@@ -7,9 +7,11 @@ use protocol::light::LightQuestion;
 use protocol::light::lights::{LightList, LightSample, ListedLight, SphericalLight, Toward};
 
 use super::super::{
-    MARGIN, color, densities, optional_directions, random, random_pair, single, table,
+    MARGIN, color, densities, optional_directions, random_pair, single, table, with_changes,
 };
-use super::{EVERY_FORM, light, listed};
+use super::{EVERY_FORM, every_size, light, listed};
+use crate::domains::fields::FURTHEST;
+use crate::domains::light::fields;
 use crate::items::Declaration;
 use crate::oracle::light::WithMargin;
 use crate::oracle::light::lights::{Light64, Lights64};
@@ -57,6 +59,9 @@ pub(super) const SAMPLES: Declaration = Declaration {
                 calls.extend((0..2 * FROM_INSIDE).filter_map(|index| {
                     let kinds: [fn(&Light64) -> bool; 2] = [|_| true, |light| !is_sphere(light)];
                     let kind = kinds[index % 2];
+                    if !lights.iter().any(kind) {
+                        return None;
+                    }
                     rng.attempt(1_000, |rng| {
                         let call = sample_of(rng, lights, inside, kind);
                         let is_some = sample(lights, &call).value.is_some();
@@ -104,28 +109,44 @@ fn lists(
     rng: &mut Rng,
     mut question: impl FnMut(&mut Rng, &[Light64]) -> ExamQuestion,
 ) -> Vec<ExamQuestion> {
-    let counts = [(1, 0), (1, 1), (2, 3), (20, 20)];
-    let questions = counts.map(|(spheres, others)| {
-        let mut lights: Vec<Light64> = (0..spheres).map(|_| sphere(rng)).collect();
-        lights.extend((0..others).map(|_| {
-            let form = rng.index(EVERY_FORM.len());
-            Light64::Flat(light(rng, form, 1.0))
-        }));
-        let lights = lights.into_iter().map(|light| similar(rng, light));
-        let lights: Vec<Light64> = lights.collect();
-        let lights = rng.shuffled(lights);
-        question(rng, &lights)
-    });
-    questions.into()
+    let counts = [(1, 0), (1, 1), (2, 0), (2, 1), (2, 3), (20, 20)];
+    let sizes = every_size(rng);
+    let questions = counts
+        .into_iter()
+        .zip(sizes)
+        .map(|((spheres, others), size)| {
+            // Larger spheres would leave no space for the points that they light.
+            let size = size.min(0.25 * FURTHEST);
+            let mut lights: Vec<Light64> = (0..spheres).map(|_| sphere(rng, size)).collect();
+            lights.extend((0..others).map(|_| {
+                let form = EVERY_FORM[rng.index(EVERY_FORM.len())];
+                Light64::Flat(light(rng, form, size))
+            }));
+            let lights = lights.into_iter().map(|light| similar(rng, light));
+            let lights: Vec<Light64> = lights.collect();
+            let lights = rng.shuffled(lights);
+            question(rng, &lights)
+        });
+    questions.collect()
 }
 
-/// Returns a sphere at a random position.
-fn sphere(rng: &mut Rng) -> Light64 {
+/// Returns a sphere at a random position, whose radius is at most `size`.
+fn sphere(rng: &mut Rng, size: f64) -> Light64 {
+    let radius = size * rng.log_uniform(0.2, 1.0);
     Light64::Sphere(SphericalLight64 {
-        center: single(rng.point(2.0)),
-        radius: f64::from(rng.log_uniform(0.1, 0.8) as f32),
+        center: single(rng.point(2.5 * size)),
+        radius: f64::from(radius as f32),
         radiance: color(rng),
     })
+}
+
+/// Returns the largest coordinate of the spheres.
+fn extent(lights: &[Light64]) -> f64 {
+    let extents = lights.iter().map(|light| match light {
+        Light64::Sphere(light) => light.center.abs().max_element() + light.radius,
+        Light64::Flat(_) => 0.0,
+    });
+    extents.fold(0.0, f64::max)
 }
 
 /// Changes the brightness of a light. In a list of such lights, no light has nearly all the power.
@@ -150,7 +171,7 @@ type Position = fn(&mut Rng, &[Light64]) -> (DVec3, f64);
 /// Returns a point outside all spheres, with some distance from them.
 fn outside(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
     let point = rng.retry(|rng| {
-        let point = single(rng.point(6.0));
+        let point = single(rng.point((2.5 * extent(lights)).min(FURTHEST)));
         is_outside(lights, point, 1.3).then_some(point)
     });
     (point, MARGIN)
@@ -183,10 +204,15 @@ fn close(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
     (point, SMALL_MARGIN)
 }
 
-/// Returns a point so far away that a sphere looks tiny.
+/// Returns a point so far away that a sphere looks tiny, unless the sphere is large.
 fn far(rng: &mut Rng, lights: &[Light64]) -> (DVec3, f64) {
     let light = any_sphere(rng, lights);
-    let distance = light.radius * rng.log_uniform(320.0, 1200.0);
+    let farthest = (FURTHEST / light.radius).min(1200.0);
+    if farthest < 330.0 {
+        // Such a point would be outside the scene.
+        return outside(rng, lights);
+    }
+    let distance = light.radius * rng.log_uniform(320.0, farthest);
     let point = light.center + distance * rng.direction();
     (single(point), SMALL_MARGIN)
 }
@@ -211,8 +237,8 @@ fn sample_of(
         let (from, margin) = from(rng, lights);
         let call = LightSample {
             from: from.as_vec3(),
-            choice: random(rng),
-            random: random_pair(rng),
+            choice: fields::number(rng),
+            random: fields::number_pair(rng),
         };
         let is_wanted = all.picked(call.choice.into()).is_some_and(wanted);
         (is_wanted && sample(lights, &call).margin > margin).then_some(call)
@@ -226,10 +252,13 @@ fn sample(lights: &[Light64], call: &LightSample) -> WithMargin<Option<DVec3>> {
 }
 
 fn sampled(lights: &[Light64], calls: Vec<LightSample>) -> ExamQuestion {
-    let rows = calls.iter().map(|call| sample(lights, call).value);
-    let rows = optional_directions(rows);
-    let question = LightQuestion::LightsSample(Table::of_list(subject(lights), calls));
-    table(question, &["direction", "unit_direction"], rows)
+    let ask = |calls: Vec<LightSample>| {
+        let rows = calls.iter().map(|call| sample(lights, call).value);
+        let rows = optional_directions(rows);
+        let question = LightQuestion::LightsSample(Table::of_list(subject(lights), calls));
+        table(question, &["direction", "unit_direction"], rows)
+    };
+    with_changes(calls, ask, |call| sample(lights, call).margin > MARGIN)
 }
 
 /// Returns a direction toward a light that fulfils a condition.
@@ -270,13 +299,18 @@ fn clear(lights: &[Light64], from: DVec3, direction: DVec3, margin: f64) -> Opti
         from: from.as_vec3(),
         direction: direction.normalize().as_vec3(),
     };
-    let all = Lights64::new(lights.iter().copied());
-    let pdf = all.pdf(call.from.as_dvec3(), call.direction.as_dvec3());
-    (pdf.margin > margin && is_steep(lights, direction)).then_some(call)
+    is_clear(lights, &call, margin).then_some(call)
 }
 
-/// Returns whether a direction isn't almost in the plane of any flat light, where correct formulas
-/// lose too many digits.
+/// Returns whether a direction isn't close to the edge of a light, nor almost in the plane of a flat
+/// light, where correct formulas lose too many digits.
+pub(super) fn is_clear(lights: &[Light64], call: &Toward, margin: f64) -> bool {
+    let (from, direction) = (call.from.as_dvec3(), call.direction.as_dvec3());
+    let all = Lights64::new(lights.iter().copied());
+    all.pdf(from, direction).margin > margin && is_steep(lights, direction)
+}
+
+/// Returns whether a direction isn't almost in the plane of any flat light.
 fn is_steep(lights: &[Light64], direction: DVec3) -> bool {
     lights.iter().all(|light| match light {
         Light64::Flat(light) => {
@@ -286,15 +320,18 @@ fn is_steep(lights: &[Light64], direction: DVec3) -> bool {
     })
 }
 
-fn list_densities(lights: &[Light64], calls: Vec<Toward>) -> ExamQuestion {
+pub(super) fn list_densities(lights: &[Light64], calls: Vec<Toward>) -> ExamQuestion {
     let all = Lights64::new(lights.iter().copied());
     let pdf = |call: &Toward| {
         all.pdf(call.from.as_dvec3(), call.direction.as_dvec3())
             .value
     };
-    let rows = densities(calls.iter().map(pdf));
-    let question = LightQuestion::LightsPdf(Table::of_list(subject(lights), calls));
-    table(question, &["pdf"], rows)
+    let ask = |calls: Vec<Toward>| {
+        let rows = densities(calls.iter().map(pdf));
+        let question = LightQuestion::LightsPdf(Table::of_list(subject(lights), calls));
+        table(question, &["pdf"], rows)
+    };
+    with_changes(calls, ask, |call| is_clear(lights, call, MARGIN))
 }
 
 fn subject(lights: &[Light64]) -> LightList {

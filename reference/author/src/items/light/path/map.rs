@@ -2,12 +2,13 @@
 
 use glam::{DVec3, dvec3};
 use judging::symptom::Symptom;
+use protocol::light::transport::PathStart;
 
 use super::super::color;
 use super::super::groups::{
     DIRECT, DIRECT_MAPS, LIGHT_DENSITIES, LIGHT_SAMPLES, MAPS, MATTE, MATTE_SAMPLES, SPECULAR,
 };
-use super::super::rooms::{PathCase, block, is_lit, path_case, under_a_map};
+use super::super::rooms::{block, is_lit, path_case, under_a_map};
 use super::{first_is_matte, is_glass, is_light_from_behind, is_mirror, rooms};
 use crate::items::Declaration;
 use crate::oracle::light::Numbers64;
@@ -98,7 +99,7 @@ fn cases(
     room: &Room,
     bounces: u32,
     wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
-) -> Vec<PathCase> {
+) -> Vec<PathStart> {
     let case = |_| path_case(rng, room, bounces, &wanted);
     (0..CALLS).map(case).collect()
 }

@@ -3,23 +3,29 @@
 mod map;
 
 use glam::{DVec3, dvec3};
+use judging::drawing_data::PathHit;
 use judging::exam::ExamQuestion;
 use judging::symptom::Symptom;
 use protocol::Table;
 use protocol::light::LightQuestion;
+use protocol::light::transport::PathStart;
 
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES, SPECULAR};
 use super::rooms::{
-    DARK, HALF, PathCase, beside_a_light, block, emitter, grazing_path_case, is_lit, matte, moved,
-    panel, path_case, path_case_along, sky, subject, walls, with_shining_ceiling,
+    DARK, HALF, beside_a_light, block, emitter, grazing_path_case, is_clear_path, is_lit, matte,
+    moved, panel, path_case, path_case_along, path_light, repainted, sky, subject, walls,
+    with_shining_ceiling,
 };
-use super::{color, colors, table};
+use super::{color, colors, table, with_changes};
+use crate::domains::light::fields::saturation;
+use crate::domains::light::transport::last_two;
 use crate::items::{AuthoredTask, Declaration, Group};
 use crate::oracle::Ray64;
 use crate::oracle::light::light_sources::Environment64;
+use crate::oracle::light::path_steps::path_steps;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::{Numbers64, transport as oracle};
+use crate::oracle::light::{Numbers64, numbers_of_path, transport as oracle};
 use crate::seed::Rng;
 
 /// The number of calls in a question.
@@ -109,14 +115,24 @@ const ONE_BOUNCE: Declaration = Declaration {
         "Both use the random numbers `sampler.numbers(bounce)`.",
     ],
     questions: |rng| {
-        rooms(
+        let mut questions = rooms(
             rng,
             |rng| {
                 let sky = sky(rng);
                 bright(rng, sky)
             },
             |rng, room| cases(rng, room, 1, lit),
-        )
+        );
+        // Each question begins with the call that the previous one ends with.
+        let sky = sky(rng);
+        let room = bright(rng, sky);
+        let mut calls = cases(rng, &room, 1, first_is_matte);
+        calls.truncate(CALLS / 2);
+        for factor in [1.0, 0.6, 0.3] {
+            questions.push(question(&repainted(&room, factor), calls.clone()));
+            calls.reverse();
+        }
+        questions
     },
     needs: NEEDS,
     ..Declaration::ALONE
@@ -163,6 +179,29 @@ const BOUNCES: Declaration = Declaration {
             })
         });
         questions.push(question(&corridor, cases.into()));
+        // All kinds of light still count after many mirrors.
+        let long = lit_corridor(rng);
+        let depths = [(40, 9..33), (100, 33..65), (100, 65..101)];
+        let kinds = [PathHit::Matte, PathHit::Light, PathHit::Nothing];
+        let each = depths
+            .into_iter()
+            .flat_map(|depth| kinds.map(|kind| (depth.clone(), kind)));
+        let calls = each.flat_map(|((bounces, depths), kind)| {
+            [(); 2].map(|()| {
+                path_case_along(rng, &long, bounces, |ray, numbers, light| {
+                    let steps = path_steps(&long, ray, numbers);
+                    let mut lit = steps.iter().zip(0..);
+                    let is_deep = lit.any(|(step, bounce)| {
+                        step.hit == kind
+                            && depths.contains(&bounce)
+                            && is_lit(step.light.as_dvec3())
+                    });
+                    is_deep && is_stable(&long, ray, numbers, light)
+                })
+            })
+        });
+        let calls = calls.collect();
+        questions.push(question(&long, rng.shuffled(calls)));
         questions
     },
     needs: NEEDS_WITH_SPECULAR,
@@ -252,17 +291,23 @@ const THROUGHPUT: Declaration = Declaration {
                 cases
             },
         );
-        // In a dark room, the first light that a path finds can be very dim.
-        questions.extend([(3, 0.04), (4, 0.004)].map(|(bounces, albedo)| {
-            let room = dim(rng, albedo);
-            let case = |_| {
-                path_case_along(rng, &room, bounces, |ray, numbers, light| {
-                    let shorter = without_the_last(&room, ray, numbers);
-                    light != DVec3::ZERO && shorter == DVec3::ZERO
-                })
-            };
-            question(&room, (0..CALLS / 2).map(case).collect())
-        }));
+        // In a dark room, the first light that a path finds can be very dim, at least in one channel.
+        let dark = [(3, 0.04), (4, 0.004), (3, 2e-5)].map(|(n, albedo)| (n, DVec3::splat(albedo)));
+        let saturation = saturation(rng);
+        questions.extend(
+            dark.into_iter()
+                .chain([(2, saturation)])
+                .map(|(bounces, albedo)| {
+                    let room = dim(rng, albedo);
+                    let case = |_| {
+                        path_case_along(rng, &room, bounces, |ray, numbers, light| {
+                            let shorter = without_the_last(&room, ray, numbers);
+                            light != DVec3::ZERO && shorter == DVec3::ZERO
+                        })
+                    };
+                    question(&room, (0..CALLS / 2).map(case).collect())
+                }),
+        );
         questions
     },
     needs: NEEDS,
@@ -334,10 +379,11 @@ const MIRROR: Declaration = Declaration {
                 second.as_ref().is_some_and(is_light_from_behind)
             };
             let case = |_| path_case(rng, &room, 3, wanted);
-            (0..CALLS / 4).map(case).collect::<Vec<PathCase>>()
+            (0..CALLS / 4).map(case).collect::<Vec<PathStart>>()
         });
         let cases = cases.collect();
         questions.push(question(&room, cases));
+        questions.extend(after_two_surfaces(rng));
         questions
     },
     needs: NEEDS_WITH_SPECULAR,
@@ -359,7 +405,7 @@ const GLASS: Declaration = Declaration {
     ],
     questions: |rng| {
         let mut environments = [sky(rng), DARK].into_iter();
-        let mut iors = [rng.uniform(3.3, 4.0), rng.uniform(1.3, 1.8)].into_iter();
+        let mut iors = [rng.uniform(5.2, 9.0), rng.uniform(1.3, 1.8)].into_iter();
         rooms(
             rng,
             |rng| {
@@ -576,7 +622,7 @@ fn is_stable(room: &Room, ray: &Ray64, numbers: &[Numbers64], light: DVec3) -> b
             ..*ray
         };
         let change = oracle::radiance(room, &shifted, numbers).value - light;
-        change.abs().max_element() < CHANGE * light.max_element()
+        change.abs().cmple(CHANGE * light).all()
     })
 }
 
@@ -644,7 +690,7 @@ fn shiny(rng: &mut Rng) -> Room {
     let mut walls = rng.shuffled(walls);
     let room = room_with(rng, || walls.pop().expect("there are six walls"));
     let glass = Material64::Glass {
-        ior: rng.uniform(1.3, 1.8),
+        ior: rng.log_uniform(1.3, 4.0),
     };
     let mut quads = room.quads().to_vec();
     quads.extend(block(rng.point(0.4), dvec3(1.0, 0.8, 1.2), glass));
@@ -675,9 +721,69 @@ fn corridor(rng: &mut Rng) -> Room {
     Room::new(mirrors.into(), sky)
 }
 
-/// Returns a closed room with very dark walls. Its light only shines on the floor and the lowest
-/// part of the walls.
-fn dim(rng: &mut Rng, albedo: f64) -> Room {
+/// Returns two mirrors that face each other, above a matte floor and below a light.
+fn lit_corridor(rng: &mut Rng) -> Room {
+    let height = 20.0;
+    let half = DVec3::new(1.0, height, height);
+    let mut quads = Vec::new();
+    for side in [-1.0, 1.0] {
+        let reflectance = color(rng).lerp(DVec3::ONE, 0.9);
+        let mirror = Material64::Mirror { reflectance };
+        quads.push(panel(side * DVec3::X, 0, -side, half, mirror));
+    }
+    let light = emitter(rng);
+    quads.push(panel(-height * DVec3::Y, 1, 1.0, half, matte(rng)));
+    quads.push(panel(height * DVec3::Y, 1, -1.0, half, light));
+    let sky = sky(rng);
+    Room::new(quads, sky)
+}
+
+/// Returns two questions about paths that find a light, or the environment, after each pair of kinds
+/// of surfaces of which the second is a mirror or glass.
+fn after_two_surfaces(rng: &mut Rng) -> [ExamQuestion; 2] {
+    let mut open = hall_of_mirrors(rng);
+    open.swap_remove(5);
+    let sky = sky(rng);
+    let closed = Room::new(hall_of_mirrors(rng), DARK);
+    let rooms = [
+        (closed, PathHit::Light),
+        (Room::new(open, sky), PathHit::Nothing),
+    ];
+    rooms.map(|(room, end)| {
+        let calls = (0..6).flat_map(|kinds| {
+            [(); 2].map(|()| {
+                path_case_along(rng, &room, 4, |ray, numbers, _| {
+                    last_two(&path_steps(&room, ray, numbers), end) == Some(kinds)
+                })
+            })
+        });
+        let calls = calls.collect();
+        question(&room, rng.shuffled(calls))
+    })
+}
+
+/// Returns a closed room with two mirrors that face each other, a glass block and a large light.
+fn hall_of_mirrors(rng: &mut Rng) -> Vec<Quad> {
+    let mirror = Material64::Mirror {
+        reflectance: color(rng),
+    };
+    let mut index = 0;
+    let mut quads = walls(HALF, || {
+        index += 1;
+        if index <= 2 { mirror } else { matte(rng) }
+    });
+    let light = emitter(rng);
+    quads.push(panel(1.8 * DVec3::Y, 1, -1.0, dvec3(1.8, 0.0, 2.0), light));
+    let glass = Material64::Glass {
+        ior: rng.uniform(1.8, 2.5),
+    };
+    quads.extend(block(-0.6 * DVec3::Y, dvec3(1.0, 0.6, 1.2), glass));
+    quads
+}
+
+/// Returns a closed room whose walls have random colours times a factor. Its light only shines on the
+/// floor and the lowest part of the walls.
+fn dim(rng: &mut Rng, albedo: DVec3) -> Room {
     let mut quads = walls(HALF, || Material64::Lambertian {
         albedo: albedo * color(rng),
     });
@@ -700,7 +806,7 @@ fn cases(
     room: &Room,
     bounces: u32,
     wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
-) -> Vec<PathCase> {
+) -> Vec<PathStart> {
     let case = |_| path_case(rng, room, bounces, &wanted);
     (0..CALLS).map(case).collect()
 }
@@ -709,7 +815,7 @@ fn cases(
 fn rooms(
     rng: &mut Rng,
     mut room: impl FnMut(&mut Rng) -> Room,
-    cases: impl Fn(&mut Rng, &Room) -> Vec<PathCase>,
+    cases: impl Fn(&mut Rng, &Room) -> Vec<PathStart>,
 ) -> Vec<ExamQuestion> {
     let question = |_| {
         let room = room(rng);
@@ -719,12 +825,15 @@ fn rooms(
     (0..2).map(question).collect()
 }
 
-fn question(room: &Room, cases: Vec<PathCase>) -> ExamQuestion {
-    let rows = colors(cases.iter().map(|case| case.light));
-    let calls = cases.iter().map(|case| case.call).collect();
-    table(
-        LightQuestion::Radiance(Table::of_list(subject(room), calls)),
-        &["value"],
-        rows,
-    )
+fn question(room: &Room, calls: Vec<PathStart>) -> ExamQuestion {
+    let ask = |calls: Vec<PathStart>| {
+        let rows = colors(calls.iter().map(|call| path_light(room, call).value));
+        let question = LightQuestion::Radiance(Table::of_list(subject(room), calls));
+        table(question, &["value"], rows)
+    };
+    with_changes(calls, ask, |call| {
+        let (ray, numbers) = (Ray64::from(&call.ray), numbers_of_path(call));
+        let light = path_light(room, call).value;
+        is_clear_path(room, call) && is_stable(room, &ray, &numbers, light)
+    })
 }

@@ -79,6 +79,7 @@ const REFLECTS: Declaration = Declaration {
 /// The domain of `reflect`: directions above the surface.
 static DIRECTIONS: FunctionDomain<LocalDirection> = FunctionDomain {
     function: "reflect",
+    fields: &[],
     subject_aspects: &[],
     aspects: &[Aspect {
         name: "direction",

@@ -68,10 +68,7 @@ fn spoiled(value: &Value, tolerances: f32, scale: f32) -> Option<Value<'static>>
             min: length(times.min),
             ..times
         }),
-        Value::Color(at) => {
-            let error = tolerances * portion::TOLERANCE as f32 * at.abs().max_element();
-            Value::Color(at + Vec3::Z * error)
-        }
+        Value::Color(at) => Value::Color(Vec3::from(at.to_array().map(relative))),
         Value::Density(at) => Value::Density(relative(at)),
         Value::OptionalDensity(at) => Value::OptionalDensity(Some(relative(at?))),
         Value::Fraction(at) => Value::Fraction(relative(at)),

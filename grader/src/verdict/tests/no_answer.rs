@@ -97,7 +97,7 @@ fn a_section_on_a_panic_fits_its_kind_and_a_time_out_leads_to_the_chapter() {
         read(&ItemOutcome::answered(vec![panicked]))
     };
     let unwrap = panics("called `Option::unwrap()` on a `None` value");
-    let section = "light/paths.md#what-is-counted-where";
+    let section = "light/paths.md#a-surface-that-scatters-nothing";
     assert_eq!(unwrap.as_deref(), Some(section));
     assert_eq!(
         panics("attempt to divide by zero").as_deref(),

@@ -137,8 +137,8 @@ fn one_time_out_stops_a_task_and_what_needs_it() {
     let not_run = "not run because another item in this task took too long";
     assert!(boxes[1..].iter().all(|message| message == not_run));
     let traverse = messages(&alone, "traverse");
-    let depends = "depends on bbox.through: fix that first";
-    assert!(traverse.iter().all(|message| message == depends));
+    let waits = "waits for bbox.through: fix that first";
+    assert!(traverse.iter().all(|message| message == waits));
     let expected = full_points_except(&["traverse"]);
     let others = |points| without(points, &["bbox"]);
     assert_eq!(others(alone.points()), others(expected));

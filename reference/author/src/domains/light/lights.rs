@@ -549,7 +549,7 @@ fn alike_class(list: &LightList, light: &FlatLight64) -> usize {
     }
 }
 
-/// What the light that is seen has in common with another one.
+/// A property that the light that is seen shares with another light.
 const ALIKE_AHEAD: Aspect<Row<LightsPdf>> = Aspect {
     name: "shared with another light",
     classes: ALIKE,
@@ -725,7 +725,7 @@ const PICKED_SPHERE_RADIUS: Aspect<Row<LightsSample>> = Aspect {
     },
 };
 
-/// What the picked light has in common with another one.
+/// A property that the picked light shares with another light.
 const PICKED_ALIKE: Aspect<Row<LightsSample>> = Aspect {
     name: "shared with another light",
     classes: ALIKE,

@@ -127,8 +127,8 @@ mod pipe {
         let frame = |length: &str| header.replace("LENGTH_u32", length);
         for (code, why) in [
             // Both frames are longer than any response and are refused before they are read.
-            (frame("u32::MAX"), "at most"),
-            (frame("500_000_000u32"), "at most"),
+            (frame("u32::MAX"), "the limit is"),
+            (frame("500_000_000u32"), "the limit is"),
             // A list whose stated length, 1 << 34 elements, exceeds the number of bytes sent.
             (
                 frame("8u32") + "send(&[0, 255, 255, 255, 255, 63, 0, 0]);",

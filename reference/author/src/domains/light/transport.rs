@@ -681,7 +681,7 @@ const LAST_TWO: &[&str] = &[
     "glass, glass",
 ];
 
-/// Returns the index in [`LAST_TWO`] of the surfaces before a path finds the light of `hit`.
+/// Returns the index in `LAST_TWO` of the surfaces before a path finds the light of `hit`.
 pub fn last_two(steps: &[PathStep], hit: PathHit) -> Option<usize> {
     let [.., first, second, last] = steps else {
         return None;

@@ -123,7 +123,7 @@ impl Side {
         if is_there { Side::More } else { Side::Less }
     }
 
-    /// Returns the side on which an amount is wrong, which is never negative: a density, a fraction
+    /// Returns the side on which an amount is wrong. Amounts are never negative: a density, a fraction
     /// or the light in a colour.
     pub fn of_amount(got: f32, wanted: f32) -> Option<Self> {
         let side = Side::of(got, wanted)?;

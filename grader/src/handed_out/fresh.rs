@@ -52,8 +52,6 @@ impl HandedOut {
             .expect("every task has a task file");
         let mut fresh_text = text.to_owned();
         let mut methods = Vec::new();
-        let mut first_unchanged_line = None;
-        let mut is_changed = false;
         for path in info.methods {
             let handed_out = find_method(file.starter, path);
             let handed_out = handed_out.map_err(|why| cannot_find(path, file, why))?;
@@ -69,23 +67,19 @@ impl HandedOut {
                 last_line: line_at(span.bytes.end),
                 is_changed: tokens(&text[span.bytes]) != tokens(handed_out),
             };
-            if !method.is_changed {
-                first_unchanged_line.get_or_insert(method.line);
-                methods.push(method);
-                continue;
+            if method.is_changed {
+                fresh_text = replaced(&fresh_text, path, handed_out)
+                    .map_err(|why| cannot_find(path, file, why))?;
             }
             methods.push(method);
-            is_changed = true;
-            fresh_text = replaced(&fresh_text, path, handed_out)
-                .map_err(|why| cannot_find(path, file, why))?;
         }
+        let unchanged = methods.iter().find(|method| !method.is_changed);
+        let first = unchanged.or(methods.first());
         Ok(TaskMethods {
             names: info.methods.join(", "),
-            line: first_unchanged_line
-                .or(methods.first().map(|method| method.line))
-                .unwrap_or(1),
+            line: first.map_or(1, |method| method.line),
+            is_changed: methods.iter().any(|method| method.is_changed),
             methods,
-            is_changed,
             fresh_text,
         })
     }

@@ -1,6 +1,6 @@
 //! The last line of the terminal report after a success, which says what to do next.
 
-use judging::assignment::Assignment;
+use judging::assignment::{Assignment, TaskInfo};
 use judging::sanitize::sanitize;
 use judging::section::Section;
 
@@ -57,14 +57,16 @@ pub fn first_step(
         return labelled(notes(score)) + &row(&after_all_points(assignment));
     };
     let info = assignment.info(task.id);
+    let at = item.at.as_ref();
+    let containing = at.and_then(|at| method_at(score, assignment, at));
     let step = match item.verdict.kind() {
-        VerdictKind::Unwritten => writing_step(score, assignment, task, item),
+        VerdictKind::Unwritten => writing_step(info, task, item, containing),
         VerdictKind::NotCompiled => compile_step(score, info.file, &item.message),
         VerdictKind::Blocked => format!("{} {}", item.id, item.message),
         VerdictKind::Passed
         | VerdictKind::Failed
         | VerdictKind::NoAnswer
-        | VerdictKind::Pending => debugging_step(score, assignment, task, item),
+        | VerdictKind::Pending => debugging_step(info, task, item, containing),
     };
     let what = format!("{}: {}", item.id, item.message);
     // What is wrong can be something other than the item's title says, such as a miss instead of a
@@ -94,19 +96,20 @@ pub fn first_step(
     format!("\n{}", labelled(rows.chain(notes(score)).chain(warnings)))
 }
 
-/// Returns the step for an item whose method still contains `todo!`.
+/// Returns the step for an item whose method still contains `todo!`. `containing` is the method that
+/// contains the item's line, if it is known: its name, and whether it differs from the starter's
+/// version.
 fn writing_step(
-    score: &Score,
-    assignment: &Assignment,
+    info: &TaskInfo,
     task: &TaskScore,
     item: &ItemScore,
+    containing: Option<(String, bool)>,
 ) -> String {
-    let info = assignment.info(task.id);
     let Some(at) = &item.at else {
         return format!("write {} in {}", info.method_names("and"), task.method);
     };
     let place = format!("{}:{}", at.file, at.line);
-    match (method_at(score, assignment, at), item.called) {
+    match (containing, item.called) {
         (Some((name, false)), _) => format!("write {name} in {place}"),
         (Some((name, true)), _) => format!("finish {name} in {place}"),
         // The line is in one of the student's own functions.
@@ -116,43 +119,27 @@ fn writing_step(
 }
 
 /// Returns the step for an item with a wrong answer or without an answer. The mistake itself can be
-/// in code that the named methods call or rely on.
+/// in code that the named methods call or rely on. `containing` is as in [`writing_step`].
 fn debugging_step(
-    score: &Score,
-    assignment: &Assignment,
+    info: &TaskInfo,
     task: &TaskScore,
     item: &ItemScore,
+    containing: Option<(String, bool)>,
 ) -> String {
-    let info = assignment.info(task.id);
     // A wrong answer has a symptom.
-    let is_panic = match item.verdict {
-        Verdict::Panicked => true,
-        Verdict::Partial => item.symptom.is_none(),
-        Verdict::Pass
-        | Verdict::Wrong
-        | Verdict::Unimplemented
-        | Verdict::TimedOut
-        | Verdict::OutOfMemory
-        | Verdict::Crashed
-        | Verdict::Protocol
-        | Verdict::NotCompiled
-        | Verdict::Blocked { .. }
-        | Verdict::Pending => false,
-    };
-    let result = match item.verdict.kind() {
-        _ if is_panic => "panics",
-        VerdictKind::NoAnswer => "gives no answer",
-        VerdictKind::Passed
-        | VerdictKind::Failed
-        | VerdictKind::Unwritten
-        | VerdictKind::NotCompiled
-        | VerdictKind::Blocked
-        | VerdictKind::Pending => "gives a wrong answer",
+    let is_panic = item.verdict == Verdict::Panicked
+        || (item.verdict == Verdict::Partial && item.symptom.is_none());
+    let result = if is_panic {
+        "panics"
+    } else if item.verdict.kind() == VerdictKind::NoAnswer {
+        "gives no answer"
+    } else {
+        "gives a wrong answer"
     };
     let called = item.called.map(|called| info.method_name(called));
     let called = called.unwrap_or_else(|| info.method_names("or"));
     if let Some(at) = item.at.as_ref().filter(|_| is_panic) {
-        let name = method_at(score, assignment, at).map_or(called, |(name, _)| name);
+        let name = containing.map_or(called, |(name, _)| name);
         return format!("find out why {name} {result} ({}:{})", at.file, at.line);
     }
     let position = |path: &str| {
@@ -310,10 +297,13 @@ mod tests {
         score.tasks[0].methods = methods.into();
         change(&mut score.tasks[0].items[0]);
         let (task, item) = (&score.tasks[0], &score.tasks[0].items[0]);
+        let info = LIGHT.assignment.info(task.id);
+        let at = item.at.as_ref();
+        let containing = at.and_then(|at| method_at(&score, LIGHT.assignment, at));
         if item.verdict == Verdict::Unimplemented {
-            writing_step(&score, LIGHT.assignment, task, item)
+            writing_step(info, task, item, containing)
         } else {
-            debugging_step(&score, LIGHT.assignment, task, item)
+            debugging_step(info, task, item, containing)
         }
     }
 

@@ -200,7 +200,7 @@ pub fn contrast_class(color: Vec3) -> Option<usize> {
     (channels.len() > 1).then(|| limits.iter().filter(|limit| contrast < **limit).count())
 }
 
-/// Returns factors for the channels of a colour, one of which is very small.
+/// Returns a factor for each channel of a colour. One of the factors is very small.
 pub fn saturation(rng: &mut Rng) -> DVec3 {
     let mut factors = DVec3::ONE;
     factors[rng.index(3)] = rng.log_uniform(1e-5, 4e-5);

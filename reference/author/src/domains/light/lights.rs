@@ -541,11 +541,14 @@ fn alike_class(list: &LightList, light: &FlatLight64) -> usize {
         |is_alike: &dyn Fn(&&FlatLight64) -> bool| lights.iter().filter(is_alike).count() > 1;
     // Sums and products of the same numbers can be rounded differently.
     let is_equal = |a: f64, b: f64| (a - b).abs() <= 1e-6 * a.max(b);
-    match () {
-        () if is_shared(&|it| *it == light) => 0,
-        () if is_shared(&|it| it.shape.corner == light.shape.corner) => 1,
-        () if is_shared(&|it| is_equal(it.power(), light.power())) => 2,
-        () => 3,
+    if is_shared(&|it| *it == light) {
+        0
+    } else if is_shared(&|it| it.shape.corner == light.shape.corner) {
+        1
+    } else if is_shared(&|it| is_equal(it.power(), light.power())) {
+        2
+    } else {
+        3
     }
 }
 

@@ -638,10 +638,10 @@ const FIRST_SCATTERED: Aspect<PathCall> = Aspect {
     },
 };
 
-/// The classes of bounces at which light is counted.
+/// The classes of bounces where light is counted.
 const DEPTHS: &[&str] = &["0", "1 to 8", "9 to 32", "33 to 64", "more"];
 
-/// Returns the class of the last bounce at which a path adds light from a kind of surface.
+/// Returns the class of the last bounce where a path adds light from a kind of surface.
 fn last_depth(call: &PathCall, hit: PathHit) -> Option<usize> {
     let is_lit = |step: &PathStep| step.hit == hit && step.light != Vec3::ZERO;
     Some(class_up_to(
@@ -650,21 +650,21 @@ fn last_depth(call: &PathCall, hit: PathHit) -> Option<usize> {
     ))
 }
 
-/// The last bounce at which emitted light is counted.
+/// The last bounce where emitted light is counted.
 const LAST_EMISSION: Aspect<PathCall> = Aspect {
     name: "last emission counted at bounce",
     classes: DEPTHS,
     class: |call| last_depth(call, PathHit::Light),
 };
 
-/// The last bounce at which direct light is counted.
+/// The last bounce where direct light is counted.
 const LAST_DIRECT: Aspect<PathCall> = Aspect {
     name: "last direct light counted at bounce",
     classes: DEPTHS,
     class: |call| last_depth(call, PathHit::Matte),
 };
 
-/// The last bounce at which the environment is counted.
+/// The last bounce where the environment is counted.
 const LAST_ENVIRONMENT: Aspect<PathCall> = Aspect {
     name: "environment counted at bounce",
     classes: DEPTHS,
@@ -715,13 +715,13 @@ const BEFORE_THE_ENVIRONMENT: Aspect<PathCall> = Aspect {
     class: |call| last_two(&call.steps, PathHit::Nothing),
 };
 
-/// Returns the largest channels of the throughputs with which light is counted.
+/// Returns the largest channel of each throughput that light is multiplied by.
 fn throughputs(call: &PathCall) -> impl Iterator<Item = f32> {
     let lit = call.steps.iter().filter(|step| step.light != Vec3::ZERO);
     lit.map(|step| step.throughput.max_element())
 }
 
-/// The smallest throughput with which light is counted.
+/// The smallest throughput that light is multiplied by.
 const LEAST_THROUGHPUT: Aspect<PathCall> = Aspect {
     name: "smallest throughput",
     classes: &["above 1e-3", "above 1e-6", "above 1e-9", "smaller"],
@@ -732,7 +732,7 @@ const LEAST_THROUGHPUT: Aspect<PathCall> = Aspect {
     },
 };
 
-/// The largest throughput with which light is counted.
+/// The largest throughput that light is multiplied by.
 const LARGEST_THROUGHPUT: Aspect<PathCall> = Aspect {
     name: "largest throughput",
     classes: &["up to 1", "up to 5", "up to 25", "beyond"],

@@ -388,7 +388,7 @@ fn every_brightness(rng: &mut Rng) -> Vec<MapImage> {
     maps.into()
 }
 
-/// Moves all pixels by one column. So the weights are the same, but in another order.
+/// Moves all pixels by one column, so that the weights are the same but in a different order.
 fn rotated(mut map: MapImage) -> MapImage {
     for row in map.pixels.chunks_mut(map.size.x as usize) {
         row.rotate_right(1);

@@ -305,36 +305,31 @@ fn direct_case_with(
             on_light,
             direct,
         };
-        let is_wanted = is_clear(room, &call, margin)
-            && wanted(
-                &surface,
-                &Numbers64::from(&call),
-                direct_light(room, &call)?.value,
-            );
-        is_wanted.then_some(call)
+        let light = clear_direct(room, &call, margin)?;
+        wanted(&surface, &Numbers64::from(&call), light).then_some(call)
     })
 }
 
-/// Returns the answer to a call of `direct`, or `None` if the ray hits nothing.
-pub(super) fn direct_light(room: &Room, call: &DirectSample) -> Option<WithMargin<DVec3>> {
-    let surface = room.hit(&Ray64::from(&call.ray), None).value?;
-    Some(transport::direct(room, &surface, &Numbers64::from(call)))
+/// Returns the answer to a call of `direct`, whose ray hits a surface.
+pub(super) fn direct_light(room: &Room, call: &DirectSample) -> DVec3 {
+    let surface = room.hit(&Ray64::from(&call.ray), None).value;
+    let surface = surface.expect("the ray of every call hits a surface");
+    transport::direct(room, &surface, &Numbers64::from(call)).value
 }
 
 /// Returns whether a call's answer has the margin that calls in the room must have.
 pub(super) fn is_clear_direct(room: &Room, call: &DirectSample) -> bool {
-    is_clear(room, call, margin(room))
+    clear_direct(room, call, margin(room)).is_some()
 }
 
-/// Returns whether a call's answer has at least this margin.
-fn is_clear(room: &Room, call: &DirectSample, margin: f64) -> bool {
+/// Returns the answer to a call of `direct` if it has at least this margin.
+fn clear_direct(room: &Room, call: &DirectSample, margin: f64) -> Option<DVec3> {
     let hit = room.hit(&Ray64::from(&call.ray), None);
-    let Some(surface) = &hit.value else {
-        return false;
-    };
-    hit.margin > self::margin(room)
-        && surface.out.z.abs() > least_cosine(room)
-        && direct_light(room, call).is_some_and(|light| light.margin > margin)
+    let is_clear = hit.margin > self::margin(room);
+    let surface = hit.value?;
+    let light = transport::direct(room, &surface, &Numbers64::from(call));
+    let is_clear = is_clear && surface.out.z.abs() > least_cosine(room) && light.margin > margin;
+    is_clear.then_some(light.value)
 }
 
 /// Returns a case in which `wanted` is true of the surface that a random ray hits first, if any, and

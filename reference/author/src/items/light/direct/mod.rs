@@ -145,10 +145,6 @@ const BOTH: Declaration = Declaration {
          was sampled.",
     ],
     questions: |rng| {
-        let lit = |rng: &mut Rng, room: &Room, count: usize| -> Vec<DirectSample> {
-            let case = |_| direct_case(rng, room, |_, _, light| is_lit(light));
-            (0..count).map(case).collect()
-        };
         let mut questions = rooms(rng, with_shining_ceiling, |rng, room| {
             lit(rng, room, 2 * CALLS)
         });
@@ -213,9 +209,7 @@ const BLOCKED: Declaration = Declaration {
         let tiny = (1e-4, DVec3::ZERO);
         let places = [vec![tiny], places(rng)].concat();
         rooms_at(rng, &places, with_screens, |rng, room| {
-            let mut cases: Vec<_> = (0..CALLS)
-                .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
-                .collect();
+            let mut cases = lit(rng, room, CALLS);
             cases.extend((0..CALLS).map(|_| {
                 direct_case(rng, room, |surface, numbers, _| {
                     is_like_matte(room, surface, numbers)
@@ -480,11 +474,15 @@ fn is_like_matte(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool 
         || !is_lit(oracle::direct(room, &matte, numbers).value)
 }
 
+/// Returns calls that get light.
+fn lit(rng: &mut Rng, room: &Room, count: usize) -> Vec<DirectSample> {
+    let case = |_| direct_case(rng, room, |_, _, light| is_lit(light));
+    (0..count).map(case).collect()
+}
+
 /// Cases that get light, and as many that get none if the room has any.
 const LIT_AND_DARK: fn(&mut Rng, &Room) -> Vec<DirectSample> = |rng, room| {
-    let mut cases: Vec<DirectSample> = (0..CALLS)
-        .map(|_| direct_case(rng, room, |_, _, light| is_lit(light)))
-        .collect();
+    let mut cases = lit(rng, room, CALLS);
     cases.extend((0..CALLS).map(|_| direct_case(rng, room, |_, _, _| true)));
     cases
 };
@@ -579,8 +577,7 @@ fn rooms_at(
 
 fn question(room: &Room, calls: Vec<DirectSample>) -> ExamQuestion {
     let ask = |calls: Vec<DirectSample>| {
-        let light = |call| direct_light(room, call).map_or(DVec3::ZERO, |light| light.value);
-        let rows = colors(calls.iter().map(light));
+        let rows = colors(calls.iter().map(|call| direct_light(room, call)));
         let question = LightQuestion::Direct(Table::of_list(subject(room), calls));
         table(question, &["value"], rows)
     };

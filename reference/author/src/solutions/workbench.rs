@@ -20,9 +20,11 @@ use protocol::Answer;
 use crate::authoring::Authoring;
 use crate::solutions::sources::Sources;
 
-/// The time limits for an item. A correct solution takes milliseconds. The limits are for wrong
-/// solutions that never terminate.
-const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(2));
+/// The time limits for an item, which are for wrong solutions that never terminate. A correct
+/// solution takes milliseconds. The known mistake that takes longest needs two seconds until its
+/// stack overflows. The limit must be far from that, because the exam records how a mistake fails,
+/// and must come out the same on a machine of any speed.
+const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(10));
 /// The CPU time limit for a process, which answers all items of a task.
 const PROCESS_CPU: Duration = Duration::from_secs(120);
 

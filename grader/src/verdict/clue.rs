@@ -45,9 +45,9 @@ pub fn of_fault(fault: &Fault, called: Option<&str>, task: &TaskInfo) -> String 
             Some(clue) => clue.to_owned(),
             None => {
                 format!(
-                    "Does {method} in {file} call itself, perhaps through another function? Find the call that \
-                     can receive the same arguments as its caller. If there is no such call, look for \
-                     a very large array."
+                    "Does {method} in {file} call itself, perhaps through another function? Then which argument \
+                     gets smaller from call to call, and when does the recursion end? If nothing calls \
+                     itself, look for a very large array."
                 )
             }
         },
@@ -92,8 +92,8 @@ pub fn of_panic(message: &str) -> Option<&'static str> {
              different list? A vector has the axes 0, 1 and 2."
         }
         PanicKind::Index => {
-            "Compare the index with the length: is the index one too large, is the list empty, or \
-             was the index meant for a different list?"
+            "Compare the index with the length: is the index one too large, is the list empty or too \
+             short, or was the index meant for a different list?"
         }
         PanicKind::Arithmetic if is_too_large => {
             "The result is too large for the type of these integers. Do you need this calculation? If \

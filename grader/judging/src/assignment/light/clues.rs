@@ -120,9 +120,10 @@ pub(super) const DIRECT: TaskClues = TaskClues {
     by_symptom: &[
         SymptomClue {
             symptoms: &[Symptom::zero("value")],
-            clue: "Your result is 0, although one of the two directions finds light. What makes your code drop it? \
-                And is each direction in the right frame: the surface's for the material, world space for `World`?",
-            section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
+            clue: "Your result is 0, although one of the two directions finds light. What makes your code drop it: \
+                an early `return`, a `break` or `continue`, or a direction in the wrong frame (the surface's \
+                for the material, world space for `World`)?",
+            section: "light/direct.md#directions-that-add-nothing",
         },
         SymptomClue {
             symptoms: &[Symptom::of("value")],
@@ -150,7 +151,8 @@ pub(super) const PATH: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::of("value")],
             clue: "Follow your path for the question shown. At each surface, write down what your code adds and \
-                what the throughput is. Which of the steps in the handout does your code do differently?",
+                what the throughput is. Which of the steps in the handout does your code do differently? Does \
+                bounce n use `sampler.numbers(n)`?",
             section: "light/paths.md#what-to-return",
         },
     ],

@@ -49,7 +49,7 @@ pub(super) const CAMERA: TaskClues = TaskClues {
 /// The clues for triangles.
 pub(super) const TRIANGLE: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "None of your rays hit a triangle, so look for something that is wrong for every ray. Work out u, \
+        "Your code returns a miss for every ray, so look for something that is wrong for all of them. Work out u, \
          v, 1 − u − v and t by hand for the ray shown, and compare them with the values in your code. If \
          several have the wrong sign, check s, the operands of each cross product, and the formula's two \
          minus signs.",
@@ -121,7 +121,7 @@ pub(super) const TRIANGLE: TaskClues = TaskClues {
 /// The clues for spheres.
 pub(super) const SPHERE: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "None of your rays hit a sphere, so look for something that is wrong for every ray. Work out b, c, \
+        "Your code returns a miss for every ray, so look for something that is wrong for all of them. Work out b, c, \
          the discriminant and both roots by hand for the ray shown, and compare them with the values in \
          your code. Then see which comparison rejects both roots.",
     ),
@@ -193,7 +193,7 @@ pub(super) const SPHERE: TaskClues = TaskClues {
 /// The clues for boxes.
 pub(super) const BBOX: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "None of your rays hit a box, so look for something that is wrong for every ray. Work out by hand \
+        "Your code returns a miss for every ray, so look for something that is wrong for all of them. Work out by hand \
          when the ray shown enters and leaves the slab of each axis. Which of these times are different in \
          your code, and which comparison rejects them?",
     ),
@@ -229,7 +229,8 @@ pub(super) const BUILD: TaskClues = TaskClues {
         "Is there a call in bvh.rs that receives as many primitives as its caller? If so, that \
          node should have become a leaf, or one side of its split is empty, or the two sides \
          overlap. Do you use the same rule to count the two sides as to move the primitives? \
-         `--replay` shows the smallest set of primitives that still overflows the stack.",
+         `--replay` leaves out primitives as long as the stack still overflows, and shows how \
+         many are left.",
     ),
     section_if_stack_overflows: Some("building.md#a-side-without-primitives"),
     sections_on_crashes: &["building.md#when-all-centres-coincide"],
@@ -311,7 +312,7 @@ pub(super) const BUILD: TaskClues = TaskClues {
 /// The clues for traversing a tree.
 pub(super) const TRAVERSE: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "None of your rays hit anything, so look for something that is wrong for every ray. Follow \
+        "Your code returns a miss for every ray, so look for something that is wrong for all of them. Follow \
          the ray shown from the root. Does your code enter the boxes that the ray hits and test \
          all primitives in the leaves? If it finds a hit, is that hit compared the right way \
          round, kept, and returned?",

@@ -139,23 +139,28 @@ impl UnplacedQuestion {
         }
     }
 
-    /// Returns the question moved to a random position. The position is so close to the origin that
+    /// Returns the question with its primitives [placed](Self::placed) at random.
+    fn question(&self, rng: &mut Rng, size: usize) -> Option<ExamQuestion> {
+        let shapes = self.placed(rng, size)?;
+        Some(cost_question(shapes, self.max_leaf_size as u32))
+    }
+
+    /// Returns the primitives moved to a random position. The position is so close to the origin that
     /// coordinates in single precision have enough digits for the detail, and the best split is
     /// still unambiguous. Returns `None` if such positions are rare or don't exist.
-    fn question(&self, rng: &mut Rng, size: usize) -> Option<ExamQuestion> {
+    fn placed(&self, rng: &mut Rng, size: usize) -> Option<Vec<Shape>> {
         /// The largest coordinate, as a multiple of the detail.
         const MOST: f64 = 1e5;
         /// The maximum number of positions to try.
         const ATTEMPTS: usize = 200;
-        let shapes = rng.attempt(ATTEMPTS, |rng| {
+        rng.attempt(ATTEMPTS, |rng| {
             let shapes = transform_of_size(rng, &self.shapes, size).shapes(&self.shapes);
             let [before, after] =
                 [&self.shapes, &shapes].map(|all| Bounds::enclosing(all.iter().map(scan::bounds)));
             let detail = self.detail * after.diagonal() / before.diagonal();
             let largest = after.min.abs().max(after.max.abs()).max_element();
             (largest <= MOST * detail && is_unambiguous(&shapes, self.axis)).then_some(shapes)
-        });
-        Some(cost_question(shapes?, self.max_leaf_size as u32))
+        })
     }
 }
 
@@ -174,12 +179,28 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
         of_strips(),
     ];
     let kinds = kinds.into_iter().flatten().enumerate();
-    kinds
+    let mut questions: Vec<ExamQuestion> = kinds
         .map(|(index, draw)| {
             let size = (first + index) % sizes;
             rng.retry(|rng| draw(rng).question(rng, size))
         })
-        .collect()
+        .collect();
+    questions.extend((0..3).map(|axis| tiny_stack(rng, axis)));
+    questions
+}
+
+/// Returns a question about two layers of strips in which the centres extend less than
+/// `f32::EPSILON` along the axis of the best split. Such an axis is no less important than others.
+fn tiny_stack(rng: &mut Rng, axis: usize) -> ExamQuestion {
+    rng.retry(|rng| {
+        let ratio = rng.log_uniform(0.01, 0.2);
+        let stack = stack(rng, (4, axis == 1), ratio, axis);
+        let shapes = stack.placed(rng, 0)?;
+        let centers = Bounds::around(shapes.iter().map(|shape| scan::bounds(shape).center()));
+        let extent = (centers.max - centers.min)[axis];
+        let is_tiny = extent < f64::from(f32::EPSILON);
+        is_tiny.then(|| cost_question(shapes, stack.max_leaf_size as u32))
+    })
 }
 
 /// Returns functions that generate each layout of clumps along each axis.

@@ -48,8 +48,8 @@ const UNIFORM: Declaration = Declaration {
     id: "environment.uniform",
     points: 4,
     title: "uniform directions are spread evenly over the whole sphere",
-    look: "If part of the sphere is empty, check the ranges of the height and of φ. Otherwise, ask \
-           yourself which must be uniform: the polar angle or the height?",
+    look: "If part of the sphere is empty, check the ranges of the height and of φ, and that each \
+           uses a number of its own. Otherwise, which is uniform: the polar angle or the height?",
     look_fits: &[Symptom::of(SPREAD)],
     section: "light/environment.md#directions-spread-evenly",
     tests: &[
@@ -80,8 +80,8 @@ const PICK: Declaration = Declaration {
     points: 3,
     title: "pixels are picked in proportion to their weight, row by row from the top",
     look: "Pass the correct direction to `Environment::index`. If your search returns the same index, \
-           check the pixel's row and column and the two angles. Otherwise, add up the weights in order: \
-           is each one luminance × sine in the middle of the row?",
+           check the pixel's row and column and the two angles. Otherwise, add up the weights, luminance \
+           × sine in the middle of the row: which sum is the first above `choice` × total?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[

@@ -43,7 +43,7 @@ const EVALUATE: Declaration = Declaration {
     points: 2,
     title: "a matte surface scatters albedo / π times the cosine of the incoming light",
     look: "Which of the two directions does the cosine belong to, and which factor comes before it?",
-    section: "light/materials.md#the-cosine-is-already-in-evaluate",
+    section: "light/materials.md#a-matte-surface",
     tests: &[
         "Returns the fraction of the light from `incoming` that is scattered to `out`, per solid \
          angle: albedo / π · cos θ, where θ is the angle between `incoming` and the normal.",

@@ -190,7 +190,7 @@ const LOW_INDEX: Declaration = Declaration {
     points: 1,
     title: "an index of 1 bends nothing, and below 1, total reflection occurs outside",
     look: "Does any step in your code assume that `ior` is greater than 1? It can also be 1 or \
-           less.",
+           less. Even at 1, the result is on the other side of the surface.",
     section: "light/glass.md#an-index-below-one",
     tests: &[
         "`ior` can be less than 1, in which case total reflection can occur outside.",

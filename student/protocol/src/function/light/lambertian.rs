@@ -111,7 +111,7 @@ impl Function for Pdf {
     }
 
     fn sentence(_: &Matte) -> &'static str {
-        "out {out}, incoming {incoming}"
+        "albedo {albedo}, out {out}, incoming {incoming}"
     }
 
     fn question(table: Table<Self>) -> Question {

@@ -248,8 +248,8 @@ const TURNED: Declaration = Declaration {
     id: "direct.turned",
     points: 2,
     title: "directions are converted to and from the frame of a tilted surface",
-    look: "Which of your directions are in world space, and which are in the surface's frame? \
-           Check where you convert one to the other.",
+    look: "Which of your directions are in world space, and which are in the surface's frame? Check \
+           where you convert one to the other. Or does an early `return` drop the second direction?",
     look_fits: &[Symptom::of("value")],
     section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
     tests: &["The result is the sum, over both directions, of evaluate × radiance / …"],

@@ -144,7 +144,7 @@ const BOUNCES: Declaration = Declaration {
     title: "a path is scattered as often as `bounces` and Russian roulette allow",
     look: "Follow the question shown from surface to surface. Each surface counts as a bounce, even \
            a mirror. Write down what your code adds there, and each factor: from bounce 3 on, Russian \
-           roulette is one of them.",
+           roulette is one of them. Does bounce n use `sampler.numbers(n)`?",
     section: "light/paths.md#what-to-return",
     tests: &["The path is scattered at most `bounces` times."],
     questions: |rng| {

@@ -200,12 +200,12 @@ pub(super) fn hints(root: &Path, authoring: &'static Authoring, args: HintsArgs)
     } else {
         ("hints, one exam", recognise(&solutions, &practice)?)
     };
-    let exams = seeds.as_deref().unwrap_or(PRACTICE);
+    // The summary line doesn't mention the problems, so a result with problems isn't recorded.
+    report(&recognition.problems, &recognition.to_string())?;
     record_result(
         (args.record, authoring),
         run,
-        exams,
+        seeds.as_deref().unwrap_or(PRACTICE),
         &recognition.summary_line,
-    )?;
-    report(&recognition.problems, &recognition.to_string())
+    )
 }

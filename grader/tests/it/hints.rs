@@ -97,7 +97,8 @@ fn code_that_hits_nothing_is_told_what_to_compare_for_every_ray() {
     let not_one = |(file, from, to): (&str, &str, &str)| {
         let graded = grade_with("misses", file, from, to);
         let clues = clues(&graded).into_iter();
-        let not_one = clues.filter(|clue| clue.starts_with("Your code returns a miss for every ray"));
+        let not_one =
+            clues.filter(|clue| clue.starts_with("Your code returns a miss for every ray"));
         let items = graded.all_items().into_iter();
         let alike = items.filter(|item| {
             let clue = item["symptom_clue"].as_str().unwrap_or_default();

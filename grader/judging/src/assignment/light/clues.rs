@@ -63,10 +63,6 @@ pub(super) const SPECULAR: TaskClues = TaskClues {
 
 /// The clues for sampling lights.
 pub(super) const LIGHTS: TaskClues = TaskClues {
-    sections_on_panics: &[
-        (PanicKind::Index, "light/lights.md#no-lights"),
-        (PanicKind::NoValue, "light/lights.md#no-lights"),
-    ],
     by_symptom: &[
         SymptomClue {
             symptoms: &[Symptom::less(SOME_OR_NONE)],
@@ -121,8 +117,8 @@ pub(super) const DIRECT: TaskClues = TaskClues {
         SymptomClue {
             symptoms: &[Symptom::zero("value")],
             clue: "Your result is 0, although one of the two directions finds light. What makes your code drop it: \
-                an early `return`, a `break` or `continue`, or a direction in the wrong frame (the surface's \
-                for the material, world space for `World`)?",
+                an early `return`, a `break` or `continue`, a direction in the wrong frame, or a radiance that isn't \
+                that of `World::emitted`?",
             section: "light/direct.md#directions-that-add-nothing",
         },
         SymptomClue {

@@ -54,8 +54,8 @@ const SMALL_LIGHT: Declaration = Declaration {
     points: 2,
     title: "sampling the light finds a small light where nothing is in the way",
     look: "Work out both terms, evaluate × radiance / (light pdf + scattering pdf), for the question \
-           shown. Which one is wrong, and is its direction in the surface's frame for the \
-           material, and in world space for `World`?",
+           shown. Which one, or is it their sum, is wrong? Is its direction in the surface's frame for \
+           the material, and in world space for `World`?",
     section: "light/direct.md#two-ways-to-find-a-light",
     tests: &[
         "Estimates the direct light that a surface scatters back along the path, from one \

@@ -289,8 +289,10 @@ const SHARES: Declaration = Declaration {
     id: "lights.shares",
     points: 1,
     title: "the total density weights each light's density by its share of the power",
-    look: "What is the probability that the light in this direction is picked?",
-    section: "light/lights.md#the-share-belongs-in-the-density",
+    look: "What is the probability that the light in this direction is picked? And does your sum run \
+           over all lights, even after one that the direction misses?",
+    look_fits: &[Symptom::of("pdf")],
+    section: "light/lights.md#several-lights-in-one-direction",
     tests: &[
         "Returns the probability density, per solid angle, with which [`Lights::sample`] chooses \
          a direction from a point.",
@@ -355,6 +357,7 @@ const OVERLAP: Declaration = Declaration {
     points: 1,
     title: "every light in a direction adds its density, even one behind another light",
     look: "A sample of the farther light leads in the same direction. Does your sum end too early?",
+    look_fits: &[Symptom::of("pdf")],
     section: "light/lights.md#lights-add-their-densities",
     tests: &[
         "Every light in that direction adds its density, given by [`Light::pdf`], times the \

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use judging::exam::ExamQuestion;
+use judging::symptom::{SOME_OR_NONE, Symptom};
 use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::lights::{LightList, LightSample, ListedLight, SphericalLight, Toward};
@@ -33,6 +34,7 @@ pub(super) const SAMPLES: Declaration = Declaration {
     title: "if a sphere is picked, the direction is sampled toward that sphere",
     look: "Which function samples a direction if the light that was picked is a sphere? And can \
            your code pick a sphere in the first place?",
+    look_fits: &[Symptom::of("direction"), Symptom::less(SOME_OR_NONE)],
     section: "light/lights.md#what-to-return",
     tests: &[
         "`choice` picks the light: a light's share of `[0, 1)` is its share of the power, in the \

@@ -142,9 +142,9 @@ const BOUNCES: Declaration = Declaration {
     id: "path.bounces",
     points: 2,
     title: "a path is scattered as often as `bounces` and Russian roulette allow",
-    look: "Follow the question shown from surface to surface. Each surface counts as a bounce, even \
-           a mirror. Write down what your code adds there, and each factor: from bounce 3 on, Russian \
-           roulette is one of them. Does bounce n use `sampler.numbers(n)`?",
+    look: "Follow the question from surface to surface. Each one counts as a bounce, even a mirror. Where \
+           does the next ray go, what do you add, and which factors apply (roulette from bounce 3 on)? \
+           Does bounce n use `sampler.numbers(n)`?",
     section: "light/paths.md#what-to-return",
     tests: &["The path is scattered at most `bounces` times."],
     questions: |rng| {
@@ -318,7 +318,7 @@ const MIRROR: Declaration = Declaration {
     id: "path.mirror",
     points: 2,
     title: "mirrors show the lights and the sky, and a light is black from behind",
-    look: "At a mirror, `direct` returns zero, so the light that the path hits next must be \
+    look: "At a mirror or glass, `direct` returns zero, so the light that the path hits next must be \
            counted, multiplied by the throughput. Which value of `pdf` tells you that?",
     look_fits: &[Symptom::of("value")],
     section: "light/paths.md#a-mirror-shows-the-light",

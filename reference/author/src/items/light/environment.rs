@@ -79,9 +79,9 @@ const PICK: Declaration = Declaration {
     id: "environment.pick",
     points: 3,
     title: "pixels are picked in proportion to their weight, row by row from the top",
-    look: "Pass the correct direction to `Environment::index`. If your search returns the same index, \
-           check the pixel's row and column and the two angles. Otherwise, add up the weights, luminance \
-           × sine in the middle of the row: which sum is the first above `choice` × total?",
+    look: "Pass the correct direction to `Environment::index`. If your search returns it, check \
+           the row, the column and the two angles. Otherwise, which sum of weights (luminance × \
+           sine in the middle of the row) is the first above `choice` × total?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
     section: "light/environment.md#pick-a-pixel-by-cumulative-sums",
     tests: &[

@@ -86,6 +86,7 @@ pub fn first_step(
         ("hint", hint),
         ("read", read.map(Section::location)),
         ("again", Some(item.rerun_command(&score.rerun_command))),
+        ("view", item.view_command(&score.rerun_command)),
     ];
     let rows = rows
         .into_iter()

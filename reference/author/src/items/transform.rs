@@ -23,7 +23,7 @@ pub(super) struct Transform {
 
 impl Transform {
     /// Returns a transform that moves shapes far from the origin without scaling them. All
-    /// coordinates along an axis have the same sign.
+    /// coordinates along an axis share a sign.
     pub(super) fn elsewhere(rng: &mut Rng) -> Self {
         let mut far = || rng.sign() * rng.uniform(60.0, 120.0);
         Transform {

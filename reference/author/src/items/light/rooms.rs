@@ -317,7 +317,7 @@ pub(super) fn direct_light(room: &Room, call: &DirectSample) -> DVec3 {
     transport::direct(room, &surface, &Numbers64::from(call)).value
 }
 
-/// Returns whether a call's answer has the margin that calls in the room must have.
+/// Returns whether a call's answer keeps the margin that the room requires.
 pub(super) fn is_clear_direct(room: &Room, call: &DirectSample) -> bool {
     clear_direct(room, call, margin(room)).is_some()
 }
@@ -409,7 +409,7 @@ pub(super) fn path_light(room: &Room, call: &PathStart) -> WithMargin<DVec3> {
     transport::radiance(room, &Ray64::from(&call.ray), &numbers_of_path(call))
 }
 
-/// Returns whether a call's answer has the margin that calls in the room must have.
+/// Returns whether a call's answer keeps the margin that the room requires.
 pub(super) fn is_clear_path(room: &Room, call: &PathStart) -> bool {
     let hit = room.hit(&Ray64::from(&call.ray), None);
     hit.margin.min(path_light(room, call).margin) > margin(room)

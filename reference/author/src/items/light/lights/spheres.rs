@@ -304,8 +304,8 @@ fn clear(lights: &[Light64], from: DVec3, direction: DVec3, margin: f64) -> Opti
     is_clear(lights, &call, margin).then_some(call)
 }
 
-/// Returns whether a direction isn't close to the edge of a light, nor almost in the plane of a flat
-/// light, where correct formulas lose too many digits.
+/// Returns whether a direction is clear of the edges of all lights and of the planes of flat lights,
+/// where correct formulas lose too many digits.
 pub(super) fn is_clear(lights: &[Light64], call: &Toward, margin: f64) -> bool {
     let (from, direction) = (call.from.as_dvec3(), call.direction.as_dvec3());
     let all = Lights64::new(lights.iter().copied());

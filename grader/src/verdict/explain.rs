@@ -53,12 +53,20 @@ fn add_clue_on_misses(line: &mut ItemScore, clues: &TaskClues, first: &mut Optio
     match first {
         Some(first) => line.symptom_clue = Some(fix_first(first)),
         None => {
-            line.clue = Some(clue.to_owned());
+            line.clue = Some(for_every_ray(clue));
             *first = Some(line.id.clone());
         }
     }
     let of_miss = clues.of_symptom(&Symptom::MISS);
     line.clue_section = of_miss.map(|clue| Section::new(clue.section));
+}
+
+/// Returns the whole clue for code whose rays never hit anything.
+fn for_every_ray(clue: &str) -> String {
+    format!(
+        "Your code returns a miss for every ray, so look for something that is wrong for all of \
+         them. {clue}"
+    )
 }
 
 /// Returns the advice for an item that fails in the same way as an earlier item.
@@ -243,7 +251,7 @@ mod tests {
             ..pending(&whole).items().next().unwrap().clone()
         };
         let bbox = RAYS.assignment.find("bbox").unwrap();
-        let clue = bbox.clues.if_nothing_is_hit.map(str::to_owned);
+        let clue = bbox.clues.if_nothing_is_hit.map(for_every_ray);
         assert!(clue.is_some());
         assert_eq!(clue_in(&wrong, &whole, &miss), clue);
         assert_eq!(clue_in(&wrong, &whole, &hit), None);

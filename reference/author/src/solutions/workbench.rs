@@ -22,8 +22,8 @@ use crate::solutions::sources::Sources;
 
 /// The time limits for an item, which are for wrong solutions that never terminate. A correct
 /// solution takes milliseconds. The known mistake that takes longest needs two seconds until its
-/// stack overflows. The limit must be far from that, because the exam records how a mistake fails,
-/// and must come out the same on a machine of any speed.
+/// stack overflows. The limit is far above that, because the exam records how each mistake fails, and
+/// a slower machine must not record something else.
 const LIMITS: ItemLimits = ItemLimits::from_cpu(Duration::from_secs(10));
 /// The CPU time limit for a process, which answers all items of a task.
 const PROCESS_CPU: Duration = Duration::from_secs(120);

@@ -49,9 +49,8 @@ pub(super) const CAMERA: TaskClues = TaskClues {
 /// The clues for triangles.
 pub(super) const TRIANGLE: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "Your code returns a miss for every ray, so look for something that is wrong for all of them. Work out u, \
-         v, 1 − u − v and t by hand for the ray shown, and compare them with the values in your code. If \
-         several have the wrong sign, check s, the operands of each cross product, and the formula's two \
+        "Work out u, v, 1 − u − v and t by hand for the ray shown, and compare them with the values in your \
+         code. If several have the wrong sign, check s, the operands of each cross product, and the formula's two \
          minus signs.",
     ),
     by_symptom: &[
@@ -121,9 +120,8 @@ pub(super) const TRIANGLE: TaskClues = TaskClues {
 /// The clues for spheres.
 pub(super) const SPHERE: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "Your code returns a miss for every ray, so look for something that is wrong for all of them. Work out b, c, \
-         the discriminant and both roots by hand for the ray shown, and compare them with the values in \
-         your code. Then see which comparison rejects both roots.",
+        "Work out b, c, the discriminant and both roots by hand for the ray shown, and compare them with the \
+         values in your code. Then see which comparison rejects both roots.",
     ),
     by_symptom: &[
         SymptomClue {
@@ -193,8 +191,7 @@ pub(super) const SPHERE: TaskClues = TaskClues {
 /// The clues for boxes.
 pub(super) const BBOX: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "Your code returns a miss for every ray, so look for something that is wrong for all of them. Work out by hand \
-         when the ray shown enters and leaves the slab of each axis. Which of these times are different in \
+        "Work out by hand when the ray shown enters and leaves the slab of each axis. Which of these times are different in \
          your code, and which comparison rejects them?",
     ),
     by_symptom: &[
@@ -312,8 +309,7 @@ pub(super) const BUILD: TaskClues = TaskClues {
 /// The clues for traversing a tree.
 pub(super) const TRAVERSE: TaskClues = TaskClues {
     if_nothing_is_hit: Some(
-        "Your code returns a miss for every ray, so look for something that is wrong for all of them. Follow \
-         the ray shown from the root. Does your code enter the boxes that the ray hits and test \
+        "Follow the ray shown from the root. Does your code enter the boxes that the ray hits and test \
          all primitives in the leaves? If it finds a hit, is that hit compared the right way \
          round, kept, and returned?",
     ),

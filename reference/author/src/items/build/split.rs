@@ -189,8 +189,8 @@ fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
     questions
 }
 
-/// Returns a question about two layers of strips in which the centres extend less than
-/// `f32::EPSILON` along the axis of the best split. Such an axis is no less important than others.
+/// Returns a question about two layers of strips whose centres extend less than `f32::EPSILON` along
+/// the axis of the best split. An axis with such a small extent must be tried, too.
 fn tiny_stack(rng: &mut Rng, axis: usize) -> ExamQuestion {
     rng.retry(|rng| {
         let ratio = rng.log_uniform(0.01, 0.2);

@@ -54,7 +54,7 @@ const SMALL_LIGHT: Declaration = Declaration {
     points: 2,
     title: "sampling the light finds a small light where nothing is in the way",
     look: "Work out both terms, evaluate × radiance / (light pdf + scattering pdf), for the question \
-           shown. Which one, or is it their sum, is wrong? Is its direction in the surface's frame for \
+           shown. Is one of them wrong, or only their sum? Is each direction in the surface's frame for \
            the material, and in world space for `World`?",
     section: "light/direct.md#two-ways-to-find-a-light",
     tests: &[

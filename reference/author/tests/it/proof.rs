@@ -93,11 +93,11 @@ fn mistakes_in_other_solutions_cost_points_and_most_are_recognised() {
 #[test]
 fn mistakes_of_no_known_kind_cost_points_and_get_no_false_hint() {
     // Grading all of them would take as long as all the other tests of this package together.
-    const STEP: usize = 4;
+    const STEP: usize = 8;
     let _lock = lock_builds();
     let recognition = recognise_unknown(&SOLUTIONS, &practice_exam(), STEP).unwrap();
     assert_eq!(recognition.problems, [""; 0]);
-    assert!(recognition.count >= 90, "{recognition}");
+    assert!(recognition.count >= 45, "{recognition}");
     assert_eq!(recognition.with_false_hint, 0, "{recognition}");
 }
 

@@ -3,6 +3,7 @@
 //! An archive is read in memory and never unpacked. Files are selected by their exact names.
 
 mod archive;
+mod candidate;
 mod choice;
 mod error;
 mod folder;
@@ -10,6 +11,7 @@ mod limit;
 mod limited_reader;
 mod names;
 mod search;
+mod skipped;
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,14 +24,14 @@ use crate::handed_out::{HandedOut, TaskFile, TaskMethods, is_unwritten};
 use crate::inputs::task_selection::suggestion_for_submission;
 use crate::machine::files;
 
-use choice::{Candidate, Lookalike};
+use candidate::{Candidate, Lookalike};
 use search::Search;
 
 pub use archive::{Archive, ArchiveError, ArchiveLimits, Listing, Member};
-pub use choice::is_skipped_name;
 pub use error::{SubmissionError, TaskFileError, listed};
 pub use limit::Limit;
 pub use names::{copied_names, is_archive_name, may_be_task_file, strip_archive_extension};
+pub use skipped::is_skipped_name;
 
 /// The maximum length of a file to read, in bytes. The reference's files are about 10,000 bytes
 /// long.

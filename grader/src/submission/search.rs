@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::choice::{Candidate, FileContents, Lookalike, is_starter, join};
+use super::candidate::{Candidate, FileContents, Lookalike, is_starter, join};
 use super::limit::Limit;
 use super::limited_reader::ByteBudget;
 use super::names::{Resemblance, may_be_task_file, resemblance};

@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::{Archive, ArchiveBytes, ArchiveError, ArchiveLimits, MAX_LEVELS, Member};
-use crate::submission::choice::{is_skipped, join};
+use crate::submission::candidate::join;
 use crate::submission::limit::Limit;
 use crate::submission::names::is_archive_name;
 use crate::submission::search::{FoundFolder, Search};
+use crate::submission::skipped::is_skipped;
 use crate::submission::{MAX_FILE_BYTES, SubmissionError};
 
 /// The maximum size of a nested archive, in bytes.

@@ -10,55 +10,10 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::names::{Resemblance, is_archive_name};
-use super::{MAX_NOTES, SubmissionError, TaskFileError, display_name};
-use crate::handed_out::{HandedOut, is_unwritten};
-
-/// Names of folders that never contain files to grade, but only metadata of systems and tools, old
-/// versions kept by tools, or compiled files. The project's own folders are listed in the
-/// assignment.
-const SKIPPED: [&str; 24] = [
-    "__MACOSX",
-    "target",
-    "node_modules",
-    ".git",
-    ".github",
-    ".gitlab",
-    ".svn",
-    ".hg",
-    ".jj",
-    ".cargo",
-    ".vscode",
-    ".vs",
-    ".idea",
-    ".fleet",
-    ".zed",
-    ".history",
-    ".devcontainer",
-    ".cache",
-    ".Trash",
-    ".Trashes",
-    ".fseventsd",
-    ".Spotlight-V100",
-    ".TemporaryItems",
-    ".DS_Store",
-];
-
-/// A folder, possibly in an archive, that contains task files.
-#[derive(Debug, Default)]
-pub(super) struct Candidate {
-    /// The path of the folder below the submission, with `/` as the separator. Empty for the
-    /// submission's top level.
-    pub(super) folder: String,
-    /// The task files in the folder, keyed by name.
-    pub(super) task_files: BTreeMap<&'static str, FileContents>,
-    /// The paths of the task files that have a different name or are in a different folder, keyed
-    /// by the task file's name.
-    pub(super) other_paths: BTreeMap<&'static str, String>,
-    /// Other Rust files, keyed by name, with their bytes if they need to be compared with given
-    /// files.
-    pub(super) other_files: BTreeMap<String, Vec<u8>>,
-}
+use super::candidate::{Candidate, FileContents, Lookalike, is_starter};
+use super::names::Resemblance;
+use super::{MAX_NOTES, SubmissionError, display_name};
+use crate::handed_out::HandedOut;
 
 /// The choice of the folder to grade.
 #[derive(Debug)]
@@ -69,29 +24,6 @@ pub(super) struct Choice {
     pub(super) notes: Vec<String>,
     /// Whether every task file was found and differs from the starter's.
     pub(super) is_complete: bool,
-}
-
-/// A file in a folder or an archive that resembles a task file but isn't graded as one.
-#[derive(Debug)]
-pub(super) struct Lookalike {
-    /// The path of the file below the submission, with `/` as the separator.
-    pub(super) path: String,
-    /// The name of the task file.
-    pub(super) file: &'static str,
-    /// How the file's name resembles the task file's name.
-    pub(super) kind: Resemblance,
-    /// The contents of the file.
-    pub(super) contents: FileContents,
-}
-
-/// Returns whether folders with this name are skipped in all assignments.
-pub fn is_skipped_name(name: &str) -> bool {
-    SKIPPED.contains(&name)
-}
-
-/// Returns whether folders with this name are skipped.
-pub(super) fn is_skipped(name: &str, handed_out: &HandedOut) -> bool {
-    is_skipped_name(name) || handed_out.assignment.other_folders.contains(&name)
 }
 
 /// Chooses the task files to grade, as described in [`choose_folder`]. Returns `None` if there are
@@ -247,7 +179,7 @@ fn combine(
         for (name, contents) in candidate.written(handed_out) {
             let first = *used.entry(name).or_insert(candidate);
             if first.task_files.get(name) != Some(contents) {
-                return Err(first.conflict(candidate, name, path, handed_out));
+                return Err(conflict(path, [first, candidate], name, handed_out));
             }
         }
     }
@@ -273,9 +205,6 @@ fn combine(
     })
 }
 
-/// The bytes of a task file, or the reason there are none.
-pub(super) type FileContents = Result<Vec<u8>, TaskFileError>;
-
 /// Returns the error to report when there are differing copies of these task files.
 fn ambiguous(path: &Path, files: &[&str], copies: Vec<&str>) -> SubmissionError {
     SubmissionError::Ambiguous {
@@ -283,6 +212,28 @@ fn ambiguous(path: &Path, files: &[&str], copies: Vec<&str>) -> SubmissionError 
         files: files.iter().map(|file| display_name(file)).collect(),
         copies: copies.into_iter().map(display_name).collect(),
     }
+}
+
+/// Returns the error to report when two folders contain different versions of a task file. It
+/// also names any other files that differ between the same two folders.
+fn conflict(
+    path: &Path,
+    [first, other]: [&Candidate; 2],
+    name: &str,
+    handed_out: &HandedOut,
+) -> SubmissionError {
+    let places = |name: &str| [first.place_of(name), other.place_of(name)];
+    let differs = |(file, contents): &(&'static str, &FileContents)| {
+        let own = first.written(handed_out).find(|(own, _)| own == file);
+        own.is_some_and(|(_, own)| own != *contents) && places(file) == places(name)
+    };
+    let files = other.written(handed_out).filter(differs);
+    let files: Vec<&str> = files.map(|(file, _)| file).collect();
+    ambiguous(
+        path,
+        &files,
+        places(name).iter().map(String::as_str).collect(),
+    )
 }
 
 /// Returns the error to report when task files are unmodified even though changed copies of
@@ -308,112 +259,6 @@ fn points(file: &str, handed_out: &HandedOut) -> u32 {
         .sum()
 }
 
-impl Candidate {
-    /// Returns the task files that differ from the starter's.
-    fn written<'a>(
-        &'a self,
-        handed_out: &'a HandedOut,
-    ) -> impl Iterator<Item = (&'static str, &'a FileContents)> {
-        let files = self.task_files.iter();
-        files
-            .filter(|(name, contents)| !is_starter(name, contents, handed_out))
-            .map(|(name, contents)| (*name, contents))
-    }
-
-    /// Returns the files that are modified in the other folder and differ from this folder's
-    /// versions. Returns `None` if the other folder could be the one that the student meant to hand
-    /// in.
-    fn differing_files(
-        &self,
-        other: &Candidate,
-        handed_out: &HandedOut,
-    ) -> Option<Vec<&'static str>> {
-        let written: Vec<&str> = self.written(handed_out).map(|(name, _)| name).collect();
-        let files: Vec<_> = other.written(handed_out).collect();
-        let is_less = files.len() < written.len() && files.iter().all(|(n, _)| written.contains(n));
-        let differing = files.into_iter();
-        let differing = differing.filter(|(name, text)| self.task_files.get(name) != Some(*text));
-        let differing: Vec<&str> = differing.map(|(name, _)| name).collect();
-        (is_less || differing.is_empty()).then_some(differing)
-    }
-
-    /// Returns the error to report when two folders contain different versions of a task file. It
-    /// also names any other files that differ between the same two folders.
-    fn conflict(
-        &self,
-        other: &Candidate,
-        name: &str,
-        path: &Path,
-        handed_out: &HandedOut,
-    ) -> SubmissionError {
-        let places = |name: &str| [self.place_of(name), other.place_of(name)];
-        let differs = |(file, contents): &(&'static str, &FileContents)| {
-            let own = self.written(handed_out).find(|(own, _)| own == file);
-            own.is_some_and(|(_, own)| own != *contents) && places(file) == places(name)
-        };
-        let files = other.written(handed_out).filter(differs);
-        let files: Vec<&str> = files.map(|(file, _)| file).collect();
-        ambiguous(
-            path,
-            &files,
-            places(name).iter().map(String::as_str).collect(),
-        )
-    }
-
-    /// Returns notes about the files that are graded under a different name.
-    fn notes_on_names(&self) -> Vec<String> {
-        let paths = self.other_paths.iter();
-        let renamed = paths.filter(|(name, path)| path.rsplit('/').next() != Some(name));
-        let note = |(name, path)| display_name(&format!("{path} is graded as {name}"));
-        renamed.map(note).collect()
-    }
-
-    /// Returns the files that are changed in this folder but unmodified in the other one, if this
-    /// folder is in an archive and the other one isn't.
-    fn archived_copies_of_starter(
-        &self,
-        other: &Candidate,
-        handed_out: &HandedOut,
-    ) -> BTreeSet<&'static str> {
-        if !self.is_in_archive() || other.is_in_archive() {
-            return BTreeSet::new();
-        }
-        let is_starter = |name: &&'static str| {
-            let contents = other.task_files.get(name);
-            contents.is_some_and(|contents| is_starter(name, contents, handed_out))
-        };
-        let written = self.written(handed_out).map(|(name, _)| name);
-        written.filter(is_starter).collect()
-    }
-
-    /// Returns whether the folder is in an archive that is itself part of the submission.
-    fn is_in_archive(&self) -> bool {
-        self.folder.split('/').any(is_archive_name)
-    }
-
-    /// Returns the path of a task file below the submission.
-    pub(super) fn path_of(&self, name: &str) -> String {
-        let other = self.other_paths.get(name).cloned();
-        other.unwrap_or_else(|| join(&self.folder, name))
-    }
-
-    /// Returns the folder of a task file, or the file's path if the file has a different name.
-    fn place_of(&self, name: &str) -> String {
-        let other = self.other_paths.get(name);
-        other.unwrap_or(&self.folder).clone()
-    }
-}
-
-/// Returns whether a task file is unmodified.
-pub(super) fn is_starter(name: &str, contents: &FileContents, handed_out: &HandedOut) -> bool {
-    let text = contents
-        .as_ref()
-        .ok()
-        .map(|bytes| std::str::from_utf8(bytes));
-    let file = handed_out.task_file(name);
-    matches!((file, text), (Some(file), Some(Ok(text))) if is_unwritten(file, text))
-}
-
 /// Returns the position of a folder in the assignment's list of folders. A listed folder may be at
 /// the top level or inside a top-level folder. Other folders come last.
 fn rank(folder: &str, handed_out: &HandedOut) -> usize {
@@ -428,14 +273,6 @@ fn rank(folder: &str, handed_out: &HandedOut) -> usize {
 /// Returns the folder of a file.
 fn parent(path: &str) -> &str {
     path.rsplit_once('/').map_or("", |(folder, _)| folder)
-}
-
-/// Joins two paths with `/`. Either one may be empty.
-pub(super) fn join(folder: &str, name: &str) -> String {
-    match (folder, name) {
-        ("", name) | (name, "") => name.to_owned(),
-        (folder, name) => format!("{folder}/{name}"),
-    }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::handed_out::RAYS;
+use crate::submission::skipped::is_skipped;
 
 /// Returns a folder with these task files, each specified by its number and its text. Empty text
 /// stands for the starter's text.

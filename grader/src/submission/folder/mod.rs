@@ -8,10 +8,11 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::archive::{self, ArchiveBytes};
-use super::choice::{self, FileContents, is_starter, join};
+use super::candidate::{FileContents, is_starter, join};
 use super::limit::Limit;
 use super::names::is_archive_name;
 use super::search::{FoundFolder, Search};
+use super::skipped::is_skipped;
 use super::{MAX_FILE_BYTES, SubmissionError, TaskFileError, display_name};
 use crate::handed_out::HandedOut;
 use crate::machine::disk::{self, Operation};
@@ -147,7 +148,7 @@ impl Search {
                     self.links.push(below);
                     files.push(name.clone());
                 }
-                EntryKind::Folder if !choice::is_skipped(&shown, self.handed_out) => {
+                EntryKind::Folder if !is_skipped(&shown, self.handed_out) => {
                     self.visit_subfolder(folder, name, &below)?;
                     files.push(name.clone());
                 }

@@ -19,7 +19,7 @@ use crate::handed_out::HandedOut;
 use crate::inputs::question_ref::QuestionRef;
 use crate::probe::{Budget, Crash, Culprit, Fault, Launcher, smallest_overflow};
 use crate::verdict::clue;
-use crate::verdict::file_message;
+use crate::verdict::messages::file_message;
 
 /// The maximum number of characters of the code's output to show.
 const MAX_PRINTED_CHARS: usize = 20_000;

@@ -3,7 +3,7 @@
 use crate::build::{Build, NotCompiled};
 use crate::score::{BuildReport, FileReport};
 use crate::submission::{Submission, TaskFileError};
-use crate::verdict::{file_line, file_message};
+use crate::verdict::messages::{file_line, file_message};
 
 /// Returns the compiler errors and notes on the submission's files.
 pub fn build_report(submission: &Submission, build: &Build) -> BuildReport {

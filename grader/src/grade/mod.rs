@@ -20,7 +20,7 @@ use crate::grade::report_files::ReportFiles;
 use crate::machine::printing::print_error_line;
 use crate::report::html::Reload;
 use crate::score::Score;
-use crate::verdict::{file_line, file_message};
+use crate::verdict::messages::{file_line, file_message};
 use crate::workspace::source_paths::SourcePaths;
 
 pub use build_report::build_report;

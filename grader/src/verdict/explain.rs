@@ -9,7 +9,8 @@ use judging::symptom::{Side, Symptom};
 
 use crate::handed_out::HandedOut;
 use crate::score::{ItemScore, Verdict, VerdictKind};
-use crate::verdict::{add_hints, chapter, clue};
+use crate::verdict::sections::chapter;
+use crate::verdict::{add_hints, clue};
 
 /// Adds the hints for the mistakes that explain a task's answers, which come from the submission's
 /// own program or from the program with substituted parts. If no mistake explains the answers, adds

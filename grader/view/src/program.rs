@@ -15,7 +15,7 @@ use grader::probe::Launcher;
 use grader::sandbox::Sandbox;
 use grader::select_isolation::{IsolationRequest, with_requested_level};
 use grader::submission::{Submission, SubmissionError};
-use grader::verdict::file_message;
+use grader::verdict::messages::file_message;
 use grader::workspace::Workspace;
 use serde::Serialize;
 

@@ -1,6 +1,7 @@
 //! Tests for the scores of items, with small handmade items and outcomes.
 
 use judging::exam::{ExamQuestion, Key};
+use judging::judge::{Credit, Failure, FailureKind, Judgement};
 use protocol::{Panic, Question};
 
 use super::*;

@@ -1,8 +1,10 @@
 //! Items without answers: faults, items that were not run, and files that aren't compiled.
 
+use crate::build::NotCompiled;
 use crate::handed_out::LIGHT;
 use crate::probe::{Crash, TimeLimit};
 use crate::submission::TaskFileError;
+use crate::verdict::messages::{file_line, file_message};
 
 use super::*;
 

@@ -19,8 +19,9 @@ const TABLE_ANSWERS: usize = 3;
 const TABLE_SHARE: f64 = 0.2;
 /// The minimum number of wrong positions in a picture, as a multiple of the tolerated number.
 const PICTURE_MULTIPLE: f64 = 3.0;
-/// The minimum number of wrong trees, unless all of an item's trees are wrong.
-const TREES: usize = 2;
+/// The minimum number of wrong answers to questions with a single answer, unless all of them are
+/// wrong.
+const QUESTIONS: usize = 2;
 
 /// How an item catches a mistake.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,8 +30,9 @@ pub struct Detection {
     pub item: String,
     /// The number of wrong answers in tables, and the total number of answers.
     pub answers: (usize, usize),
-    /// The number of wrong trees, and the total number of trees.
-    pub trees: (usize, usize),
+    /// The number of wrong answers to questions with a single answer (a tree, or the spread of
+    /// directions), and the number of such questions.
+    pub questions: (usize, usize),
     /// The number of wrong positions in a picture, as a multiple of the tolerated number.
     pub picture: f64,
     /// Whether the submission gave no answers to the item.
@@ -44,7 +46,7 @@ impl Detection {
         let mut caught = Detection {
             item: item.id.clone(),
             answers: (0, 0),
-            trees: (0, 0),
+            questions: (0, 0),
             picture: 0.0,
             is_unanswered: answers.is_err(),
         };
@@ -54,17 +56,12 @@ impl Detection {
             let is_wrong = judgement.credit < Credit::FULL;
             is_caught |= is_wrong;
             match question.key {
-                Key::Tree { .. } => {
-                    caught.trees.0 += usize::from(is_wrong);
-                    caught.trees.1 += 1;
-                }
                 Key::FirstHits { .. } | Key::Radiance { .. } => {
                     caught.picture = caught.picture.max(picture_multiple(question, answer));
                 }
-                // Directions are either spread evenly or not, like a tree that is right or wrong.
-                Key::SpreadEvenly { .. } => {
-                    caught.trees.0 += usize::from(is_wrong);
-                    caught.trees.1 += 1;
+                Key::Tree { .. } | Key::SpreadEvenly { .. } => {
+                    caught.questions.0 += usize::from(is_wrong);
+                    caught.questions.1 += 1;
                 }
                 Key::Table { .. } => {
                     let count = judgement.failure.and_then(|failure| failure.count);
@@ -84,11 +81,11 @@ impl Detection {
         let (wrong, of) = self.answers;
         let share = wrong as f64 / of.max(1) as f64;
         let table = (wrong as f64 / TABLE_ANSWERS as f64).max(share / TABLE_SHARE);
-        let trees = match self.trees {
+        let questions = match self.questions {
             (0, _) => 0.0,
-            (wrong, of) => (wrong as f64 / TREES as f64).max(wrong as f64 / of as f64),
+            (wrong, of) => (wrong as f64 / QUESTIONS as f64).max(wrong as f64 / of as f64),
         };
-        table.max(trees).max(self.picture / PICTURE_MULTIPLE)
+        table.max(questions).max(self.picture / PICTURE_MULTIPLE)
     }
 }
 
@@ -107,8 +104,8 @@ impl fmt::Display for Detection {
         if let (wrong @ 1.., of) = self.answers {
             parts.push(format!("{wrong} of {of} answers"));
         }
-        if let (wrong @ 1.., of) = self.trees {
-            parts.push(format!("{wrong} of {of} trees"));
+        if let (wrong @ 1.., of) = self.questions {
+            parts.push(format!("{wrong} of {of} questions"));
         }
         if self.picture > 0.0 {
             parts.push(format!(
@@ -186,8 +183,8 @@ impl Detections {
              Written by `cargo author mistakes`. For each mistake, the table shows how it is caught in the \
              exam that catches it least clearly, by the item that catches it best there. A mistake must get \
              at least {TABLE_ANSWERS} answers or {:.0}% of an item's tables wrong, {PICTURE_MULTIPLE} \
-             times the tolerated number of wrong positions in a picture, or {TREES} trees or all of an \
-             item's trees.\n\n\
+             times the tolerated number of wrong positions in a picture, or {QUESTIONS} or all of an \
+             item's questions about trees or the spread of directions.\n\n\
              | mistake | exams | item | caught by | times the required |\n|---|--:|---|---|--:|\n",
             100.0 * TABLE_SHARE
         );
@@ -225,21 +222,21 @@ mod tests {
     fn caught(
         item: &str,
         answers: (usize, usize),
-        trees: (usize, usize),
+        questions: (usize, usize),
         picture: f64,
     ) -> Detection {
         Detection {
             item: item.to_owned(),
             answers,
-            trees,
+            questions,
             picture,
             is_unanswered: false,
         }
     }
 
     #[test]
-    fn three_answers_or_a_fifth_two_trees_or_all_and_three_times_the_tolerance_are_clear() {
-        for (answers, trees, picture, is_clear) in [
+    fn three_answers_or_a_fifth_two_questions_or_all_and_three_times_the_tolerance_are_clear() {
+        for (answers, questions, picture, is_clear) in [
             ((3, 100), (0, 0), 0.0, true),
             ((1, 5), (0, 0), 0.0, true),
             ((0, 0), (2, 9), 0.0, true),
@@ -249,8 +246,12 @@ mod tests {
             ((0, 0), (1, 3), 0.0, false),
             ((0, 0), (0, 0), 2.9, false),
         ] {
-            let clarity = caught("", answers, trees, picture).clarity();
-            assert_eq!(clarity >= 1.0, is_clear, "{answers:?} {trees:?} {picture}");
+            let clarity = caught("", answers, questions, picture).clarity();
+            assert_eq!(
+                clarity >= 1.0,
+                is_clear,
+                "{answers:?} {questions:?} {picture}"
+            );
         }
     }
 

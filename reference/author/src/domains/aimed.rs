@@ -13,23 +13,14 @@ pub trait Aimed {
 
 impl<C: Aimed> Aspect<C> {
     /// The direction of the ray.
-    pub const DIRECTION: Self = Aspect {
-        name: "direction",
-        classes: DIRECTIONS,
-        class: |call| direction_class(call.ray().dir),
-    };
+    pub const DIRECTION: Self = Aspect::new("direction", DIRECTIONS, |call| {
+        direction_class(call.ray().dir)
+    });
 
     /// The diagonal that the ray is parallel to.
-    pub const DIAGONAL: Self = Aspect {
-        name: "diagonal",
-        classes: DIAGONALS,
-        class: |call| diagonal_class(call.ray().dir),
-    };
+    pub const DIAGONAL: Self =
+        Aspect::new("diagonal", DIAGONALS, |call| diagonal_class(call.ray().dir));
 
     /// The range of the ray.
-    pub const RANGE: Self = Aspect {
-        name: "range",
-        classes: RANGES,
-        class: |call| range_class(call.ray().range),
-    };
+    pub const RANGE: Self = Aspect::new("range", RANGES, |call| range_class(call.ray().range));
 }

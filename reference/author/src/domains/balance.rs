@@ -95,11 +95,9 @@ mod tests {
     use super::*;
     use crate::seed::Seed;
 
-    const ASPECTS: &[Aspect<bool>] = &[Aspect {
-        name: "luck",
-        classes: &["usual", "rare"],
-        class: |&is_rare| Some(usize::from(is_rare)),
-    }];
+    const ASPECTS: &[Aspect<bool>] = &[Aspect::new("luck", &["usual", "rare"], |&is_rare| {
+        Some(usize::from(is_rare))
+    })];
 
     #[test]
     fn a_rare_class_is_chosen_at_least_as_often_as_a_usual_one() {

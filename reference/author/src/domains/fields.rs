@@ -90,10 +90,24 @@ pub fn round_class(size: f64) -> usize {
     }
 }
 
-/// Returns the class of a number. Each limit is the largest number in its class. The last class
-/// contains all numbers above the last limit.
-pub fn class_up_to(limits: &[usize], number: usize) -> usize {
-    limits.iter().take_while(|&&limit| number > limit).count()
+/// Returns the class of a number, given the largest number in each class but the last.
+pub fn class_up_to<T: PartialOrd>(limits: &[T], number: T) -> usize {
+    class_where(limits, |limit| number <= *limit)
+}
+
+/// Returns the class of a number, given each class's upper limit, which belongs to the next class.
+pub fn class_below<T: PartialOrd>(limits: &[T], number: T) -> usize {
+    class_where(limits, |limit| number < *limit)
+}
+
+/// Returns the class of a number, given the smallest number in each class but the last. The limits
+/// decrease.
+pub fn class_from<T: PartialOrd>(limits: &[T], number: T) -> usize {
+    class_where(limits, |limit| number >= *limit)
+}
+
+fn class_where<T>(limits: &[T], is_within: impl Fn(&T) -> bool) -> usize {
+    limits.iter().position(is_within).unwrap_or(limits.len())
 }
 
 /// The classes of distances along a ray.
@@ -101,14 +115,7 @@ pub const DISTANCES: &[&str] = &["below 1e-2", "1e-2", "1", "100", "2000", "3000
 
 /// Returns the class of a distance along a ray.
 pub fn distance_class(distance: f64) -> usize {
-    match distance {
-        ..1e-2 => 0,
-        ..1.0 => 1,
-        ..100.0 => 2,
-        ..2000.0 => 3,
-        ..3000.0 => 4,
-        _ => 5,
-    }
+    class_below(&[1e-2, 1.0, 100.0, 2000.0, 3000.0], distance)
 }
 
 /// The classes of positions, by the largest coordinate as a multiple of the shape's size.
@@ -122,13 +129,10 @@ pub const PLACES: &[&str] = &[
 
 /// Returns the class of a position.
 pub fn place_class(position: DVec3, size: f64) -> usize {
-    match position.abs().max_element() / size {
-        ..1.0 => 0,
-        ..10.0 => 1,
-        ..100.0 => 2,
-        ..1000.0 => 3,
-        _ => 4,
-    }
+    class_below(
+        &[1.0, 10.0, 100.0, 1000.0],
+        position.abs().max_element() / size,
+    )
 }
 
 /// The range of sizes for shapes that are in one corner of a scene and seen from the opposite

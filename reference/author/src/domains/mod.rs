@@ -44,6 +44,22 @@ pub struct Aspect<C: 'static> {
     pub class: fn(&C) -> Option<usize>,
 }
 
+impl<C> Aspect<C> {
+    /// Creates an aspect with this name, the names of its classes, and a function that classifies a
+    /// call or returns `None` if the aspect does not apply to it.
+    pub const fn new(
+        name: &'static str,
+        classes: &'static [&'static str],
+        class: fn(&C) -> Option<usize>,
+    ) -> Self {
+        Aspect {
+            name,
+            classes,
+            class,
+        }
+    }
+}
+
 /// A call to a function that may return nothing.
 pub trait Call: Copy + 'static {
     /// The value that the function is called on.
@@ -72,10 +88,8 @@ pub trait Call: Copy + 'static {
 pub struct FunctionDomain<C: 'static> {
     /// The name of the function, as in [`protocol::AnyTable::name`].
     pub function: &'static str,
-    /// The aspects of the values that it is called on.
-    pub subject_aspects: &'static [Aspect<C>],
-    /// All other aspects of its calls.
-    pub aspects: &'static [Aspect<C>],
+    /// The aspects of its calls, in groups.
+    pub aspects: &'static [&'static [Aspect<C>]],
     /// The pairs of aspects whose classes are tested in all combinations.
     pub pairs: &'static [[&'static str; 2]],
     /// The fields, of the subject and the arguments, that some call has as its only change since
@@ -87,7 +101,8 @@ pub struct FunctionDomain<C: 'static> {
     pub not_asked: &'static [UntestedClasses],
 }
 
-/// Classes that the exam need not test, and the reason.
+/// Classes that the exam need not test, and the reason. An empty list stands for all aspects,
+/// classes or columns.
 #[derive(Debug)]
 pub struct UntestedClasses {
     aspects: &'static [&'static str],
@@ -97,24 +112,32 @@ pub struct UntestedClasses {
     pub why: &'static str,
 }
 
-/// Declares that an exam need not test these classes of these aspects and states the reason. The
-/// declaration applies only to these columns of the coverage table. An empty list stands for all
-/// aspects, classes or columns.
-pub const fn not_asked(
-    aspects: &'static [&'static str],
-    classes: &'static [&'static str],
-    columns: &'static [&'static str],
-    why: &'static str,
-) -> UntestedClasses {
+/// Declares that an exam need not test these aspects.
+pub const fn not_asked(aspects: &'static [&'static str]) -> UntestedClasses {
     UntestedClasses {
         aspects,
-        classes,
-        columns,
-        why,
+        classes: &[],
+        columns: &[],
+        why: "",
     }
 }
 
 impl UntestedClasses {
+    /// Limits the declaration to these classes.
+    pub const fn classes(self, classes: &'static [&'static str]) -> Self {
+        UntestedClasses { classes, ..self }
+    }
+
+    /// Limits the declaration to these columns of the coverage table.
+    pub const fn columns(self, columns: &'static [&'static str]) -> Self {
+        UntestedClasses { columns, ..self }
+    }
+
+    /// States the reason.
+    pub const fn because(self, why: &'static str) -> Self {
+        UntestedClasses { why, ..self }
+    }
+
     /// Returns whether this declaration says that `class` of `aspect` need not be tested in
     /// `column`.
     pub fn is_about(&self, aspect: &str, class: &str, column: &str) -> bool {
@@ -156,8 +179,21 @@ pub trait Domain: Debug + Sync {
 }
 
 impl<C> FunctionDomain<C> {
+    /// Creates a domain without aspects. `calls` returns the calls in a question about the
+    /// function.
+    pub const fn new(function: &'static str, calls: fn(&Question) -> Vec<C>) -> Self {
+        FunctionDomain {
+            function,
+            aspects: &[],
+            pairs: &[],
+            fields: &[],
+            calls,
+            not_asked: &[],
+        }
+    }
+
     fn all_aspects(&self) -> impl Iterator<Item = &'static Aspect<C>> {
-        self.subject_aspects.iter().chain(self.aspects)
+        self.aspects.iter().copied().flatten()
     }
 }
 

@@ -13,35 +13,23 @@ pub trait Placed {
 
 impl<C: Placed> Aspect<C> {
     /// The size: half of the longest side of the box.
-    pub const SIZE: Self = Aspect {
-        name: "size",
-        classes: SIZES,
-        class: |call| Some(size_class(call.bounds()?.half_side())),
-    };
+    pub const SIZE: Self = Aspect::new("size", SIZES, |call| {
+        Some(size_class(call.bounds()?.half_side()))
+    });
 
     /// How close the size is to a power of ten.
-    pub const ROUND: Self = Aspect {
-        name: "round size",
-        classes: ROUND,
-        class: |call| Some(round_class(call.bounds()?.half_side())),
-    };
+    pub const ROUND: Self = Aspect::new("round size", ROUND, |call| {
+        Some(round_class(call.bounds()?.half_side()))
+    });
 
     /// The position of the box's centre.
-    pub const PLACE: Self = Aspect {
-        name: "place",
-        classes: PLACES,
-        class: |call| {
-            let bounds = call.bounds()?;
-            Some(place_class(bounds.center(), bounds.half_side()))
-        },
-    };
+    pub const PLACE: Self = Aspect::new("place", PLACES, |call| {
+        let bounds = call.bounds()?;
+        Some(place_class(bounds.center(), bounds.half_side()))
+    });
 
     /// The octant of the box's centre.
-    pub const OCTANT: Self = Aspect {
-        name: "octant",
-        classes: OCTANTS,
-        class: |call| octant(call.bounds()?.center()),
-    };
+    pub const OCTANT: Self = Aspect::new("octant", OCTANTS, |call| octant(call.bounds()?.center()));
 
     /// The octant that contains the entire box, if any.
     pub const OCTANT_OF_ALL: Self = Aspect {

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::{Balance, Call, FunctionDomain};
+use super::{Aspect, Balance, Call};
 use crate::seed::Rng;
 
 /// A subject, and the arguments of the calls on it.
@@ -22,8 +22,10 @@ pub type Follow<C> = fn(&mut Rng, &C) -> Option<Vec<C>>;
 
 /// A generator for calls to a function.
 pub struct Generator<'a, C: Call> {
-    /// The domain of the function.
-    pub domain: &'static FunctionDomain<C>,
+    /// The aspects of subjects.
+    pub subject_aspects: &'static [Aspect<C>],
+    /// The aspects of calls on one subject.
+    pub call_aspects: &'static [Aspect<C>],
     /// Picks a random subject of this size.
     pub subject: &'a dyn Fn(&mut Rng, usize) -> C::Subject,
     /// Picks random arguments for a call. Returns `None` if the contract does not allow them.
@@ -55,12 +57,10 @@ impl<C: Call> Generator<'_, C> {
     /// the call before them. The last tables repeat earlier calls. Each of them has a subject that
     /// differs from the previous one in a single property.
     pub fn tables(&self, rng: &mut Rng, sizes: &[usize]) -> Vec<SubjectCalls<C>> {
-        let FunctionDomain {
-            subject_aspects,
-            aspects,
-            ..
-        } = self.domain;
-        let mut balances = (Balance::new(subject_aspects), Balance::new(aspects));
+        let mut balances = (
+            Balance::new(self.subject_aspects),
+            Balance::new(self.call_aspects),
+        );
         let table = |(index, &size): (usize, &usize)| {
             balances.0.begin(size);
             balances.1.begin(index);

@@ -78,32 +78,25 @@ const REFLECTS: Declaration = Declaration {
 
 /// The domain of `reflect`: directions above the surface.
 static DIRECTIONS: FunctionDomain<LocalDirection> = FunctionDomain {
-    function: "reflect",
-    fields: &[],
-    subject_aspects: &[],
-    aspects: &[Aspect {
-        name: "direction",
-        classes: &[
+    aspects: &[&[Aspect::new(
+        "direction",
+        &[
             "x > 0, y > 0",
             "x < 0, y > 0",
             "x > 0, y < 0",
             "x < 0, y < 0",
         ],
-        class: |call| Some((call.direction.is_negative_bitmask() & 3) as usize),
-    }],
-    pairs: &[],
-    calls: |question| {
+        |call| Some((call.direction.is_negative_bitmask() & 3) as usize),
+    )]],
+    not_asked: &[not_asked(&["first call"])
+        .classes(&["after another subject"])
+        .because("`reflect` isn't called on a subject.")],
+    ..FunctionDomain::new("reflect", |question| {
         let Question::Light(LightQuestion::Reflect(table)) = question else {
             return Vec::new();
         };
         table.rows.to_vec().into_owned()
-    },
-    not_asked: &[not_asked(
-        &["first call"],
-        &["after another subject"],
-        &[],
-        "`reflect` isn't called on a subject.",
-    )],
+    })
 };
 
 /// Returns a direction in single precision.

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use protocol::{Interval, Ray};
 
+use super::aspects::{CALL_ASPECTS, CORNER, DISTANT, FOIL, SUBJECT_ASPECTS, THIN, THREAD};
 use super::call::{BoxCall, SMALL_COMPONENT};
 use super::history::FOLLOW;
-use super::{BOX, CORNER, DISTANT, FOIL, THIN, THREAD};
 use crate::domains::fields;
 use crate::domains::{Call, Change, Generator};
 use crate::oracle::bbox::Bounds;
@@ -20,7 +20,8 @@ pub fn tables(
 ) -> Vec<(Bounds, Vec<(Ray, Interval)>)> {
     let fits = |call: &BoxCall| call.is_clear() && belongs(call);
     let generator = Generator {
-        domain: &BOX,
+        subject_aspects: SUBJECT_ASPECTS,
+        call_aspects: CALL_ASPECTS,
         subject: &drawn_box,
         input: &query,
         changes: CHANGES,

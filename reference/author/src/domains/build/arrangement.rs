@@ -10,9 +10,9 @@ use crate::oracle::bbox::Bounds;
 use crate::oracle::scan;
 
 /// The arrangement of two or more primitives.
-pub const ARRANGEMENT: Aspect<BuildCall> = Aspect {
-    name: "arrangement",
-    classes: &[
+pub const ARRANGEMENT: Aspect<BuildCall> = Aspect::new(
+    "arrangement",
+    &[
         "scattered",
         "boxes flat along x",
         "boxes flat along y",
@@ -32,14 +32,14 @@ pub const ARRANGEMENT: Aspect<BuildCall> = Aspect {
         "over 128 centres coincide",
         "equal boxes, max_leaf_size 1",
     ],
-    class: arrangement,
-};
+    arrangement,
+);
 
 /// The arrangement, regardless of its axis. Each property of a tree is tested with each
 /// arrangement.
-pub const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
-    name: "arrangement along any axis",
-    classes: &[
+pub const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect::new(
+    "arrangement along any axis",
+    &[
         "scattered",
         "flat boxes",
         "centres in a plane",
@@ -53,14 +53,14 @@ pub const ARRANGEMENT_ALONG_ANY_AXIS: Aspect<BuildCall> = Aspect {
         "over 128 centres coincide",
         "equal boxes, max_leaf_size 1",
     ],
-    class: |call| {
+    |call| {
         Some(match arrangement(call)? {
             0 => 0,
             along @ 1..=9 => 1 + (along - 1) / 3,
             other => other - 6,
         })
     },
-};
+);
 
 fn arrangement(call: &BuildCall) -> Option<usize> {
     /// The farthest primitive is an outlier if the box without it is smaller by more than this

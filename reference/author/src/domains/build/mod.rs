@@ -1,15 +1,15 @@
 //! The domain of `Bvh::build`.
 
 mod arrangement;
-mod best_split;
+mod tree_aspects;
 
 use std::collections::BTreeSet;
 
 use glam::DVec3;
 use protocol::{Question, Shape};
 
-use self::arrangement::{ARRANGEMENT, ARRANGEMENT_ALONG_ANY_AXIS};
-use self::best_split::{BEST_AXIS, LEVELS, RANK, SMALLER_SIDE};
+use self::arrangement::ARRANGEMENT;
+use self::tree_aspects::TREE_ASPECTS;
 use super::fields::{class_up_to, powers_of_two};
 use super::{Aspect, FunctionDomain, Placed, not_asked};
 use crate::oracle::bbox::Bounds;
@@ -55,131 +55,101 @@ impl Placed for BuildCall {
 
 /// The domain of `Bvh::build`.
 pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
-    function: "Bvh::build",
-    subject_aspects: &[],
-    aspects: &[
-        COUNT,
-        LEAF_SIZE,
-        LEAVES,
-        Aspect::SIZE,
-        Aspect::PLACE,
-        Aspect::OCTANT_OF_ALL,
-        KIND,
-        ARRANGEMENT,
-        ARRANGEMENT_ALONG_ANY_AXIS,
-        BEST_AXIS,
-        RANK,
-        LEVELS,
-        LARGE,
-        SMALLER_SIDE,
-        SHAPE_OF_TREE,
-        WORK,
-    ],
-    pairs: &[],
-    fields: &[],
-    calls: |question| BuildCall::of(question).into_iter().collect(),
+    aspects: &[DRAWN, TREE_ASPECTS],
     not_asked: &[
-        not_asked(
-            &["primitives"],
-            &["about 2,048", "about 4,096"],
-            &[],
-            "An exam tests only one tree for each of these sizes, since a tree this large takes up \
-             as much of the exam as a hundred small trees.",
+        not_asked(&["primitives"])
+            .classes(&["about 2,048", "about 4,096"])
+            .because(
+                "An exam tests only one tree for each of these sizes, since a tree this large \
+                 takes up as much of the exam as a hundred small trees.",
+            ),
+        not_asked(&[
+            "primitives",
+            "max_leaf_size",
+            "primitives in leaves",
+            "size",
+            "place",
+            "octant",
+            "kind",
+            "arrangement",
+        ])
+        .columns(EVERY_PROPERTY)
+        .because(
+            "Each property of a tree is judged for every arrangement of primitives (along \
+                 any axis) and for many trees that differ in this respect. So the property need \
+                 not be judged for every class.",
         ),
-        not_asked(
-            &[
-                "primitives",
-                "max_leaf_size",
-                "primitives in leaves",
-                "size",
-                "place",
-                "octant",
-                "kind",
-                "arrangement",
-            ],
-            &[],
-            EVERY_PROPERTY,
-            "Each property of a tree is judged for every arrangement of primitives (along any \
-             axis) and for many trees that differ in this respect. So the property need not be \
-             judged for every class.",
-        ),
-        not_asked(
-            &[
-                "extent along the axis of the best split",
-                "axis of the best split",
-                "smaller side of the best split",
-                "form of the tree",
-                "area times primitives",
-            ],
-            &[],
-            ALL_BUT_COST,
-            "Only the cost depends on areas and on how nodes are split.",
-        ),
-        not_asked(
-            &["over 1,024 primitives"],
-            &[],
-            &["split", "cost"],
-            "The leaf size is judged instead, because this is a stricter test. The cost is judged \
-             for trees with larger leaves.",
-        ),
-        not_asked(
-            &["levels"],
-            &[],
-            &[
+        not_asked(&[
+            "extent along the axis of the best split",
+            "axis of the best split",
+            "smaller side of the best split",
+            "form of the tree",
+            "area times primitives",
+        ])
+        .columns(ALL_BUT_COST)
+        .because("Only the cost depends on areas and on how nodes are split."),
+        not_asked(&["over 1,024 primitives"])
+            .columns(&["split", "cost"])
+            .because(
+                "The leaf size is judged instead, because this is a stricter test. The cost is \
+                 judged for trees with larger leaves.",
+            ),
+        not_asked(&["levels"])
+            .columns(&[
                 "partition",
                 "contents",
                 "tightness",
                 "split",
                 "stops",
                 "cost",
-            ],
-            "A builder that always stops at a certain level makes leaves that are too large. So it \
-             is enough to judge the leaf size.",
-        ),
-        not_asked(
-            &["levels"],
-            &["1"],
-            &["leaf size"],
-            "Trees of one level are tested by the questions about when a node must be a leaf.",
-        ),
-        not_asked(
-            &["arrangement along any axis"],
-            &["all centres coincide", "over 128 centres coincide"],
-            &["split", "cost"],
-            "If all primitives have the same centre, all partitions cost the same, so the leaf \
-             size is judged instead.",
-        ),
-        not_asked(
-            &["arrangement along any axis"],
-            &["all on a line parallel to an axis"],
-            &["split", "cost"],
-            "Every box has an area of 0, so no partition is better than any other.",
-        ),
-        not_asked(
-            &["arrangement along any axis"],
-            &["equal boxes, max_leaf_size 1"],
-            &["split", "cost"],
-            "If the boxes are equal, some partitions cost the same, so the leaf size is judged \
-             instead.",
-        ),
-        not_asked(
-            &["arrangement along any axis"],
-            &["equal primitives"],
-            &["cost"],
-            "If the primitives are equal, some partitions cost the same, so correct builders may \
-             choose different partitions.",
-        ),
-        not_asked(
-            &["arrangement along any axis"],
-            &[
+            ])
+            .because(
+                "A builder that always stops at a certain level makes leaves that are too \
+                 large. So it is enough to judge the leaf size.",
+            ),
+        not_asked(&["levels"])
+            .classes(&["1"])
+            .columns(&["leaf size"])
+            .because(
+                "Trees of one level are tested by the questions about when a node must be a leaf.",
+            ),
+        not_asked(&["arrangement along any axis"])
+            .classes(&["all centres coincide", "over 128 centres coincide"])
+            .columns(&["split", "cost"])
+            .because(
+                "If all primitives have the same centre, all partitions cost the same, so the \
+                 leaf size is judged instead.",
+            ),
+        not_asked(&["arrangement along any axis"])
+            .classes(&["all on a line parallel to an axis"])
+            .columns(&["split", "cost"])
+            .because("Every box has an area of 0, so no partition is better than any other."),
+        not_asked(&["arrangement along any axis"])
+            .classes(&["equal boxes, max_leaf_size 1"])
+            .columns(&["split", "cost"])
+            .because(
+                "If the boxes are equal, some partitions cost the same, so the leaf size is \
+                 judged instead.",
+            ),
+        not_asked(&["arrangement along any axis"])
+            .classes(&["equal primitives"])
+            .columns(&["cost"])
+            .because(
+                "If the primitives are equal, some partitions cost the same, so correct \
+                 builders may choose different partitions.",
+            ),
+        not_asked(&["arrangement along any axis"])
+            .classes(&[
                 "some without area",
                 "equal primitives",
                 "of very different sizes",
-            ],
-            &["split"],
-            "The leaf size is judged instead, because this is a stricter test.",
-        ),
+            ])
+            .columns(&["split"])
+            .because("The leaf size is judged instead, because this is a stricter test."),
     ],
+    ..FunctionDomain::new("Bvh::build", |question| {
+        BuildCall::of(question).into_iter().collect()
+    })
 };
 
 /// All judged properties of a tree.
@@ -199,100 +169,92 @@ const ALL_BUT_COST: &[&str] = EVERY_PROPERTY.split_last().unwrap().1;
 /// The aspects that are balanced when calls are picked at random: those that can be computed
 /// without a tree.
 pub const DRAWN: &[Aspect<BuildCall>] = &[
-    COUNT,
-    LEAF_SIZE,
-    LEAVES,
+    // The number of primitives: every number from 0 to 10, then powers of two and numbers close to
+    // them.
+    Aspect::new(
+        "primitives",
+        &[
+            "0",
+            "1",
+            "2",
+            "3",
+            "4",
+            "5",
+            "6",
+            "7",
+            "8",
+            "9",
+            "10",
+            "about 16",
+            "about 32",
+            "about 64",
+            "about 128",
+            "about 256",
+            "about 512",
+            "about 1,024",
+            "about 2,048",
+            "about 4,096",
+        ],
+        |call| {
+            Some(match call.shapes.len() {
+                count @ ..=10 => count,
+                count => 7 + powers_of_two(count).clamp(4, 12),
+            })
+        },
+    ),
+    // The maximum number of primitives in a leaf.
+    Aspect::new(
+        "max_leaf_size",
+        &[
+            "1",
+            "2",
+            "3 or 4",
+            "5 to 8",
+            "9 to 32",
+            "33 to 255",
+            "256 to 1,000",
+        ],
+        |call| {
+            let limits = [1, 2, 4, 8, 32, 255];
+            Some(class_up_to(&limits, call.max_leaf_size as usize))
+        },
+    ),
+    // The number of primitives relative to the leaf size.
+    Aspect::new(
+        "primitives in leaves",
+        &[
+            "fewer than fit into one leaf",
+            "as many as fit into one leaf",
+            "one more than fits into one leaf",
+            "up to 2 leaves",
+            "up to 8 leaves",
+            "more",
+        ],
+        |call| {
+            let (count, leaf) = (call.shapes.len(), call.max_leaf_size as usize);
+            Some(match count {
+                _ if count < leaf => 0,
+                _ if count == leaf => 1,
+                _ if count == leaf + 1 => 2,
+                _ => 3 + class_up_to(&[2, 8], count.div_ceil(leaf)),
+            })
+        },
+    ),
     Aspect::SIZE,
     Aspect::PLACE,
     Aspect::OCTANT_OF_ALL,
-    KIND,
+    // The kind of the primitives.
+    Aspect::new(
+        "kind",
+        &["triangles", "flat triangles", "spheres", "mixed"],
+        |call| {
+            let kinds: BTreeSet<usize> = call.shapes.iter().map(kind).collect();
+            let first = kinds.first().copied()?;
+            Some(if kinds.len() > 1 { 3 } else { first })
+        },
+    ),
     ARRANGEMENT,
 ];
-
-/// The number of primitives: every number from 0 to 10, then powers of two and numbers close to
-/// them.
-const COUNT: Aspect<BuildCall> = Aspect {
-    name: "primitives",
-    classes: &[
-        "0",
-        "1",
-        "2",
-        "3",
-        "4",
-        "5",
-        "6",
-        "7",
-        "8",
-        "9",
-        "10",
-        "about 16",
-        "about 32",
-        "about 64",
-        "about 128",
-        "about 256",
-        "about 512",
-        "about 1,024",
-        "about 2,048",
-        "about 4,096",
-    ],
-    class: |call| {
-        Some(match call.shapes.len() {
-            count @ ..=10 => count,
-            count => 7 + powers_of_two(count).clamp(4, 12),
-        })
-    },
-};
-
-/// The maximum number of primitives in a leaf.
-const LEAF_SIZE: Aspect<BuildCall> = Aspect {
-    name: "max_leaf_size",
-    classes: &[
-        "1",
-        "2",
-        "3 or 4",
-        "5 to 8",
-        "9 to 32",
-        "33 to 255",
-        "256 to 1,000",
-    ],
-    class: |call| {
-        let limits = [1, 2, 4, 8, 32, 255];
-        Some(class_up_to(&limits, call.max_leaf_size as usize))
-    },
-};
-
-/// The number of primitives relative to the leaf size.
-const LEAVES: Aspect<BuildCall> = Aspect {
-    name: "primitives in leaves",
-    classes: &[
-        "fewer than fit into one leaf",
-        "as many as fit into one leaf",
-        "one more than fits into one leaf",
-        "up to 2 leaves",
-        "up to 8 leaves",
-        "more",
-    ],
-    class: |call| {
-        let (count, leaf) = (call.shapes.len(), call.max_leaf_size as usize);
-        Some(match count {
-            _ if count < leaf => 0,
-            _ if count == leaf => 1,
-            _ if count == leaf + 1 => 2,
-            _ => 3 + class_up_to(&[2, 8], count.div_ceil(leaf)),
-        })
-    },
-};
-
-/// The kind of the primitives.
-const KIND: Aspect<BuildCall> = Aspect {
-    name: "kind",
-    classes: &["triangles", "flat triangles", "spheres", "mixed"],
-    class: |call| {
-        let kinds: BTreeSet<usize> = call.shapes.iter().map(kind).collect();
-        let first = kinds.first().copied()?;
-        Some(if kinds.len() > 1 { 3 } else { first })
-    },
-};
 
 /// Returns the kind of a shape: triangle, flat triangle or sphere.
 pub(super) fn kind(shape: &Shape) -> usize {
@@ -302,41 +264,6 @@ pub(super) fn kind(shape: &Shape) -> usize {
         Shape::Sphere { .. } => 2,
     }
 }
-
-/// Many primitives in small leaves.
-const LARGE: Aspect<BuildCall> = Aspect {
-    name: "over 1,024 primitives",
-    classes: &["in leaves of up to 3"],
-    class: |call| (call.shapes.len() > 1024 && call.max_leaf_size < 4).then_some(0),
-};
-
-/// The numbers of primitives in the tree and in its leaves.
-const SHAPE_OF_TREE: Aspect<BuildCall> = Aspect {
-    name: "form of the tree",
-    classes: &[
-        "one split of over 1,024",
-        "9 to 100 primitives in leaves of one",
-        "five or more leaves of 16 to 32",
-        "five or more leaves of 33 or more",
-    ],
-    class: |call| match (call.shapes.len(), call.max_leaf_size as usize) {
-        (1025.., leaf) if call.shapes.len() < 2 * leaf => Some(0),
-        (9..=100, 1) => Some(1),
-        (count, leaf @ 16..) if count > 4 * leaf => Some(2 + usize::from(leaf > 32)),
-        _ => None,
-    },
-};
-
-/// The area of the root's box times the number of primitives. Costs are proportional to this
-/// product.
-const WORK: Aspect<BuildCall> = Aspect {
-    name: "area times primitives",
-    classes: &["above 1e10"],
-    class: |call| {
-        let work = call.bounds()?.area() * call.shapes.len() as f64;
-        (work > 1e10).then_some(0)
-    },
-};
 
 #[cfg(test)]
 mod tests {

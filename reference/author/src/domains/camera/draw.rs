@@ -3,7 +3,9 @@
 use glam::{UVec2, Vec2, uvec2};
 use protocol::{PinholeCamera, Sample};
 
-use super::{ALMOST, ANGLES, COMMON_FILMS, OLD, ROUND_ANGLES, SENSORS, SIDES, USUAL_RATIOS};
+use super::aspects::{
+    ALMOST, ANGLES, COMMON_FILMS, OLD, ROUND_ANGLES, SENSORS, SIDES, USUAL_RATIOS,
+};
 use crate::seed::Rng;
 
 /// Picks a random number from a range of a domain.

@@ -11,93 +11,106 @@ use super::fields::{
     share_class,
 };
 use super::{Row, rows_of};
-use crate::domains::fields::class_up_to;
+use crate::domains::fields::{class_below, class_up_to};
 use crate::domains::{Aspect, FunctionDomain, not_asked};
 use crate::oracle::light::environment::Map64;
 use crate::oracle::light::luminance;
 
 /// The domain of `uniform_sphere`.
 pub static UNIFORM_SPHERE: FunctionDomain<Row<UniformSphere>> = FunctionDomain {
-    function: "uniform_sphere",
-    subject_aspects: &[],
-    aspects: &[Aspect::RANDOM_X, Aspect::RANDOM_Y],
+    aspects: &[Aspect::RANDOM],
     pairs: &[["random.x", "random.y"]],
-    fields: &[],
-    calls: rows_of!(UniformSphere),
     not_asked: &[
-        not_asked(&["first call"], &[], &[], "The function has no subject."),
-        not_asked(
-            &["random.x", "random.y"],
-            EXACT_NUMBERS,
-            &["evenness"],
-            "Evenly distributed numbers hardly ever have this exact value.",
-        ),
+        not_asked(&["first call"]).because("The function has no subject."),
+        not_asked(&["random.x", "random.y"])
+            .classes(EXACT_NUMBERS)
+            .columns(&["evenness"])
+            .because("Evenly distributed numbers hardly ever have this exact value."),
     ],
+    ..FunctionDomain::new("uniform_sphere", rows_of!(UniformSphere))
 };
 
 /// The domain of `Environment::sample`.
 pub static MAP_SAMPLE: FunctionDomain<Row<EnvironmentSample>> = FunctionDomain {
-    function: "Environment::sample",
-    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK, Aspect::PEAK, Aspect::TOTAL],
     aspects: &[
-        Aspect::PIXEL_ROW,
-        Aspect::PIXEL_COLUMN,
-        Aspect::PIXEL_SHARE,
-        Aspect::PIXEL_COLOR,
-        Aspect::PIXEL_RADIANCE,
-        Aspect::CHOICE,
-        Aspect::RANDOM_X,
-        Aspect::RANDOM_Y,
+        Aspect::OF_MAP,
+        Aspect::OF_PIXEL,
+        &[Aspect::CHOICE],
+        Aspect::RANDOM,
     ],
-    pairs: &[],
     fields: &["choice", "random", "map"],
-    calls: rows_of!(EnvironmentSample),
     not_asked: &[
-        not_asked(
-            &["share", "colour", "radiance"],
-            &["0", "black"],
-            &[],
-            "A black pixel is never picked.",
-        ),
-        not_asked(
-            &["share"],
-            NEVER_PICKED,
-            &[],
-            "A pixel with so small a share is only picked by numbers close to a border.",
-        ),
-        not_asked(
-            &["black pixels"],
-            &["all"],
-            &[],
-            "The contract excludes samples of a black map.",
-        ),
+        not_asked(&["share", "colour", "radiance"])
+            .classes(&["0", "black"])
+            .because("A black pixel is never picked."),
+        not_asked(&["share"])
+            .classes(NEVER_PICKED)
+            .because("A pixel with so small a share is only picked by numbers close to a border."),
+        not_asked(&["black pixels"])
+            .classes(&["all"])
+            .because("The contract excludes samples of a black map."),
     ],
+    ..FunctionDomain::new("Environment::sample", rows_of!(EnvironmentSample))
 };
 
 /// The domain of `Environment::pdf`.
 pub static MAP_PDF: FunctionDomain<Row<EnvironmentPdf>> = FunctionDomain {
-    function: "Environment::pdf",
-    subject_aspects: &[Aspect::MAP_SIZE, Aspect::BLACK, Aspect::PEAK, Aspect::TOTAL],
-    aspects: &[
-        Aspect::PIXEL_ROW,
-        Aspect::PIXEL_COLUMN,
-        Aspect::PIXEL_SHARE,
-        Aspect::PIXEL_COLOR,
-        Aspect::PIXEL_RADIANCE,
-        DENSITY,
-        SINE,
-        LONGITUDE,
-    ],
-    pairs: &[],
+    aspects: &[Aspect::OF_MAP, Aspect::OF_PIXEL, DIRECTION_ASPECTS],
     fields: &["direction", "map"],
-    calls: rows_of!(EnvironmentPdf),
-    not_asked: &[not_asked(
-        &["longitude"],
-        SEAMS,
-        &[],
-        "In every map, this is at the edge of a pixel, which the contract excludes.",
-    )],
+    not_asked: &[not_asked(&["longitude"])
+        .classes(SEAMS)
+        .because("In every map, this is at the edge of a pixel, which the contract excludes.")],
+    ..FunctionDomain::new("Environment::pdf", rows_of!(EnvironmentPdf))
 };
+
+/// The aspects of directions toward a map.
+const DIRECTION_ASPECTS: &[Aspect<Row<EnvironmentPdf>>] = &[
+    // The density of the direction.
+    Aspect::new(
+        "density",
+        &[
+            "0",
+            "below 0.1",
+            "0.1",
+            "1",
+            "10",
+            "100",
+            "1000",
+            "1e4",
+            "above 1e5",
+        ],
+        |row| {
+            let map = Map64::new(row.subject.size, &row.subject.pixels);
+            let density = map.pdf(row.input.direction.as_dvec3()).value;
+            Some(match density {
+                1e5.. => 8,
+                1e4.. => 7,
+                _ => magnitude_class(density),
+            })
+        },
+    ),
+    // The sine of the angle between the direction and the nearer pole.
+    Aspect::new(
+        "sin θ",
+        &[
+            "below 0.1 around +y",
+            "0.1 to 0.5 around +y",
+            "above 0.5",
+            "0.1 to 0.5 around -y",
+            "below 0.1 around -y",
+        ],
+        |row| {
+            let DVec3 { x, y, z } = row.input.direction.as_dvec3();
+            let class = class_below(&[0.1, 0.5], x.hypot(z));
+            Some(if y < 0.0 { 4 - class } else { class })
+        },
+    ),
+    // The angle around the y-axis.
+    Aspect::new("longitude", AZIMUTHS, |row| {
+        let Vec3 { x, z, .. } = row.input.direction;
+        azimuth_class(Vec3::new(x, z, 0.0))
+    }),
+];
 
 /// The classes of random numbers that consist of a single number.
 const EXACT_NUMBERS: &[&str] = &[NUMBERS[0], NUMBERS[3], NUMBERS[6]];
@@ -159,96 +172,81 @@ fn pixel<F: Function<Subject = MapImage, Input: OnMap>>(row: &Row<F>) -> Pixel {
     }
 }
 
-#[expect(private_bounds, reason = "only the aspects are public")]
-impl<F: Function<Subject = MapImage, Input: OnMap>> Aspect<Row<F>> {
-    /// The size of the map.
-    pub const MAP_SIZE: Self = Aspect {
-        name: "map",
-        classes: &["2 × 1", "4 × 2", "up to 16 × 8", "up to 64 × 32", "larger"],
-        class: |row| Some(class_up_to(&[2, 4, 16, 64], row.subject.size.x as usize)),
-    };
-
-    /// How many pixels are black.
-    pub const BLACK: Self = Aspect {
-        name: "black pixels",
-        classes: &["none", "some", "most", "all but one", "all"],
-        class: |row| {
-            let pixels = &row.subject.pixels;
-            let black = pixels.iter().filter(|pixel| **pixel == Vec3::ZERO).count();
-            Some(match black {
-                0 => 0,
-                _ if black == pixels.len() => 4,
-                _ if black + 1 == pixels.len() => 3,
-                _ if 2 * black > pixels.len() => 2,
-                _ => 1,
-            })
-        },
-    };
-
-    /// The luminance of the brightest pixel, divided by the mean.
-    pub const PEAK: Self = Aspect {
-        name: "brightest pixel over the mean",
-        classes: &["up to 10", "up to 1,000", "beyond"],
-        class: |row| {
-            let pixels = row.subject.pixels.iter();
-            let luminances: Vec<f64> = pixels.map(|it| luminance(it.as_dvec3())).collect();
-            let sum: f64 = luminances.iter().sum();
-            let brightest = luminances.iter().copied().fold(0.0, f64::max);
-            let ratio = brightest * luminances.len() as f64 / sum;
-            (sum > 0.0).then(|| [10.0, 1e3].iter().filter(|limit| ratio > **limit).count())
-        },
-    };
-
-    /// The sum of the pixels' luminances.
-    pub const TOTAL: Self = Aspect {
-        name: "sum of the luminances",
-        classes: &["below 1e-7", "below 1", "below 1,000", "more"],
-        class: |row| {
-            let pixels = row.subject.pixels.iter();
-            let sum: f64 = pixels.map(|it| luminance(it.as_dvec3())).sum();
-            let limits = [1e-7, 1.0, 1e3];
-            (sum > 0.0).then(|| limits.iter().filter(|limit| sum >= **limit).count())
-        },
-    };
-
-    /// The pixel's row.
-    pub const PIXEL_ROW: Self = Aspect {
-        name: "row",
-        classes: &["the only one", "the top one", "the bottom one", "any other"],
-        class: |row| Some(place_class(pixel(row).position.y, row.subject.size.y)),
-    };
-
-    /// The pixel's column.
-    pub const PIXEL_COLUMN: Self = Aspect {
-        name: "column",
-        classes: &["the first", "the last", "any other"],
-        class: |row| Some(place_class(pixel(row).position.x, row.subject.size.x) - 1),
-    };
-
-    /// The pixel's share.
-    pub const PIXEL_SHARE: Self = Aspect {
-        name: "share",
-        classes: SHARES,
-        class: |row| Some(share_class(pixel(row).share)),
-    };
-
-    /// The pixel's colour.
-    pub const PIXEL_COLOR: Self = Aspect {
-        name: "colour",
-        classes: COLORS,
-        class: |row| Some(color_class(pixel(row).radiance)),
-    };
-
-    /// The pixel's radiance in its brightest channel.
-    pub const PIXEL_RADIANCE: Self = Aspect {
-        name: "radiance",
-        classes: MAGNITUDES,
-        class: |row| Some(magnitude_class(pixel(row).radiance.max_element().into())),
-    };
+impl<F: Function<Subject = MapImage>> Aspect<Row<F>> {
+    /// The aspects of a map.
+    const OF_MAP: &'static [Self] = &[
+        Aspect::new(
+            "map",
+            &["2 × 1", "4 × 2", "up to 16 × 8", "up to 64 × 32", "larger"],
+            |row| Some(class_up_to(&[2, 4, 16, 64], row.subject.size.x)),
+        ),
+        Aspect::new(
+            "black pixels",
+            &["none", "some", "most", "all but one", "all"],
+            |row| {
+                let pixels = &row.subject.pixels;
+                let black = pixels.iter().filter(|pixel| **pixel == Vec3::ZERO).count();
+                Some(match black {
+                    0 => 0,
+                    _ if black == pixels.len() => 4,
+                    _ if black + 1 == pixels.len() => 3,
+                    _ if 2 * black > pixels.len() => 2,
+                    _ => 1,
+                })
+            },
+        ),
+        Aspect::new(
+            "brightest pixel over the mean",
+            &["up to 10", "up to 1,000", "beyond"],
+            |row| {
+                let luminances = luminances(&row.subject);
+                let sum: f64 = luminances.iter().sum();
+                let brightest = luminances.iter().copied().fold(0.0, f64::max);
+                let ratio = brightest * luminances.len() as f64 / sum;
+                (sum > 0.0).then(|| class_up_to(&[10.0, 1e3], ratio))
+            },
+        ),
+        Aspect::new(
+            "sum of the luminances",
+            &["below 1e-7", "below 1", "below 1,000", "more"],
+            |row| {
+                let sum: f64 = luminances(&row.subject).iter().sum();
+                (sum > 0.0).then(|| class_below(&[1e-7, 1.0, 1e3], sum))
+            },
+        ),
+    ];
 }
 
-/// Returns the class of an index among `count` rows or columns: the only one, the first, the last or
-/// any other.
+#[expect(private_bounds, reason = "the aspects are as private as the trait")]
+impl<F: Function<Subject = MapImage, Input: OnMap>> Aspect<Row<F>> {
+    /// The aspects of a pixel.
+    const OF_PIXEL: &'static [Self] = &[
+        Aspect::new(
+            "row",
+            &["the only one", "the top one", "the bottom one", "any other"],
+            |row| Some(place_class(pixel(row).position.y, row.subject.size.y)),
+        ),
+        Aspect::new("column", &["the first", "the last", "any other"], |row| {
+            Some(place_class(pixel(row).position.x, row.subject.size.x) - 1)
+        }),
+        Aspect::new("share", SHARES, |row| Some(share_class(pixel(row).share))),
+        Aspect::new("colour", COLORS, |row| {
+            Some(color_class(pixel(row).radiance))
+        }),
+        // The radiance in the pixel's brightest channel.
+        Aspect::new("radiance", MAGNITUDES, |row| {
+            Some(magnitude_class(pixel(row).radiance.max_element().into()))
+        }),
+    ];
+}
+
+fn luminances(map: &MapImage) -> Vec<f64> {
+    let pixels = map.pixels.iter();
+    pixels.map(|it| luminance(it.as_dvec3())).collect()
+}
+
+/// Returns the class of an index among `count` rows or columns: the only one, the first, the last
+/// or any other.
 fn place_class(index: u32, count: u32) -> usize {
     match index {
         0 if count == 1 => 0,
@@ -257,59 +255,3 @@ fn place_class(index: u32, count: u32) -> usize {
         _ => 3,
     }
 }
-
-/// The density of the direction.
-const DENSITY: Aspect<Row<EnvironmentPdf>> = Aspect {
-    name: "density",
-    classes: &[
-        "0",
-        "below 0.1",
-        "0.1",
-        "1",
-        "10",
-        "100",
-        "1000",
-        "1e4",
-        "above 1e5",
-    ],
-    class: |row| {
-        let map = Map64::new(row.subject.size, &row.subject.pixels);
-        let density = map.pdf(row.input.direction.as_dvec3()).value;
-        Some(match density {
-            1e5.. => 8,
-            1e4.. => 7,
-            _ => magnitude_class(density),
-        })
-    },
-};
-
-/// The sine of the angle between the direction and the nearer pole.
-const SINE: Aspect<Row<EnvironmentPdf>> = Aspect {
-    name: "sin θ",
-    classes: &[
-        "below 0.1 around +y",
-        "0.1 to 0.5 around +y",
-        "above 0.5",
-        "0.1 to 0.5 around -y",
-        "below 0.1 around -y",
-    ],
-    class: |row| {
-        let DVec3 { x, y, z } = row.input.direction.as_dvec3();
-        let class = match x.hypot(z) {
-            ..0.1 => 0,
-            ..0.5 => 1,
-            _ => 2,
-        };
-        Some(if y < 0.0 { 4 - class } else { class })
-    },
-};
-
-/// The angle around the y-axis.
-const LONGITUDE: Aspect<Row<EnvironmentPdf>> = Aspect {
-    name: "longitude",
-    classes: AZIMUTHS,
-    class: |row| {
-        let Vec3 { x, z, .. } = row.input.direction;
-        azimuth_class(Vec3::new(x, z, 0.0))
-    },
-};

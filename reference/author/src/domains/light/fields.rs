@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
+use crate::domains::fields::{class_below, class_from};
 use crate::seed::Rng;
 
 /// The largest number in single precision that is less than 1.
@@ -37,16 +38,13 @@ pub const NOT_ABOVE: &[&str] = HEIGHTS.split_at(HORIZON).1;
 /// The classes of directions along the surface.
 pub const ALONG: &[&str] = &[HEIGHTS[HORIZON]];
 
-/// The smallest z components of the classes above the surface, from the second class on.
-const LIMITS: [f32; 4] = [0.999, 0.1, 1e-2, 1e-3];
-
 /// Returns the class of a direction's angle to the surface.
 pub fn height_class(direction: Vec3) -> usize {
     let height = direction.z.abs();
     let class = match height {
         0.0 => HORIZON,
         _ if direction.truncate() == Vec2::ZERO => 0,
-        _ => 1 + LIMITS.iter().take_while(|limit| height < **limit).count(),
+        _ => 1 + class_from(&[0.999, 0.1, 1e-2, 1e-3], height),
     };
     if direction.z < 0.0 {
         HEIGHTS.len() - 1 - class
@@ -195,9 +193,8 @@ pub fn contrast_class(color: Vec3) -> Option<usize> {
         .filter(|channel| *channel > 0.0);
     let channels: Vec<f32> = channels.collect();
     let dimmest = channels.iter().copied().fold(f32::INFINITY, f32::min);
-    let limits = [0.1, 1e-3];
     let contrast = dimmest / color.max_element();
-    (channels.len() > 1).then(|| limits.iter().filter(|limit| contrast < **limit).count())
+    (channels.len() > 1).then(|| class_from(&[0.1, 1e-3], contrast))
 }
 
 /// Returns a factor for each channel of a colour. One of the factors is very small.
@@ -287,12 +284,7 @@ pub const MAGNITUDES: &[&str] = &["0", "below 0.1", "0.1", "1", "10", "100", "ab
 pub fn magnitude_class(value: f64) -> usize {
     match value {
         0.0 => 0,
-        ..0.1 => 1,
-        ..1.0 => 2,
-        ..10.0 => 3,
-        ..100.0 => 4,
-        ..1e3 => 5,
-        _ => 6,
+        _ => 1 + class_below(&[0.1, 1.0, 10.0, 100.0, 1e3], value),
     }
 }
 
@@ -311,12 +303,7 @@ pub const SHARES: &[&str] = &[
 pub fn share_class(share: f64) -> usize {
     match share {
         0.0 => 0,
-        ..1e-7 => 1,
-        ..1e-4 => 2,
-        ..1e-2 => 3,
-        ..0.1 => 4,
-        ..0.5 => 5,
-        _ => 6,
+        _ => 1 + class_below(&[1e-7, 1e-4, 1e-2, 0.1, 0.5], share),
     }
 }
 

@@ -101,42 +101,31 @@ field! {
 }
 
 impl<F: Function<Input: Outgoing>> Aspect<Row<F>> {
-    /// The angle between `out` and the surface.
-    pub const OUT: Self = Aspect {
-        name: "out",
-        classes: HEIGHTS,
-        class: |row| Some(height_class(row.input.out())),
-    };
-
-    /// The azimuth of `out`.
-    pub const OUT_AZIMUTH: Self = Aspect {
-        name: "azimuth of out",
-        classes: AZIMUTHS,
-        class: |row| azimuth_class(row.input.out()),
-    };
+    /// The aspects of `out`.
+    pub const OUT: &'static [Self] = &[
+        // The angle between `out` and the surface.
+        Aspect::new("out", HEIGHTS, |row| Some(height_class(row.input.out()))),
+        Aspect::new("azimuth of out", AZIMUTHS, |row| {
+            azimuth_class(row.input.out())
+        }),
+    ];
 }
 
 impl<F: Function<Input: Choosing>> Aspect<Row<F>> {
     /// The random number that chooses.
-    pub const CHOICE: Self = Aspect {
-        name: "choice",
-        classes: NUMBERS,
-        class: |row| Some(number_class(row.input.choice())),
-    };
+    pub const CHOICE: Self = Aspect::new("choice", NUMBERS, |row| {
+        Some(number_class(row.input.choice()))
+    });
 }
 
 impl<F: Function<Input: Sampling>> Aspect<Row<F>> {
-    /// The first random number.
-    pub const RANDOM_X: Self = Aspect {
-        name: "random.x",
-        classes: NUMBERS,
-        class: |row| Some(number_class(row.input.random().x)),
-    };
-
-    /// The second random number.
-    pub const RANDOM_Y: Self = Aspect {
-        name: "random.y",
-        classes: NUMBERS,
-        class: |row| Some(number_class(row.input.random().y)),
-    };
+    /// The two random numbers.
+    pub const RANDOM: &'static [Self] = &[
+        Aspect::new("random.x", NUMBERS, |row| {
+            Some(number_class(row.input.random().x))
+        }),
+        Aspect::new("random.y", NUMBERS, |row| {
+            Some(number_class(row.input.random().y))
+        }),
+    ];
 }

@@ -74,30 +74,26 @@ impl Placed for ShapeCall {
 }
 
 /// The number of the shape.
-pub const NUMBER: Aspect<ShapeCall> = Aspect {
-    name: "number",
-    classes: NUMBERS,
-    class: |call| Some(number_class(call.shape.number())),
-};
+pub const NUMBER: Aspect<ShapeCall> = Aspect::new("number", NUMBERS, |call| {
+    Some(number_class(call.shape.number()))
+});
 
 /// Rays that start at the origin, like those of a camera, or on an axis.
-pub const ORIGIN: Aspect<ShapeCall> = Aspect {
-    name: "ray",
-    classes: &["from the origin", "from an axis", "from between two axes"],
-    class: |call| match call.ray.origin.cmpeq(Vec3::ZERO).bitmask().count_ones() {
+pub const ORIGIN: Aspect<ShapeCall> = Aspect::new(
+    "ray",
+    &["from the origin", "from an axis", "from between two axes"],
+    |call| match call.ray.origin.cmpeq(Vec3::ZERO).bitmask().count_ones() {
         3 => Some(0),
         2 => Some(1),
         1 => Some(2),
         _ => None,
     },
-};
+);
 
 /// The distance of the hit.
-pub const DISTANCE: Aspect<ShapeCall> = Aspect {
-    name: "distance",
-    classes: DISTANCES,
-    class: |call| Some(distance_class(call.hit()?.distance)),
-};
+pub const DISTANCE: Aspect<ShapeCall> = Aspect::new("distance", DISTANCES, |call| {
+    Some(distance_class(call.hit()?.distance))
+});
 
 /// The class of a call whose direction is virtually the previous call's.
 pub const HARDLY_TURNED: &str = "virtually the same direction";
@@ -109,9 +105,9 @@ pub const HARDLY_MOVED: &str = "virtually the same start";
 pub const MIRRORED_START: &str = "a mirrored start";
 
 /// The previous call.
-pub const HISTORY: Aspect<ShapeCall> = Aspect {
-    name: "call before",
-    classes: &[
+pub const HISTORY: Aspect<ShapeCall> = Aspect::new(
+    "call before",
+    &[
         "none",
         "another ray",
         "the same ray with another range",
@@ -126,8 +122,8 @@ pub const HISTORY: Aspect<ShapeCall> = Aspect {
         HARDLY_MOVED,
         MIRRORED_START,
     ],
-    class: |call| Some(history::class_of(call)),
-};
+    |call| Some(history::class_of(call)),
+);
 
 impl Call for ShapeCall {
     type Subject = Shape;

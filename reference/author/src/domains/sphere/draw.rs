@@ -6,7 +6,7 @@ use glam::DVec3;
 use protocol::{Interval, Ray, Shape};
 
 use super::line::Line;
-use super::{NEAR, SPHERE};
+use super::{NEAR, RAY_ASPECTS, SUBJECT_ASPECTS};
 use crate::domains::fields;
 use crate::domains::shape::{FOLLOW, ShapeCall};
 use crate::domains::{Call, Change, Generator};
@@ -24,7 +24,8 @@ pub fn tables(
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |line: &Line| line.is_clear() && judged.iter().all(|it| line.is_exact(it));
     let generator = Generator {
-        domain: &SPHERE,
+        subject_aspects: SUBJECT_ASPECTS,
+        call_aspects: RAY_ASPECTS,
         subject: &drawn_shape,
         input: &ray,
         changes: CHANGES,

@@ -5,11 +5,11 @@ use std::mem;
 use glam::{BVec2, BVec3, DVec2, DVec3, Vec3, vec2};
 use protocol::{Interval, Ray, Shape, Vertex};
 
-use super::plane::Plane;
-use super::{
-    ALMOST_RIGHT, EDGE, END, FAR_UV, NARROW_MISS, NEAR, SMALL_WEIGHT, TEXEL, TRIANGLE,
-    almost_right_corner,
+use super::aspects::{
+    ALMOST_RIGHT, EDGE, END, FAR_UV, NARROW_MISS, NEAR, RAY_ASPECTS, SMALL_WEIGHT, SUBJECT_ASPECTS,
+    TEXEL, almost_right_corner,
 };
+use super::plane::Plane;
 use crate::domains::fields::{self, FURTHEST};
 use crate::domains::shape::{FOLLOW, ShapeCall};
 use crate::domains::{Call, Change, Generator};
@@ -28,7 +28,8 @@ pub fn tables(
 ) -> Vec<(Shape, Vec<Ray>)> {
     let is_fair = |plane: &Plane| plane.is_clear() && judged.iter().all(|it| plane.is_exact(it));
     let generator = Generator {
-        domain: &TRIANGLE,
+        subject_aspects: SUBJECT_ASPECTS,
+        call_aspects: RAY_ASPECTS,
         subject: &drawn_shape,
         input: &ray,
         changes: CHANGES,

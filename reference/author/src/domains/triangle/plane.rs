@@ -1,9 +1,9 @@
 //! The point where a ray crosses a triangle's plane, and its accuracy in single precision.
 
 use glam::DVec3;
-use protocol::Shape;
+use protocol::{Shape, Vertex};
 
-use super::uv_extent;
+use super::aspects::uv_extent;
 use crate::domains::fields::{EPSILON, FURTHEST, FURTHEST_SIZES};
 use crate::domains::shape::ShapeCall;
 use crate::oracle::{Ray64, scan, triangle};
@@ -53,10 +53,8 @@ impl Plane {
         let bounds = scan::bounds(&call.shape);
         let beside = ray64.origin - ray64.origin.clamp(bounds.min, bounds.max);
         Some(Plane {
-            uv_extent: match call.shape {
-                Shape::Triangle { vertices, .. } => uv_extent(vertices.map(|vertex| vertex.uv)),
-                Shape::FlatTriangle { .. } | Shape::Sphere { .. } => 1.0,
-            },
+            uv_extent: vertices(&call.shape)
+                .map_or(1.0, |vertices| uv_extent(vertices.map(|vertex| vertex.uv))),
             normal_length: weighted.map_or(1.0, DVec3::length),
             start: beside.length() / call.size(),
             ray64,
@@ -154,18 +152,23 @@ impl Plane {
     }
 }
 
+/// Returns a triangle's vertices, or `None` if the shape has only corners or is a sphere.
+pub(super) fn vertices(shape: &Shape) -> Option<[Vertex; 3]> {
+    match shape {
+        Shape::Triangle { vertices, .. } => Some(*vertices),
+        Shape::FlatTriangle { .. } | Shape::Sphere { .. } => None,
+    }
+}
+
 /// Returns the normals of a triangle's corners, or `None` if the triangle doesn't have any.
 pub(super) fn corner_normals(shape: &Shape) -> Option<[DVec3; 3]> {
-    let Shape::Triangle { vertices, .. } = shape else {
-        return None;
-    };
-    Some(vertices.map(|vertex| vertex.normal.as_dvec3()))
+    Some(vertices(shape)?.map(|vertex| vertex.normal.as_dvec3()))
 }
 
 #[cfg(test)]
 mod tests {
     use glam::Vec2;
-    use protocol::{Ray, Vertex};
+    use protocol::Ray;
 
     use super::*;
     use crate::domains::Call;

@@ -77,6 +77,30 @@ impl FlatLight64 {
 }
 
 impl Light64 {
+    /// Returns the light if it is flat.
+    pub fn flat(self) -> Option<FlatLight64> {
+        match self {
+            Light64::Flat(light) => Some(light),
+            Light64::Sphere(_) => None,
+        }
+    }
+
+    /// Returns the light if it is a sphere.
+    pub fn sphere(self) -> Option<SphericalLight64> {
+        match self {
+            Light64::Sphere(light) => Some(light),
+            Light64::Flat(_) => None,
+        }
+    }
+
+    /// Returns the radiance that is emitted in every direction.
+    pub fn radiance(&self) -> DVec3 {
+        match self {
+            Light64::Flat(light) => light.radiance,
+            Light64::Sphere(light) => light.radiance,
+        }
+    }
+
     /// Returns the power up to a constant factor.
     pub fn power(&self) -> f64 {
         match self {

@@ -49,16 +49,19 @@ impl<C> Balance<C> {
         let group = self.of_groups.entry(self.group);
         let mut of_group = group.or_insert_with(|| zeros(self.aspects)).clone();
         let drawn = (0..ATTEMPTS).filter_map(|_| draw(rng));
-        let drawn: Vec<C> = drawn.take(CANDIDATES).collect();
+        let with_classes = drawn
+            .take(CANDIDATES)
+            .map(|call| (self.classes(&call), call));
+        let drawn: Vec<(Vec<(usize, usize)>, C)> = with_classes.collect();
         // A class that rarely comes up is chosen as soon as it does, since it may not come up
         // again.
         let mut times = zeros(self.aspects);
-        for (aspect, class) in drawn.iter().flat_map(|call| self.classes(call)) {
+        for &(aspect, class) in drawn.iter().flat_map(|(classes, _)| classes) {
             times[aspect][class] += 1;
         }
         let count_of_drawn = drawn.len() as f64;
-        let rarity = |call: &C| -> f64 {
-            let rarities = self.classes(call).map(|(aspect, class)| {
+        let rarity = |classes: &[(usize, usize)]| -> f64 {
+            let rarities = classes.iter().map(|&(aspect, class)| {
                 let counts = [self.counts[aspect][class], of_group[aspect][class]];
                 let rarities = counts.map(|count| (1.0 + f64::from(count)).powi(-2));
                 let seldom = count_of_drawn / f64::from(times[aspect][class]);
@@ -66,9 +69,8 @@ impl<C> Balance<C> {
             });
             rarities.sum()
         };
-        let rated = drawn.into_iter().map(|call| (rarity(&call), call));
-        let (_, call) = rated.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
-        let classes: Vec<(usize, usize)> = self.classes(&call).collect();
+        let rated = drawn.into_iter().map(|it| (rarity(&it.0), it));
+        let (_, (classes, call)) = rated.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
         for (aspect, class) in classes {
             self.counts[aspect][class] += 1;
             of_group[aspect][class] += 1;
@@ -78,9 +80,10 @@ impl<C> Balance<C> {
     }
 
     /// Returns the classes of a call, each with the index of its aspect.
-    fn classes<'a>(&'a self, call: &'a C) -> impl Iterator<Item = (usize, usize)> + 'a {
+    fn classes(&self, call: &C) -> Vec<(usize, usize)> {
         let aspects = self.aspects.iter().enumerate();
-        aspects.filter_map(|(index, aspect)| Some((index, (aspect.class)(call)?)))
+        let classes = aspects.filter_map(|(index, aspect)| Some((index, (aspect.class)(call)?)));
+        classes.collect()
     }
 }
 

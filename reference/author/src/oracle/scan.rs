@@ -34,6 +34,14 @@ pub fn intersect(ray: &Ray64, shape: &Shape) -> Option<Intersection> {
     }
 }
 
+/// Returns the distance of the first intersection with this shape in the ray's range.
+pub fn hit_distance(ray: &Ray64, shape: &Shape) -> Option<f64> {
+    if let Shape::Sphere { center, radius, .. } = *shape {
+        return sphere(center, radius).hit_distance(ray);
+    }
+    Some(triangle::intersect_inside(ray, corners(shape)?)?.distance)
+}
+
 /// Returns the closest intersection with any of the shapes.
 pub fn closest_hit(ray: &Ray64, shapes: &[Shape]) -> Option<Intersection> {
     let hits = shapes.iter().filter_map(|shape| intersect(ray, shape));

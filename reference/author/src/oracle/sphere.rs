@@ -40,10 +40,15 @@ impl Sphere {
         }
     }
 
+    /// Returns the distance of the first intersection in the ray's range.
+    pub fn hit_distance(&self, ray: &Ray64) -> Option<f64> {
+        let roots = self.intersect_line(ray).roots;
+        roots.into_iter().find(|&root| ray.is_in_range(root))
+    }
+
     /// Returns the first intersection in the ray's range.
     pub fn intersect(&self, ray: &Ray64, shape: u32) -> Option<Intersection> {
-        let roots = self.intersect_line(ray).roots;
-        let distance = roots.into_iter().find(|&root| ray.is_in_range(root))?;
+        let distance = self.hit_distance(ray)?;
         let position = ray.at(distance);
         let normal = (position - self.center).normalize();
         Some(Intersection {

@@ -76,8 +76,8 @@ pub static BUILD: FunctionDomain<BuildCall> = FunctionDomain {
         .columns(EVERY_PROPERTY)
         .because(
             "Each property of a tree is judged for every arrangement of primitives (along \
-                 any axis) and for many trees that differ in this respect. So the property need \
-                 not be judged for every class.",
+             any axis) and for many trees that differ in this respect. So the property need \
+             not be judged for every class.",
         ),
         not_asked(&[
             "extent along the axis of the best split",

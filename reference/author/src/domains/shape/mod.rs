@@ -31,6 +31,11 @@ impl ShapeCall {
         scan::intersect(&Ray64::from(&self.ray), &self.shape)
     }
 
+    /// Returns the distance of the hit, or `None` if the ray misses.
+    pub fn distance(&self) -> Option<f64> {
+        scan::hit_distance(&Ray64::from(&self.ray), &self.shape)
+    }
+
     /// Returns whether the answers to the two calls differ in a judged quantity by more than twice
     /// its tolerance.
     pub fn differs(&self, other: &Self, judged: &[&str]) -> bool {
@@ -92,7 +97,7 @@ pub const ORIGIN: Aspect<ShapeCall> = Aspect::new(
 
 /// The distance of the hit.
 pub const DISTANCE: Aspect<ShapeCall> = Aspect::new("distance", DISTANCES, |call| {
-    Some(distance_class(call.hit()?.distance))
+    Some(distance_class(call.distance()?))
 });
 
 /// The class of a call whose direction is virtually the previous call's.
@@ -146,11 +151,11 @@ impl Call for ShapeCall {
     }
 
     fn is_hit(&self) -> bool {
-        self.hit().is_some()
+        self.distance().is_some()
     }
 
     fn with_other_range(&self, rng: &mut Rng) -> Option<Self> {
-        let distance = self.hit()?.distance;
+        let distance = self.distance()?;
         let range = fields::range(rng, distance + 2.0 * self.size());
         let ray = self.ray.within(range.min, range.max);
         Some(ShapeCall { ray, ..*self })

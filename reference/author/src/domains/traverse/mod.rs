@@ -99,7 +99,7 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
             ),
         not_asked(&["size"]).classes(&["500"]).because(
             "The size of a tree in this class is at least half of the largest coordinate. \
-                 An exam tests such a tree only if its seed leaves room for one.",
+             An exam tests such a tree only if its seed leaves room for one.",
         ),
     ],
     ..FunctionDomain::new("Bvh::hit", calls)

@@ -226,9 +226,12 @@ pub(super) const RAY_ASPECTS: &[Aspect<ShapeCall>] = &[
         ],
         |call| {
             let Plane {
-                distance, slope, ..
+                distance,
+                slope,
+                size,
+                ..
             } = Plane::of(call)?;
-            let sizes = distance / call.size();
+            let sizes = distance / size;
             let side = if slope < 0.0 { 0 } else { 2 };
             Some(match sizes {
                 ..-0.01 => 5,
@@ -298,7 +301,7 @@ pub(super) const RAY_ASPECTS: &[Aspect<ShapeCall>] = &[
     Aspect::new("close to a corner", &["p0", "p1", "p2"], |call| {
         /// The minimum weight of a corner that is close.
         const LEAST: f64 = 0.88;
-        call.hit()?;
+        call.distance()?;
         let mut weights = Plane::of(call)?.weights.into_iter();
         weights.position(|weight| weight > LEAST)
     }),

@@ -37,8 +37,8 @@ pub static TRIANGLE: FunctionDomain<ShapeCall> = FunctionDomain {
             .because("A ray that points away from the triangle hits nothing."),
         not_asked(&["start"]).classes(&["on the surface"]).because(
             "A ray in this class starts on the triangle. Its start is a hit only if its \
-                 range begins there, but no range in an exam begins or ends so close to the \
-                 triangle. So the ray hits nothing.",
+             range begins there, but no range in an exam begins or ends so close to the \
+             triangle. So the ray hits nothing.",
         ),
         not_asked(&["crossing"])
             .classes(&[

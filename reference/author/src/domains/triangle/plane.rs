@@ -6,6 +6,7 @@ use protocol::{Shape, Vertex};
 use super::aspects::uv_extent;
 use crate::domains::fields::{EPSILON, FURTHEST, FURTHEST_SIZES};
 use crate::domains::shape::ShapeCall;
+use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan, triangle};
 
 /// The point where a call's ray crosses the plane of the triangle.
@@ -50,20 +51,21 @@ impl Plane {
             let [w0, w1, w2] = crossing.weights;
             w0 * n0 + w1 * n1 + w2 * n2
         });
-        let bounds = scan::bounds(&call.shape);
+        let bounds = Bounds::around(corners);
+        let size = bounds.half_side();
         let beside = ray64.origin - ray64.origin.clamp(bounds.min, bounds.max);
         Some(Plane {
             uv_extent: vertices(&call.shape)
                 .map_or(1.0, |vertices| uv_extent(vertices.map(|vertex| vertex.uv))),
             normal_length: weighted.map_or(1.0, DVec3::length),
-            start: beside.length() / call.size(),
+            start: beside.length() / size,
             ray64,
             distance: crossing.distance,
             weights: crossing.weights,
             slope: normal.normalize().dot(ray64.dir),
             altitude: normal.length() / longest,
             longest,
-            size: call.size(),
+            size,
             coordinates: points
                 .map(|point| point.abs().max_element())
                 .fold(0.0, f64::max),

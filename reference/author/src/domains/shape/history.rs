@@ -6,7 +6,7 @@ use protocol::Ray;
 use super::ShapeCall;
 use crate::domains::Call;
 use crate::domains::fields::{
-    HARDLY, is_mirrored, is_mirrored_start, is_same_line, mirrored, mirrored_start, moved, turned,
+    HARDLY, is_mirrored, is_mirrored_start, mirrored, mirrored_start, moved, turned,
 };
 use crate::domains::tables::Follow;
 use crate::oracle::{Ray64, scan};
@@ -105,46 +105,34 @@ pub fn class_of(call: &ShapeCall) -> usize {
     let (same_start, same_dir) = (before.origin == ray.origin, before.dir == ray.dir);
     let same_range = before.range == ray.range;
     let between = ray.origin.as_dvec3().distance(before.origin.as_dvec3());
-    if is_same_line(&before, &ray) {
-        let is_other = !same_range
-            && is_almost(before.range.min, ray.range.min)
-            && is_almost(before.range.max, ray.range.max);
-        return if is_other { 3 } else { 2 };
-    }
-    if same_start && same_range && before.dir == -ray.dir {
-        return 6;
-    }
-    if is_mirrored(&before, &ray) {
-        return 9;
-    }
-    if is_mirrored_start(&before, &ray) {
-        return 12;
-    }
+    let is_almost_the_same_range =
+        || is_almost(before.range.min, ray.range.min) && is_almost(before.range.max, ray.range.max);
     let angle = before.dir.as_dvec3().distance(ray.dir.as_dvec3());
-    if same_start && same_range && angle < HARDLY {
-        return 10;
+    let is_in_other_order = || {
+        let orders = [
+            (before.origin.yzx(), before.dir.yzx()),
+            (before.origin.zxy(), before.dir.zxy()),
+        ];
+        orders.contains(&(ray.origin, ray.dir))
+    };
+    let starts_at_the_hit = || {
+        let hit = ShapeCall::new(call.shape, before).hit();
+        hit.is_some_and(|hit| hit.position.distance(ray.origin.as_dvec3()) < DISTANCE * size)
+    };
+    match (same_start, same_dir) {
+        (true, true) if !same_range && is_almost_the_same_range() => 3,
+        (true, true) => 2,
+        (true, _) if same_range && before.dir == -ray.dir => 6,
+        _ if is_mirrored(&before, &ray) => 9,
+        _ if is_mirrored_start(&before, &ray) => 12,
+        (true, _) if same_range && angle < HARDLY => 10,
+        (_, true) if same_range && between < HARDLY * size => 11,
+        (true, _) if same_range && angle < ANGLE => 4,
+        (_, true) if same_range && between < DISTANCE * size => 5,
+        _ if same_range && is_in_other_order() => 7,
+        _ if starts_at_the_hit() => 8,
+        _ => 1,
     }
-    if same_dir && same_range && between < HARDLY * size {
-        return 11;
-    }
-    if same_start && same_range && angle < ANGLE {
-        return 4;
-    }
-    if same_dir && same_range && between < DISTANCE * size {
-        return 5;
-    }
-    let is_in_other_order = [
-        (before.origin.yzx(), before.dir.yzx()),
-        (before.origin.zxy(), before.dir.zxy()),
-    ]
-    .contains(&(ray.origin, ray.dir));
-    if is_in_other_order && same_range {
-        return 7;
-    }
-    let hit = ShapeCall::new(call.shape, before).hit();
-    let starts_there =
-        hit.is_some_and(|hit| hit.position.distance(ray.origin.as_dvec3()) < DISTANCE * size);
-    if starts_there { 8 } else { 1 }
 }
 
 impl ShapeCall {

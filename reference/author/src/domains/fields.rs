@@ -453,6 +453,18 @@ pub fn range(rng: &mut Rng, furthest: f64) -> Interval {
     Interval::new(min as f32, max as f32)
 }
 
+/// Picks a random range that begins or ends at this distance. Returns `None` if the distance is
+/// negative.
+pub fn range_with_end(rng: &mut Rng, end: f64) -> Option<Interval> {
+    let end = end as f32;
+    let range = if rng.coin() {
+        Interval::new(end, f32::INFINITY)
+    } else {
+        Interval::new(0.0, end)
+    };
+    (end >= 0.0).then_some(range)
+}
+
 /// The classes of shape numbers.
 pub const NUMBERS: &[&str] = &[
     "0",

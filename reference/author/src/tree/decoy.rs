@@ -28,8 +28,7 @@ pub type Child = fn(&TreeNode) -> u32;
 /// the ray clearly misses the leaf's box. In that case, only the boxes of the node's two children
 /// decide whether the leaf is entered.
 pub fn is_missed_child(tree: &Tree, leaf: usize, ray64: &Ray64, child: Child) -> bool {
-    let path = tree.path(leaf);
-    let [.., parent, _] = path[..] else {
+    let Some(parent) = tree.parent(leaf) else {
         return false;
     };
     let is_entered = |rule| {
@@ -128,7 +127,7 @@ pub fn find_fork(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<PathFork> {
 }
 
 /// Returns the distance at which the ray enters a node's box, or `None` if it misses the box.
-fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
+pub fn entry_distance(tree: &Tree, index: usize, ray64: &Ray64) -> Option<f64> {
     Some(tree.bounds(index).span(&ray64.ahead())?.0)
 }
 

@@ -39,20 +39,24 @@ impl Tree {
         let Question::Hit(table) = question else {
             return None;
         };
+        Some((Tree::of(&table.subject)?, &table.rows))
+    }
+
+    /// Returns the tree in a question's subject.
+    pub fn of(geometry: &Geometry) -> Option<Tree> {
         let Geometry::Tree {
             shapes,
             nodes,
             root,
-        } = &table.subject
+        } = geometry
         else {
             return None;
         };
-        let tree = Tree {
+        Some(Tree {
             shapes: shapes.clone(),
             nodes: nodes.clone(),
             root: *root as usize,
-        };
-        Some((tree, &table.rows))
+        })
     }
 
     /// Returns the box of a node.
@@ -109,10 +113,14 @@ impl Tree {
         path
     }
 
+    /// Returns the parent of a node, or `None` for the root.
+    pub fn parent(&self, index: usize) -> Option<usize> {
+        self.path(index).into_iter().rev().nth(1)
+    }
+
     /// Returns the other child of a node's parent, or `None` for the root.
     pub fn sibling(&self, index: usize) -> Option<usize> {
-        let path = self.path(index);
-        let parent = &self.nodes[*path.iter().rev().nth(1)?];
+        let parent = &self.nodes[self.parent(index)?];
         let (l, r) = (parent.l as usize, parent.r as usize);
         Some(if l == index { r } else { l })
     }

@@ -243,8 +243,7 @@ fn slanted(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let mut target = bounds.center() + 0.4 * rng.point(1.0) * sides;
     target[axis] = bounds.center()[axis] + rng.uniform(-0.7, 0.7) * sides[axis];
     let origin = target - ahead * dir;
-    let is_inside = origin.abs().max_element() <= fields::FURTHEST;
-    is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
+    with_times_in_scene(rng, origin, dir, ahead + 2.0 * size)
 }
 
 /// Picks a random ray that crosses a box as thin as foil or misses it. One component of its
@@ -266,8 +265,7 @@ fn slanted_across_foil(rng: &mut Rng, bounds: &Bounds, axis: usize) -> Option<(R
     target[axis] = bounds.center()[axis] + side * from_center * sides[axis];
     let ahead = size * rng.uniform(24.0, 28.0);
     let origin = target - ahead * dir;
-    let is_inside = origin.abs().max_element() <= fields::FURTHEST;
-    is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
+    with_times_in_scene(rng, origin, dir, ahead + 2.0 * size)
 }
 
 /// Picks a random ray that starts exactly on a face of the box, on an edge, or at a corner.
@@ -314,9 +312,8 @@ fn from_a_plane_of_axes(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval
         origin[(axis + next) % 3] = 0.0;
     }
     let dir = (target - origin).try_normalize()?;
-    let is_inside = origin.abs().max_element() <= fields::FURTHEST;
     let furthest = origin.distance(target) + 2.0 * size;
-    is_inside.then(|| with_times(rng, origin, dir, furthest))
+    with_times_in_scene(rng, origin, dir, furthest)
 }
 
 /// Picks a random ray that clips a corner or an edge of the box.
@@ -335,8 +332,18 @@ fn past_a_corner(rng: &mut Rng, bounds: &Bounds) -> Option<(Ray, Interval)> {
     let dir = rng.perpendicular_to(corner.try_normalize()?);
     let ahead = size * rng.uniform(1.5, 25.0);
     let origin = bounds.center() + corner - ahead * dir;
+    with_times_in_scene(rng, origin, dir, ahead + 2.0 * size)
+}
+
+/// Does the same as [`with_times`] but returns `None` if the ray starts outside the scene.
+fn with_times_in_scene(
+    rng: &mut Rng,
+    origin: DVec3,
+    dir: DVec3,
+    furthest: f64,
+) -> Option<(Ray, Interval)> {
     let is_inside = origin.abs().max_element() <= fields::FURTHEST;
-    is_inside.then(|| with_times(rng, origin, dir, ahead + 2.0 * size))
+    is_inside.then(|| with_times(rng, origin, dir, furthest))
 }
 
 /// Returns a ray with a random range, and random times that end at distances up to `furthest`.
@@ -408,10 +415,7 @@ fn with_almost_the_same_rays(
         target[axis] = bounds.center()[axis] + from_center;
         let ahead = size * rng.uniform(10.0, 28.0);
         let origin = target - ahead * dir;
-        if origin.abs().max_element() > fields::FURTHEST {
-            return None;
-        }
-        let (ray, times) = with_times(rng, origin, dir, ahead + 2.0 * size);
+        let (ray, times) = with_times_in_scene(rng, origin, dir, ahead + 2.0 * size)?;
         let other = fields::almost_the_same_ray(rng, &ray);
         let calls = [ray, other].map(|ray| BoxCall::new(bounds, (ray, times)));
         let [first, second] = &calls;

@@ -72,26 +72,24 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
     /// Arrangements with more coinciding centres than this are a separate class.
     const MANY: usize = 128;
 
-    let centers = call.centers();
+    let boxes = call.boxes();
+    let centers: Vec<DVec3> = boxes.iter().map(Bounds::center).collect();
     if centers.len() < 2 {
         return None;
     }
     let around = Bounds::around(centers.iter().copied());
     let extent = around.max - around.min;
     let flat: Vec<usize> = (0..3).filter(|&axis| extent[axis] == 0.0).collect();
-    let boxes = call.bounds()?;
-    let is_flat = |axis: usize| boxes.max[axis] == boxes.min[axis];
-    let sizes = call
-        .shapes
-        .iter()
-        .map(|shape| scan::bounds(shape).half_side());
+    let around_all = call.bounds()?;
+    let is_flat = |axis: usize| around_all.max[axis] == around_all.min[axis];
+    let sizes = boxes.iter().map(Bounds::half_side);
     let (least, most) = sizes.fold((f64::INFINITY, 0.0), |(least, most), size: f64| {
         (size.min(least), size.max(most))
     });
     Some(match flat[..] {
         [_, _, _] if centers.len() > MANY => 16,
         _ if has_equal(&call.shapes) => 11,
-        _ if call.max_leaf_size == 1 && has_equal_boxes(&call.shapes) => 17,
+        _ if call.max_leaf_size == 1 && has_equal_boxes(&boxes) => 17,
         [_, _, _] => 10,
         [x, y] if is_flat(x) && is_flat(y) => 14,
         [x, y] => 7 + (3 - x - y),
@@ -110,12 +108,7 @@ fn arrangement(call: &BuildCall) -> Option<usize> {
 
 /// Returns whether two corners of a triangle coincide.
 fn is_without_area(shape: &Shape) -> bool {
-    let [a, b, c] = match shape {
-        Shape::Triangle { vertices, .. } => vertices.map(|vertex| vertex.position),
-        Shape::FlatTriangle { corners, .. } => *corners,
-        Shape::Sphere { .. } => return false,
-    };
-    a == b || b == c || c == a
+    scan::corners(shape).is_some_and(|[a, b, c]| a == b || b == c || c == a)
 }
 
 /// Returns whether any two of the shapes are equal apart from their numbers.
@@ -128,10 +121,9 @@ fn has_equal(shapes: &[Shape]) -> bool {
     !without_repetition(shapes.iter().map(text))
 }
 
-/// Returns whether the boxes of any two shapes are equal.
-fn has_equal_boxes(shapes: &[Shape]) -> bool {
-    let text = |shape: &Shape| format!("{:?}", scan::bounds(shape));
-    !without_repetition(shapes.iter().map(text))
+/// Returns whether any two of the boxes are equal.
+fn has_equal_boxes(boxes: &[Bounds]) -> bool {
+    !without_repetition(boxes.iter().map(|bounds| format!("{bounds:?}")))
 }
 
 /// Returns half of the longest side of the box around all points except the farthest.

@@ -5,7 +5,6 @@ mod tree_aspects;
 
 use std::collections::BTreeSet;
 
-use glam::DVec3;
 use protocol::{Question, Shape};
 
 use self::arrangement::ARRANGEMENT;
@@ -40,16 +39,15 @@ impl BuildCall {
         })
     }
 
-    fn centers(&self) -> Vec<DVec3> {
-        let boxes = self.shapes.iter().map(scan::bounds);
-        boxes.map(|bounds| bounds.center()).collect()
+    /// Returns the boxes around the primitives.
+    fn boxes(&self) -> Vec<Bounds> {
+        self.shapes.iter().map(scan::bounds).collect()
     }
 }
 
 impl Placed for BuildCall {
     fn bounds(&self) -> Option<Bounds> {
-        let boxes = self.shapes.iter().map(scan::bounds);
-        (!self.shapes.is_empty()).then(|| Bounds::enclosing(boxes))
+        (!self.shapes.is_empty()).then(|| Bounds::enclosing(self.boxes()))
     }
 }
 

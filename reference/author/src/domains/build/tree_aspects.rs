@@ -7,7 +7,7 @@ use super::arrangement::ARRANGEMENT_ALONG_ANY_AXIS;
 use crate::domains::fields::class_up_to;
 use crate::domains::{Aspect, Placed};
 use crate::oracle::bbox::Bounds;
-use crate::oracle::{scan, sweep};
+use crate::oracle::sweep;
 
 /// The aspects of the trees that calls ask for.
 pub(super) const TREE_ASPECTS: &[Aspect<BuildCall>] = &[
@@ -61,7 +61,7 @@ pub(super) const TREE_ASPECTS: &[Aspect<BuildCall>] = &[
         "levels",
         &["1", "2 to 8", "9 to 20", "21 or more"],
         |call| {
-            let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+            let boxes = call.boxes();
             let levels = sweep::levels(&boxes, call.max_leaf_size as usize);
             (!boxes.is_empty()).then(|| class_up_to(&[1, 8, 20], levels))
         },
@@ -77,7 +77,7 @@ pub(super) const TREE_ASPECTS: &[Aspect<BuildCall>] = &[
         |call| {
             /// The aspect applies only if there are at least this many primitives.
             const LEAST: usize = 17;
-            let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+            let boxes = call.boxes();
             if boxes.len() < LEAST || boxes.len() <= call.max_leaf_size as usize {
                 return None;
             }
@@ -112,7 +112,7 @@ pub(super) const TREE_ASPECTS: &[Aspect<BuildCall>] = &[
 /// Returns how far the centres extend along each axis, and the axis of the best split. Returns
 /// `None` if all primitives fit into one leaf.
 fn extents_and_best_axis(call: &BuildCall) -> Option<(DVec3, usize)> {
-    let boxes: Vec<Bounds> = call.shapes.iter().map(scan::bounds).collect();
+    let boxes = call.boxes();
     if boxes.len() <= call.max_leaf_size as usize {
         return None;
     }

@@ -117,13 +117,8 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
 /// Picks a random range that begins or ends just before or just after a root.
 fn range_from_a_root(rng: &mut Rng, line: &Line) -> Option<Interval> {
     let beside = line.sphere.radius * rng.log_uniform(0.0101, 0.02);
-    let end = (line.roots[rng.index(2)] + rng.sign() * beside) as f32;
-    let range = if rng.coin() {
-        Interval::new(end, f32::INFINITY)
-    } else {
-        Interval::new(0.0, end)
-    };
-    (end >= 0.0).then_some(range)
+    let end = line.roots[rng.index(2)] + rng.sign() * beside;
+    fields::range_with_end(rng, end)
 }
 
 /// The ways a sphere can differ from the previous one.

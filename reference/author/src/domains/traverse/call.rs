@@ -239,18 +239,7 @@ impl Subject {
     fn of(geometry: &Geometry) -> Option<Subject> {
         let (tree, is_built) = match geometry {
             Geometry::List { .. } => return None,
-            Geometry::Tree {
-                shapes,
-                nodes,
-                root,
-            } => (
-                Tree {
-                    shapes: shapes.clone(),
-                    nodes: nodes.clone(),
-                    root: *root as usize,
-                },
-                false,
-            ),
+            Geometry::Tree { .. } => (Tree::of(geometry)?, false),
             Geometry::BuiltTree { shapes, .. } => (
                 Tree {
                     shapes: shapes.clone(),

@@ -6,7 +6,7 @@ use protocol::{Ray, Shape};
 use crate::oracle::bbox::Bounds;
 use crate::oracle::{Ray64, scan};
 use crate::tree::Tree;
-use crate::tree::decoy::{self, SkipReason};
+use crate::tree::decoy::{self, SkipReason, entry_distance};
 use crate::tree::traversal::MARGIN;
 
 /// A decoy in front of the answer to a call. Its leaf is a child of a node that must be entered, so
@@ -91,13 +91,11 @@ fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
         return is_decided_here.then_some(class);
     }
     let hit = tree.expected_hit(ray64)?.distance;
-    let path = tree.path(leaf);
-    let parent = path.iter().rev().nth(1)?;
-    if entry(tree, *parent, ray64)? > hit {
+    if entry_distance(tree, tree.parent(leaf)?, ray64)? > hit {
         return None;
     }
-    Some(match entry(tree, sibling, ray64) {
-        Some(other) if other > hit => 3 + usize::from(other < entry(tree, leaf, ray64)?),
+    Some(match entry_distance(tree, sibling, ray64) {
+        Some(other) if other > hit => 3 + usize::from(other < entry_distance(tree, leaf, ray64)?),
         _ => 2,
     })
 }
@@ -106,10 +104,10 @@ fn reason(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<usize> {
 /// primitives come directly before the right leaf's.
 fn is_beside_a_large_leaf(tree: &Tree, leaf: usize) -> bool {
     const LARGE: usize = 4;
-    let path = tree.path(leaf);
-    let Some(parent) = path.iter().rev().nth(1).map(|&parent| &tree.nodes[parent]) else {
+    let Some(parent) = tree.parent(leaf) else {
         return false;
     };
+    let parent = &tree.nodes[parent];
     let children = [parent.l as usize, parent.r as usize];
     let are_leaves = children.iter().all(|&child| tree.nodes[child].is_leaf());
     let [l, r] = children.map(|child| tree.primitives(child));
@@ -129,12 +127,15 @@ fn is_from_siblings_box(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
 /// nothing or misses the box of the decoy's leaf.
 fn is_after_a_farther_hit(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<bool> {
     let hit_leaf = tree.leaf_of_hit(ray64)?;
-    let (enters, enters_hit) = (entry(tree, leaf, ray64)?, entry(tree, hit_leaf, ray64)?);
+    let (enters, enters_hit) = (
+        entry_distance(tree, leaf, ray64)?,
+        entry_distance(tree, hit_leaf, ray64)?,
+    );
     let distance =
         |primitive: usize| Some(scan::intersect(ray64, &tree.shapes[primitive])?.distance);
     let mut others = tree.leaves().into_iter();
     Some(others.any(|other| {
-        let is_earlier = entry(tree, other, ray64).is_some_and(|it| it < enters_hit);
+        let is_earlier = entry_distance(tree, other, ray64).is_some_and(|it| it < enters_hit);
         let nearest = tree.primitives(other).filter_map(distance);
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         other != leaf && is_earlier && nearest.is_finite() && nearest > enters
@@ -152,18 +153,13 @@ fn history(tree: &Tree, leaf: usize, ray64: &Ray64, previous: Option<&Ray>) -> u
     // How much earlier the ray enters the leaf than its sibling, as a distance.
     let earlier = |ray64: &Ray64| {
         let sibling = tree.sibling(leaf)?;
-        Some(entry(tree, sibling, ray64)? - entry(tree, leaf, ray64)?)
+        Some(entry_distance(tree, sibling, ray64)? - entry_distance(tree, leaf, ray64)?)
     };
     let margin = MARGIN * tree.bounds(tree.root).diagonal();
     let is_swapped = |before: f64, now: f64| before.min(-now) > 0.1 * margin;
     let orders = earlier(&previous).zip(earlier(ray64));
     let is_swapped = orders.is_some_and(|(before, now)| is_swapped(before, now));
     2 * usize::from(previous.dir == ray64.dir && is_swapped)
-}
-
-fn entry(tree: &Tree, node: usize, ray64: &Ray64) -> Option<f64> {
-    let span = tree.bounds(node).span(&ray64.ahead());
-    span.map(|(entry, _)| entry)
 }
 
 /// A primitive outside the box of its leaf.

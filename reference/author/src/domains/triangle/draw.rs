@@ -265,13 +265,8 @@ fn ray(rng: &mut Rng, shape: &Shape) -> Option<Ray> {
 fn range_from_the_plane(rng: &mut Rng, call: &ShapeCall) -> Option<Interval> {
     let plane = Plane::of(call)?;
     let beside = plane.size * rng.log_uniform(0.0102, END);
-    let end = (plane.distance + rng.sign() * beside) as f32;
-    let range = if rng.coin() {
-        Interval::new(end, f32::INFINITY)
-    } else {
-        Interval::new(0.0, end)
-    };
-    (end >= 0.0).then_some(range)
+    let end = plane.distance + rng.sign() * beside;
+    fields::range_with_end(rng, end)
 }
 
 /// Picks random weights of a point that is inside, near a corner, near an edge, or outside.

@@ -45,23 +45,22 @@ impl Classes {
             for (classes, change) in calls.iter_mut().zip(changes) {
                 classes.push(change);
             }
-            let Key::Table { judged, rows, .. } = &asked.key else {
-                let judged = judged_without_rows(&asked.key);
-                counted.add_all(&pairs, &calls, |_| {
-                    std::iter::once(PRESENT)
-                        .chain(judged.iter().copied())
-                        .collect()
-                });
-                continue;
+            let mut present = vec![PRESENT];
+            let rows = if let Key::Table { judged, rows, .. } = &asked.key {
+                present.extend(judged.iter().map(String::as_str));
+                Some(rows)
+            } else {
+                present.extend(judged_without_rows(&asked.key));
+                None
             };
-            counted.add_all(&pairs, &calls, |row| {
-                if rows.is_present(row) {
-                    let quantities = judged.iter().map(String::as_str);
-                    std::iter::once(PRESENT).chain(quantities).collect()
-                } else {
-                    vec![ABSENT]
-                }
-            });
+            for (row, classes) in calls.iter().enumerate() {
+                let is_present = rows.is_none_or(|rows| rows.is_present(row));
+                counted.add(
+                    &pairs,
+                    classes,
+                    if is_present { &present } else { &[ABSENT] },
+                );
+            }
         }
         counted
     }
@@ -89,24 +88,18 @@ impl Classes {
         columns.chain(quantities).map(|&it| it.to_owned()).collect()
     }
 
-    fn add_all<'a>(
-        &mut self,
-        pairs: &[[usize; 2]],
-        calls: &[Vec<Option<usize>>],
-        columns: impl Fn(usize) -> Vec<&'a str>,
-    ) {
-        for (row, of_call) in calls.iter().enumerate() {
-            let classes = of_call.iter().enumerate();
-            for (aspect, class) in classes.filter_map(|(aspect, class)| Some((aspect, (*class)?))) {
-                for column in columns(row) {
-                    let key = (aspect, class, column.to_owned());
-                    *self.counts.entry(key).or_default() += 1;
-                }
+    /// Counts a call whose answer belongs in these columns.
+    fn add(&mut self, pairs: &[[usize; 2]], classes: &[Option<usize>], columns: &[&str]) {
+        for (aspect, class) in classes.iter().enumerate() {
+            let Some(class) = *class else { continue };
+            for &column in columns {
+                let key = (aspect, class, column.to_owned());
+                *self.counts.entry(key).or_default() += 1;
             }
-            for &[a, b] in pairs {
-                if let (Some(class), Some(other)) = (of_call[a], of_call[b]) {
-                    *self.pairs.entry([(a, class), (b, other)]).or_default() += 1;
-                }
+        }
+        for &[a, b] in pairs {
+            if let (Some(class), Some(other)) = (classes[a], classes[b]) {
+                *self.pairs.entry([(a, class), (b, other)]).or_default() += 1;
             }
         }
     }

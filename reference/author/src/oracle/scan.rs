@@ -44,8 +44,11 @@ pub fn hit_distance(ray: &Ray64, shape: &Shape) -> Option<f64> {
 
 /// Returns the closest intersection with any of the shapes.
 pub fn closest_hit(ray: &Ray64, shapes: &[Shape]) -> Option<Intersection> {
-    let hits = shapes.iter().filter_map(|shape| intersect(ray, shape));
-    hits.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    let hits = shapes
+        .iter()
+        .filter_map(|shape| Some((shape, hit_distance(ray, shape)?)));
+    let (closest, _) = hits.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    intersect(ray, closest)
 }
 
 /// Returns the corners of a triangle, or `None` for any other shape.

@@ -54,7 +54,7 @@ pub fn hits_below_sibling(tree: &Tree, leaf: usize, ray64: &Ray64) -> bool {
     };
     let leaves = tree.leaves().into_iter().filter(below);
     let mut primitives = leaves.flat_map(|leaf| tree.primitives(leaf));
-    primitives.any(|primitive| scan::intersect(ray64, &tree.shapes[primitive]).is_some())
+    primitives.any(|primitive| scan::hit_distance(ray64, &tree.shapes[primitive]).is_some())
 }
 
 /// Returns why no correct traversal with this ray enters the leaf, or `None` if a correct traversal
@@ -174,7 +174,7 @@ fn decoys_are_out_of_reach(tree: &Tree, ray64: &Ray64) -> bool {
     let is_dangerous = |index: usize| {
         let shape = &tree.shapes[index];
         let end = expected + BEHIND * scan::bounds(shape).diagonal();
-        !ordinary[index] && scan::intersect(ray64, shape).is_some_and(|hit| hit.distance < end)
+        !ordinary[index] && scan::hit_distance(ray64, shape).is_some_and(|it| it < end)
     };
     tree.leaves().into_iter().all(|leaf| {
         let has_decoy = tree.primitives(leaf).any(is_dangerous);
@@ -212,7 +212,7 @@ fn answer_is_unambiguous(tree: &Tree, ray64: &Ray64) -> bool {
         let is_other = expected.is_none_or(|hit| hit.shape != shape.number());
         !is_near
             || (scan::is_unambiguous(ray64, shape)
-                && (!is_other || scan::intersect(&near, shape).is_none()))
+                && (!is_other || scan::hit_distance(&near, shape).is_none()))
     })
 }
 

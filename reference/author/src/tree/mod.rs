@@ -98,16 +98,19 @@ impl Tree {
 
     /// Returns the path from the root down to a node, inclusive.
     pub fn path(&self, to: usize) -> Vec<usize> {
+        let mut parents = vec![None; self.nodes.len()];
+        for index in self.subtree(self.root) {
+            let node = &self.nodes[index];
+            if !node.is_leaf() {
+                for child in [node.l, node.r] {
+                    parents[child as usize].get_or_insert(index);
+                }
+            }
+        }
         let mut path = vec![to];
-        let nodes = self.subtree(self.root);
         while path[path.len() - 1] != self.root {
-            let child = path[path.len() - 1];
-            let is_parent = |index: &&usize| {
-                let node = &self.nodes[**index];
-                !node.is_leaf() && (node.l as usize == child || node.r as usize == child)
-            };
-            let parent = nodes.iter().find(is_parent);
-            path.push(*parent.expect("the node is in the tree"));
+            let parent = parents[path[path.len() - 1]];
+            path.push(parent.expect("the node is in the tree"));
         }
         path.reverse();
         path
@@ -153,14 +156,14 @@ impl Tree {
     /// Returns the correct answer: the closest hit on an ordinary primitive.
     pub fn expected_hit(&self, ray64: &Ray64) -> Option<Intersection> {
         let indexed = (0..).zip(&self.shapes);
-        let mut hits: Vec<(usize, Intersection)> = indexed
-            .filter_map(|(index, shape)| Some((index, scan::intersect(ray64, shape)?)))
+        let mut hits: Vec<(usize, f64)> = indexed
+            .filter_map(|(index, shape)| Some((index, scan::hit_distance(ray64, shape)?)))
             .collect();
-        hits.sort_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
+        hits.sort_by(|(_, a), (_, b)| a.total_cmp(b));
         let leaves = self.leaves();
         let mut hits = hits.into_iter();
-        let (_, closest) = hits.find(|(index, _)| self.is_ordinary(*index, &leaves))?;
-        Some(closest)
+        let (closest, _) = hits.find(|(index, _)| self.is_ordinary(*index, &leaves))?;
+        scan::intersect(ray64, &self.shapes[closest])
     }
 
     /// Returns the leaf that contains the primitive of the expected hit, or `None` if the ray hits

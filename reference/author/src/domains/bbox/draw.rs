@@ -48,29 +48,25 @@ pub fn tables(
 
 /// The ways a box can differ from the previous one.
 const CHANGES: &[Change<BoxCall>] = &[
-    |call, random| {
-        let mut bounds = call.bounds;
-        let axis = random.max_position();
-        let side = (bounds.max - bounds.min)[axis];
-        let part = 0.006 + 0.003 * random.y;
-        bounds.max[axis] = (bounds.max[axis] - part * side) as f32 as f64;
-        BoxCall::new(bounds, call.input())
-    },
+    |call, random| with_moved_face(call, random, true, 0.006 + 0.003 * random.y),
     |call, _| BoxCall::new(shorter(&call.bounds, 0), call.input()),
     |call, _| BoxCall::new(shorter(&call.bounds, 1), call.input()),
     |call, _| BoxCall::new(shorter(&call.bounds, 2), call.input()),
-    |call, random| {
-        let mut bounds = call.bounds;
-        let axis = random.max_position();
-        let side = (bounds.max - bounds.min)[axis];
-        if random[axis] > 0.5 {
-            bounds.max[axis] = (bounds.max[axis] - 0.2 * side) as f32 as f64;
-        } else {
-            bounds.min[axis] = (bounds.min[axis] + 0.2 * side) as f32 as f64;
-        }
-        BoxCall::new(bounds, call.input())
-    },
+    |call, random| with_moved_face(call, random, random.max_element() > 0.5, 0.2),
 ];
+
+/// Returns the call with a box that is shorter along a random axis by this part of its side.
+fn with_moved_face(call: &BoxCall, random: DVec3, at_max: bool, part: f64) -> BoxCall {
+    let Bounds { mut min, mut max } = call.bounds;
+    let axis = random.max_position();
+    let moved = part * (max - min)[axis];
+    if at_max {
+        max[axis] -= moved;
+    } else {
+        min[axis] += moved;
+    }
+    BoxCall::new(Bounds::new(min.as_vec3(), max.as_vec3()), call.input())
+}
 
 /// Picks a random box of this size. Up to two sides may be thin, and one may be flat.
 fn drawn_box(rng: &mut Rng, size: usize) -> Bounds {

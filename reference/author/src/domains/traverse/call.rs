@@ -76,7 +76,7 @@ impl TraverseCall {
         let ray64 = Ray64::from(&self.ray);
         let tree = &self.subject.tree;
         let (leaf, closest) = (self.leaf_of_hit()?, self.hit?);
-        let distance = |index: usize| Some(scan::intersect(&ray64, &tree.shapes[index])?.distance);
+        let distance = |index: usize| scan::hit_distance(&ray64, &tree.shapes[index]);
         let earlier = tree
             .primitives(leaf)
             .take_while(|&index| tree.shapes[index].number() != closest.shape);
@@ -186,8 +186,8 @@ impl TraverseCall {
             ..
         } = &*self.subject;
         let shapes = unreferenced.iter().map(|&index| &tree.shapes[index]);
-        let in_front = shapes
-            .filter(|shape| scan::intersect(&ray64, shape).is_some_and(|hit| hit.distance < end));
+        let in_front =
+            shapes.filter(|shape| scan::hit_distance(&ray64, shape).is_some_and(|it| it < end));
         let is_large = |shape: &Shape| {
             let around = scan::bounds(shape);
             let sides = around.max - around.min;

@@ -41,17 +41,14 @@ impl Decoy {
         previous: Option<&Ray>,
     ) -> Option<Decoy> {
         let ray64 = Ray64::from(ray);
-        let hits = |it: &&Outside| scan::intersect(&ray64, &tree.shapes[it.primitive]).is_some();
-        let mut hit = outside.iter().filter(hits).peekable();
-        hit.peek()?;
+        let distance = |it: &Outside| scan::hit_distance(&ray64, &tree.shapes[it.primitive]);
+        let hits = outside.iter().filter_map(|it| Some((it, distance(it)?)));
+        let mut hits = hits.peekable();
+        hits.peek()?;
         let expected = tree.expected_hit(&ray64);
         let end = expected.map_or(ray64.max, |hit| hit.distance);
-        let distance = |it: &Outside| {
-            let hit = scan::intersect(&ray64, &tree.shapes[it.primitive]);
-            hit.map_or(f64::INFINITY, |hit| hit.distance)
-        };
-        hit.filter(|it| distance(it) < end)
-            .find_map(|it| Decoy::in_leaf(tree, *it, &ray64, previous))
+        let mut in_front = hits.filter(|(_, distance)| *distance < end);
+        in_front.find_map(|(it, _)| Decoy::in_leaf(tree, *it, &ray64, previous))
     }
 
     fn in_leaf(
@@ -131,8 +128,7 @@ fn is_after_a_farther_hit(tree: &Tree, leaf: usize, ray64: &Ray64) -> Option<boo
         entry_distance(tree, leaf, ray64)?,
         entry_distance(tree, hit_leaf, ray64)?,
     );
-    let distance =
-        |primitive: usize| Some(scan::intersect(ray64, &tree.shapes[primitive])?.distance);
+    let distance = |primitive: usize| scan::hit_distance(ray64, &tree.shapes[primitive]);
     let mut others = tree.leaves().into_iter();
     Some(others.any(|other| {
         let is_earlier = entry_distance(tree, other, ray64).is_some_and(|it| it < enters_hit);

@@ -1,10 +1,12 @@
 //! The domain of `BBox::hit`.
 
 mod aspects;
+mod boxes;
 mod call;
 mod clear;
 mod draw;
 mod history;
+mod queries;
 
 use self::aspects::{CALL_ASPECTS, SUBJECT_ASPECTS};
 use self::call::calls;

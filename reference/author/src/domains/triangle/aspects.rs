@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use glam::{DVec3, Vec2};
 
-use super::plane::{Plane, corner_normals, vertices};
+use super::plane::{Plane, corner_normals, longest_side_and_altitude, vertices};
 use crate::domains::Aspect;
 use crate::domains::fields::{DIAGONALS, class_below, diagonal_class};
 use crate::domains::shape::{DISTANCE, HISTORY, NUMBER, ORIGIN, ShapeCall};
@@ -66,9 +66,8 @@ pub(super) const SUBJECT_ASPECTS: &[Aspect<ShapeCall>] = &[
             "an edge below 1% of the longest side",
         ],
         |call| {
-            let [p0, p1, p2] = scan::corners(&call.shape)?;
-            let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
-            let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+            let corners @ [p0, p1, p2] = scan::corners(&call.shape)?;
+            let (longest, altitude) = longest_side_and_altitude(corners);
             let shortest = p0.distance(p1).min(p1.distance(p2)).min(p2.distance(p0));
             match altitude / longest {
                 _ if shortest < 0.01 * longest => Some(1),

@@ -9,7 +9,7 @@ use super::aspects::{
     ALMOST_RIGHT, EDGE, END, FAR_UV, NARROW_MISS, NEAR, RAY_ASPECTS, SMALL_WEIGHT, SUBJECT_ASPECTS,
     TEXEL, almost_right_corner,
 };
-use super::plane::Plane;
+use super::plane::{Plane, longest_side_and_altitude};
 use crate::domains::fields::{self, FURTHEST};
 use crate::domains::shape::{FOLLOW, ShapeCall};
 use crate::domains::{Call, Change, Generator};
@@ -93,9 +93,7 @@ fn corners(rng: &mut Rng) -> [DVec3; 3] {
                 start,
             );
         }
-        let [p0, p1, p2] = corners;
-        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
-        let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+        let (longest, altitude) = longest_side_and_altitude(corners);
         (altitude > 0.3 * longest && longest > 0.5).then_some(corners)
     });
     if rng.index(6) == 0 {
@@ -162,9 +160,7 @@ fn facing_along_a_diagonal(rng: &mut Rng, corners: [Vec3; 3]) -> Option<[Vec3; 3
         side[axis] = -normal.dot(side) / normal[axis];
         first + side
     });
-    let [p0, p1, p2] = moved.map(|corner| corner.as_dvec3());
-    let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
-    let altitude = (p1 - p0).cross(p2 - p0).length() / longest;
+    let (longest, altitude) = longest_side_and_altitude(moved.map(|corner| corner.as_dvec3()));
     let is_inside = moved
         .iter()
         .all(|it| f64::from(it.abs().max_element()) < FURTHEST);

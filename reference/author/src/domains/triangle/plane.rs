@@ -45,7 +45,7 @@ impl Plane {
         let ray64 = Ray64::from(&call.ray);
         let crossing = triangle::intersect_plane(&ray64, corners)?;
         let normal = (p1 - p0).cross(p2 - p0);
-        let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+        let (longest, altitude) = longest_side_and_altitude(corners);
         let points = corners.into_iter().chain([ray64.origin]);
         let weighted = corner_normals(&call.shape).map(|[n0, n1, n2]| {
             let [w0, w1, w2] = crossing.weights;
@@ -63,7 +63,7 @@ impl Plane {
             distance: crossing.distance,
             weights: crossing.weights,
             slope: normal.normalize().dot(ray64.dir),
-            altitude: normal.length() / longest,
+            altitude,
             longest,
             size,
             coordinates: points
@@ -152,6 +152,12 @@ impl Plane {
         let position = 2.0 * self.distance_error() + 4.0 * EPSILON * self.coordinates;
         position / self.altitude + 4.0 * EPSILON * (self.longest / self.altitude).powi(2)
     }
+}
+
+/// Returns the length of the longest side and the altitude above it.
+pub(super) fn longest_side_and_altitude([p0, p1, p2]: [DVec3; 3]) -> (f64, f64) {
+    let longest = p0.distance(p1).max(p1.distance(p2)).max(p2.distance(p0));
+    (longest, (p1 - p0).cross(p2 - p0).length() / longest)
 }
 
 /// Returns a triangle's vertices, or `None` if the shape has only corners or is a sphere.

@@ -33,14 +33,23 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             .columns(&["`None`"])
             .because("A change this small doesn't turn a clear hit into a clear miss."),
         not_asked(&["outcome"])
-            .classes(&["misses", "too late", "too early"])
+            .classes(&[
+                "misses",
+                "too late",
+                "too early",
+                "narrowly misses",
+                "narrowly misses a flat box",
+                "narrowly misses a flat strip",
+            ])
             .because("The rays in this class miss the box."),
-        not_asked(&["outcome"])
+        not_asked(&["outcome", "components below 1e-4"])
             .classes(&[
                 "enters and leaves",
                 "only leaves",
                 "only enters",
                 "inside throughout",
+                "lead into the box",
+                "below 3e-6, into the box",
             ])
             .columns(&["`None`"])
             .because("The rays in this class hit the box."),
@@ -51,13 +60,6 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
                 "In a scene whose coordinates only go up to 1,000, nothing is 30 box sizes away \
                  from a box of this size.",
             ),
-        not_asked(&["outcome"])
-            .classes(&[
-                "narrowly misses",
-                "narrowly misses a flat box",
-                "narrowly misses a flat strip",
-            ])
-            .because("The rays in this class miss the box."),
         not_asked(&["form"])
             .classes(&["a line", "a point"])
             .columns(&["some", "interval inside the box", "pairs"])
@@ -66,10 +68,6 @@ pub static BOX: FunctionDomain<BoxCall> = FunctionDomain {
             .columns(&["`None`"])
             .because("A ray that starts in the box misses it only because of its times."),
         not_asked(&["way past the centre", "part of the way through"])
-            .columns(&["`None`"])
-            .because("The rays in this class hit the box."),
-        not_asked(&["components below 1e-4"])
-            .classes(&["lead into the box", "below 3e-6, into the box"])
             .columns(&["`None`"])
             .because("The rays in this class hit the box."),
         not_asked(&["components below 1e-4"])

@@ -30,12 +30,8 @@ pub static TRAVERSE: FunctionDomain<TraverseCall> = FunctionDomain {
         ["decoy", "range"],
     ],
     not_asked: &[
-        not_asked(&["nodes"])
-            .classes(&["none", "one, an empty leaf"])
-            .columns(OF_A_HIT)
-            .because("In an empty tree, there is nothing to hit."),
-        not_asked(&["primitives"])
-            .classes(&["0"])
+        not_asked(&["nodes", "primitives"])
+            .classes(&["none", "one, an empty leaf", "0"])
             .columns(OF_A_HIT)
             .because("In an empty tree, there is nothing to hit."),
         not_asked(&[

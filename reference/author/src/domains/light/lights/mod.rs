@@ -65,24 +65,16 @@ pub static LIGHTS_SAMPLE: FunctionDomain<Row<LightsSample>> = FunctionDomain {
             .classes(COSINES.split_at(5).0)
             .columns(&["`None`"])
             .because("Seen from the front, the light doesn't face away."),
-        not_asked(&["kinds of lights"])
-            .classes(&["spheres"])
-            .columns(&["`None`"])
-            .because("A sphere that is seen from outside never faces away."),
-        not_asked(&["kind of the picked light"])
-            .classes(&["sphere"])
-            .columns(&["`None`"])
-            .because("A sphere that is seen from outside never faces away."),
-        not_asked(&["distance in radii"])
-            .classes(OUTSIDE)
-            .columns(&["`None`"])
-            .because("A sphere that is seen from outside never faces away."),
-        not_asked(&["distance in radii"])
-            .classes(INSIDE_A_SPHERE)
-            .columns(&["some", "direction", "unit_direction"])
-            .because("From inside, there is no direction to a sphere."),
-        not_asked(&["point"])
-            .classes(INSIDE_THE_PICKED)
+        not_asked(&[
+            "kinds of lights",
+            "kind of the picked light",
+            "distance in radii",
+        ])
+        .classes(OUTSIDE)
+        .columns(&["`None`"])
+        .because("A sphere that is seen from outside never faces away."),
+        not_asked(&["distance in radii", "point"])
+            .classes(INSIDE)
             .columns(&["some", "direction", "unit_direction"])
             .because("From inside, there is no direction to a sphere."),
         not_asked(&["share of the picked light"])
@@ -191,9 +183,6 @@ const POINTS: &[&str] = &[
     "inside a sphere that isn't picked",
 ];
 
-/// The points that the picked light doesn't emit to.
-const INSIDE_THE_PICKED: &[&str] = &[POINTS[1]];
-
 /// The classes of distances from the centre of a sphere.
 const RADII: &[&str] = &[
     "below 1",
@@ -203,11 +192,11 @@ const RADII: &[&str] = &[
     "above 300",
 ];
 
-/// The distances outside a sphere.
-const OUTSIDE: &[&str] = RADII.split_at(1).1;
+/// The classes of spheres that are seen from outside.
+const OUTSIDE: &[&str] = &["spheres", "sphere", RADII[1], RADII[2], RADII[3], RADII[4]];
 
-/// The distance inside a sphere.
-const INSIDE_A_SPHERE: &[&str] = &[RADII[0]];
+/// The classes of points inside the picked sphere.
+const INSIDE: &[&str] = &[RADII[0], POINTS[1]];
 
 /// Returns the class of a point's distance from the centre of a sphere, in radii.
 fn radii_class(sphere: &SphericalLight64, point: Vec3) -> usize {

@@ -6,7 +6,7 @@ use protocol::Interval;
 
 use super::Drawing;
 use super::bars::{self, BarRow, BarStyle};
-use super::hit_comparison::{HitAnswer, HitComparison, hit_text};
+use super::hit_comparison::{HitComparison, hit_text};
 use super::ink::LineStyle;
 use super::sheet::{Sheet, Symbol};
 
@@ -16,9 +16,9 @@ pub(super) fn draw(comparison: &HitComparison) -> Drawing {
     let range = comparison.ray.range;
     let before = |distance: f32| Interval::new(range.min, distance);
     let (got, got_text) = match comparison.got {
-        HitAnswer::Hit(hit) => (Some(before(hit.distance)), describe::number(hit.distance)),
-        HitAnswer::Miss => (None, "no hit".to_owned()),
-        HitAnswer::NoAnswer => (None, "no answer".to_owned()),
+        Some(Some(hit)) => (Some(before(hit.distance)), describe::number(hit.distance)),
+        Some(None) => (None, "no hit".to_owned()),
+        None => (None, "no answer".to_owned()),
     };
     let wanted = comparison.wanted.map(|hit| before(hit.distance));
     let rows = [
@@ -32,11 +32,11 @@ pub(super) fn draw(comparison: &HitComparison) -> Drawing {
 
     let mut sheet = Sheet::default();
     sheet.title("along the ray, up to the hit");
-    sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, distances);
+    bars::draw(&mut sheet, &rows, distances);
     if let Some(hit) = comparison.wanted {
         sheet.add_wanted(Symbol::Line(LineStyle::Right), &hit_text(&hit));
     }
-    if let HitAnswer::Hit(hit) = comparison.got {
+    if let Some(hit) = comparison.got_hit() {
         sheet.add_got(Symbol::Line(LineStyle::Wrong), &hit_text(&hit));
     }
     sheet.finish("The hits along the ray", comparison.caption())

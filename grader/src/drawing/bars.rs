@@ -6,6 +6,7 @@ use protocol::Interval;
 use super::canvas::{Anchor, Canvas, WIDTH};
 use super::ink::{Fill, Ink, LineStyle};
 use super::numbers::short;
+use super::sheet::Sheet;
 
 /// The height of a row.
 const ROW_HEIGHT: f64 = 20.0;
@@ -147,14 +148,9 @@ fn tick_step(least: f64) -> f64 {
         .unwrap_or(10.0 * power)
 }
 
-/// Draws the rows from `y` downward and, below them, an axis that covers `distances`. Returns the y
-/// coordinate below the axis.
-pub(super) fn draw(
-    canvas: &mut Canvas,
-    y: f64,
-    rows: &[BarRow],
-    distances: impl IntoIterator<Item = f64>,
-) -> f64 {
+/// Draws the rows and, below them, an axis that covers `distances`.
+pub(super) fn draw(sheet: &mut Sheet, rows: &[BarRow], distances: impl IntoIterator<Item = f64>) {
+    let (canvas, y) = (&mut sheet.canvas, sheet.y);
     let axis = Axis::over(LEFT, distances);
     let foot = y + ROW_HEIGHT * rows.len() as f64;
     // Draws lines through all rows at both ends of the expected interval.
@@ -171,7 +167,7 @@ pub(super) fn draw(
         draw_row(canvas, &axis, y + ROW_HEIGHT * i as f64, row);
     }
     axis.draw(canvas, foot + 2.0);
-    foot + 24.0
+    sheet.y = foot + 24.0;
 }
 
 fn draw_row(canvas: &mut Canvas, axis: &Axis, y: f64, row: &BarRow) {

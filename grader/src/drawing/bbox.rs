@@ -44,7 +44,7 @@ pub(super) fn draw(query: &BoxQuery) -> Option<Drawing> {
     sheet.title(&format!("along {along}: {}", plane.name()));
     draw_picture(&mut sheet, query, plane);
     let rows = rows(query);
-    sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, axis_distances(query));
+    bars::draw(&mut sheet, &rows, axis_distances(query));
     draw_legend(&mut sheet, query);
     let title = "The ray, the box, and the times when the ray is between the box's planes";
     Some(sheet.finish(title, caption(query)))

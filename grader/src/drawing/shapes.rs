@@ -9,7 +9,7 @@ use super::{Drawing, sphere, triangle};
 /// Draws the shape of the expected hit. If no hit is expected, draws the shape of the submitted
 /// hit. If there is no submitted hit either, draws the shape nearest to the ray.
 pub(super) fn draw(comparison: &HitComparison, shapes: &[Shape]) -> Option<Drawing> {
-    let hit = comparison.wanted.or(comparison.got.hit());
+    let hit = comparison.wanted.or(comparison.got_hit());
     let distance = |shape: &&Shape| match hit {
         Some(hit) => distance_to_surface(shape, hit.position.as_dvec3()),
         None => distance_to_line(shape, comparison),

@@ -5,7 +5,7 @@ use judging::describe;
 use protocol::Trace;
 
 use super::canvas::{Canvas, Mark};
-use super::hit_comparison::{Focus, HitAnswer, HitComparison, hit_text};
+use super::hit_comparison::{Focus, HitComparison, hit_text};
 use super::ink::LineStyle;
 use super::numbers::{point, short};
 use super::sheet::{Sheet, Symbol};
@@ -100,9 +100,12 @@ impl SideView<'_> {
 
         let comparison = self.comparison;
         let [wanted, got] = self.hits();
-        if let (Focus::Normal, Some(foot), Some(right), HitAnswer::Hit(hit)) =
-            (comparison.focus, wanted, comparison.wanted, comparison.got)
-        {
+        if let (Focus::Normal, Some(foot), Some(right), Some(hit)) = (
+            comparison.focus,
+            wanted,
+            comparison.wanted,
+            comparison.got_hit(),
+        ) {
             let mut arrow = |normal: DVec3, aside: f64, line: LineStyle| {
                 let length = normal.length().clamp(0.4, 1.6) / normal.length();
                 let seen = self.project_vector(normal);
@@ -120,9 +123,9 @@ impl SideView<'_> {
             return;
         }
         canvas.mark_pinned(window, wanted, Mark::Right);
-        let marked = match (comparison.focus, comparison.got) {
+        let marked = match (comparison.focus, comparison.got_hit()) {
             (Focus::Distance | Focus::Position, _) => got,
-            (Focus::Origin, HitAnswer::Hit(hit)) => Some(self.project(hit.origin.as_dvec3())),
+            (Focus::Origin, Some(hit)) => Some(self.project(hit.origin.as_dvec3())),
             (Focus::Normal | Focus::Uv | Focus::Origin | Focus::Shape, _) => None,
         };
         canvas.mark_pinned(window, marked, Mark::Wrong);
@@ -131,40 +134,35 @@ impl SideView<'_> {
     /// Adds the legend for the ray and both hits.
     pub(super) fn draw_legend(&self, sheet: &mut Sheet, window: &Window) {
         let comparison = self.comparison;
+        let focus = comparison.focus;
         let [_, got] = self.hits();
         let got = got.and_then(|got| window.pin_to_border(got));
-        let is_off = got.is_some_and(|(_, is_off)| is_off);
-        let symbol = |line: LineStyle, mark: Mark| match comparison.focus {
-            Focus::Normal => Symbol::Line(line),
-            Focus::Distance | Focus::Position | Focus::Uv | Focus::Origin | Focus::Shape => {
+        let is_drawn = matches!(focus, Focus::Distance | Focus::Position);
+        let is_off = is_drawn && got.is_some_and(|(_, is_off)| is_off);
+        let symbol = |line: LineStyle, mark: Mark| {
+            if focus == Focus::Normal {
+                Symbol::Line(line)
+            } else {
                 Symbol::Mark(mark)
             }
         };
-        match (comparison.wanted, comparison.focus) {
-            (None, _) => sheet.add_wanted(Symbol::None, "no hit"),
+        let right = symbol(LineStyle::Right, Mark::Right);
+        match comparison.wanted {
+            None => sheet.add_wanted(Symbol::None, "no hit"),
             // The expected origin is the ray's origin, which has its own legend entry.
-            (Some(hit), Focus::Origin) => {
-                sheet.add_wanted(Symbol::Mark(Mark::Right), &hit_text(&hit))
-            }
-            (Some(hit), focus) => {
-                sheet.add_wanted(symbol(LineStyle::Right, Mark::Right), &field(&hit, focus));
-            }
+            Some(hit) if focus == Focus::Origin => sheet.add_wanted(right, &hit_text(&hit)),
+            Some(hit) => sheet.add_wanted(right, &field(&hit, focus)),
         }
-        match (comparison.got, comparison.focus) {
-            (HitAnswer::NoAnswer, _) => {}
-            (HitAnswer::Miss, _) => sheet.add_got(Symbol::None, "no hit"),
+        match comparison.got {
+            None => {}
+            Some(None) => sheet.add_got(Symbol::None, "no hit"),
             // Nothing in the picture shows the shape's number.
-            (HitAnswer::Hit(hit), Focus::Shape) => {
-                sheet.add_got(Symbol::None, &field(&hit, Focus::Shape));
+            Some(Some(hit)) if focus == Focus::Shape => {
+                sheet.add_got(Symbol::None, &field(&hit, focus));
             }
-            (HitAnswer::Hit(hit), focus) => {
-                let is_drawn = matches!(focus, Focus::Distance | Focus::Position);
-                let off = if is_off && is_drawn {
-                    ", outside the picture"
-                } else {
-                    ""
-                };
-                let text = format!("{}{off}", field(&hit, focus));
+            Some(Some(hit)) => {
+                let off = if is_off { ", outside the picture" } else { "" };
+                let text = field(&hit, focus) + off;
                 sheet.add_got(symbol(LineStyle::Wrong, Mark::Wrong), &text);
             }
         }

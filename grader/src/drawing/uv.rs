@@ -22,17 +22,16 @@ pub(super) fn draw_square(
     let window = Window::around(around, [DVec2::ZERO, DVec2::ONE]);
     let [low, high] = [DVec2::ZERO, DVec2::ONE].map(|corner| window.page_position(corner));
     canvas.rectangle(low, high, LineStyle::Grid, Fill::None);
-    let name = |canvas: &mut Canvas, at: DVec2, anchor, text| {
+    for (at, anchor, text) in [
+        (low + dvec2(-3.0, 13.0), Anchor::End, "0"),
+        (dvec2(high.x, low.y + 13.0), Anchor::Middle, "u = 1"),
+        (dvec2(low.x - 3.0, high.y + 4.0), Anchor::End, "v=1"),
+    ] {
         canvas.text(at, anchor, Ink::Faint, text);
-    };
-    name(canvas, low + dvec2(-3.0, 13.0), Anchor::End, "0");
-    name(canvas, dvec2(high.x, low.y + 13.0), Anchor::Middle, "u = 1");
-    name(canvas, dvec2(low.x - 3.0, high.y + 4.0), Anchor::End, "v=1");
+    }
 
-    let outline: Vec<DVec2> = corners
-        .iter()
-        .map(|corner| window.page_position(*corner))
-        .collect();
+    let outline = corners.iter().map(|corner| window.page_position(*corner));
+    let outline: Vec<DVec2> = outline.collect();
     if outline.len() > 2 {
         canvas.polygon(&outline, LineStyle::Outline, Fill::Tint(Ink::Text, 0.06));
     }
@@ -40,12 +39,10 @@ pub(super) fn draw_square(
         canvas.text(*at + dvec2(4.0, -4.0), Anchor::Start, Ink::Text, label);
     }
     let wanted = comparison.wanted.map(|hit| hit.uv);
-    let got = comparison.got.hit().map(|hit| hit.uv);
+    let got = comparison.got_hit().map(|hit| hit.uv);
     for (uv, mark) in [(wanted, Mark::Right), (got, Mark::Wrong)] {
-        let at = uv
-            .map(|uv| window.page_position(uv.as_dvec2()))
-            .filter(|at| at.is_finite());
-        if let Some(at) = at {
+        let at = uv.map(|uv| window.page_position(uv.as_dvec2()));
+        if let Some(at) = at.filter(|at| at.is_finite()) {
             canvas.mark(at.clamp(panel.min + 7.0, panel.max - 7.0), mark);
         }
     }

@@ -49,7 +49,7 @@ pub(super) fn draw(sensor: &Sensor, wanted: DVec3, ray: &Ray) -> Drawing {
             row("got", BarStyle::Wrong, ray.range),
         ];
         let ends = [0.0, 1.0, ray.range.min.into(), ray.range.max.into()];
-        sheet.y = bars::draw(&mut sheet.canvas, sheet.y, &rows, ends);
+        bars::draw(&mut sheet, &rows, ends);
     }
     let wanted = "from (0, 0, 0), length 1, range [0, ∞]";
     sheet.add_wanted(Symbol::Line(LineStyle::Right), wanted);

@@ -3,31 +3,29 @@
 use judging::describe;
 use protocol::Trace;
 
-use super::{Focus, HitAnswer, HitComparison};
+use super::{Focus, HitComparison};
 use crate::drawing::numbers::{direction_difference, short};
 
 impl HitComparison {
     /// Returns a sentence that says what is wrong with the submitted hit.
     pub(in crate::drawing) fn caption(&self) -> String {
         match (self.wanted, self.got) {
-            (None, HitAnswer::NoAnswer) => {
-                "The ray hits nothing; your code gave no answer.".to_owned()
-            }
-            (Some(wanted), HitAnswer::NoAnswer) => format!(
+            (None, None) => "The ray hits nothing; your code gave no answer.".to_owned(),
+            (Some(wanted), None) => format!(
                 "The first hit is at {}; your code gave no answer.",
                 short(wanted.distance.into())
             ),
-            (None, HitAnswer::Miss) => "The ray hits nothing.".to_owned(),
-            (None, HitAnswer::Hit(got)) => format!(
+            (None, Some(None)) => "The ray hits nothing.".to_owned(),
+            (None, Some(Some(got))) => format!(
                 "The ray hits nothing; your code reports a hit at {}{}.",
                 short(got.distance.into()),
                 self.range_note(got.distance)
             ),
-            (Some(wanted), HitAnswer::Miss) => format!(
+            (Some(wanted), Some(None)) => format!(
                 "Your code reports no hit; the first hit is at {}.",
                 short(wanted.distance.into())
             ),
-            (Some(wanted), HitAnswer::Hit(got)) => self.difference(&wanted, &got),
+            (Some(wanted), Some(Some(got))) => self.difference(&wanted, &got),
         }
     }
 

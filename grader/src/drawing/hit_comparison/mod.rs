@@ -14,25 +14,6 @@ use super::value;
 /// because the key belongs to a picture. No shape has this number.
 const UNKNOWN_SHAPE: u32 = u32::MAX;
 
-/// The submission's answer for one ray.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::drawing) enum HitAnswer {
-    /// The code panicked or gave no answer, so nothing can be drawn.
-    NoAnswer,
-    Miss,
-    Hit(Trace),
-}
-
-impl HitAnswer {
-    /// Returns the hit, if any.
-    pub(in crate::drawing) fn hit(self) -> Option<Trace> {
-        match self {
-            HitAnswer::Hit(hit) => Some(hit),
-            HitAnswer::Miss | HitAnswer::NoAnswer => None,
-        }
-    }
-}
-
 /// The field of a hit that the drawing shows: the first judged field that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::drawing) enum Focus {
@@ -55,7 +36,9 @@ pub(in crate::drawing) enum Focus {
 pub(in crate::drawing) struct HitComparison {
     pub(in crate::drawing) ray: Ray,
     pub(in crate::drawing) wanted: Option<Trace>,
-    pub(in crate::drawing) got: HitAnswer,
+    /// The submission's answer: a hit, `None`, or no answer at all, for example because the code
+    /// panicked.
+    pub(in crate::drawing) got: Option<Option<Trace>>,
     pub(in crate::drawing) focus: Focus,
 }
 
@@ -97,8 +80,12 @@ impl HitComparison {
             | Key::Radiance { .. }
             | Key::SpreadEvenly { .. } => return None,
         };
-        let got = hit_answer(element, answer);
-        let focus = choose_focus(&judged, wanted.as_ref(), &got);
+        let got = if let Some(Answer::Hits(hits)) = answer {
+            value(hits, element).copied()
+        } else {
+            None
+        };
+        let focus = choose_focus(&judged, wanted.zip(got.flatten()));
         Some(HitComparison {
             ray,
             wanted,
@@ -107,9 +94,14 @@ impl HitComparison {
         })
     }
 
+    /// Returns the submitted hit, if any.
+    pub(in crate::drawing) fn got_hit(&self) -> Option<Trace> {
+        self.got.flatten()
+    }
+
     /// Returns the point where the submitted hit is drawn.
     pub(in crate::drawing) fn got_point(&self) -> Option<DVec3> {
-        let hit = self.got.hit()?;
+        let hit = self.got_hit()?;
         Some(if self.focus == Focus::Position {
             hit.position.as_dvec3()
         } else {
@@ -133,19 +125,8 @@ impl HitComparison {
     }
 }
 
-fn hit_answer(element: usize, answer: Option<&Answer>) -> HitAnswer {
-    let Some(Answer::Hits(hits)) = answer else {
-        return HitAnswer::NoAnswer;
-    };
-    match value(hits, element) {
-        Some(Some(trace)) => HitAnswer::Hit(*trace),
-        Some(None) => HitAnswer::Miss,
-        None => HitAnswer::NoAnswer,
-    }
-}
-
-fn choose_focus(judged: &[&str], wanted: Option<&Trace>, got: &HitAnswer) -> Focus {
-    let (Some(wanted), HitAnswer::Hit(got)) = (wanted, got) else {
+fn choose_focus(judged: &[&str], hits: Option<(Trace, Trace)>) -> Focus {
+    let Some((wanted, got)) = hits else {
         return Focus::Distance;
     };
     let is_wrong = |quantity: &&&str| match **quantity {

@@ -86,7 +86,7 @@ impl Layout {
             nodes.iter().find(holds).map(|leaf| leaf.index)
         };
         let wanted = leaf_with(comparison.wanted.map(|hit| hit.shape));
-        let got = leaf_with(comparison.got.hit().map(|hit| hit.shape));
+        let got = leaf_with(comparison.got_hit().map(|hit| hit.shape));
         let [path_to_wanted, path_to_got] =
             [wanted, got].map(|leaf| leaf.map_or(Vec::new(), path_to_root));
 

@@ -10,7 +10,7 @@ use protocol::{Shape, TreeNode};
 use super::Drawing;
 use super::bars::Axis;
 use super::canvas::{Anchor, Mark, WIDTH};
-use super::hit_comparison::{HitAnswer, HitComparison, hit_text};
+use super::hit_comparison::{HitComparison, hit_text};
 use super::ink::{Fill, Ink};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
@@ -48,7 +48,7 @@ pub(super) fn draw(comparison: &HitComparison, traversal: &RecordedTraversal) ->
     canvas.text(right, Anchor::End, Ink::Faint, text);
     sheet.advance(18.0);
     let axis = Axis::over(rows::LEFT, axis_distances(comparison, &layout));
-    sheet.y = rows::draw(&mut sheet.canvas, sheet.y, &axis, comparison, &layout);
+    rows::draw(&mut sheet, &axis, comparison, &layout);
     draw_legend(&mut sheet, comparison, &layout);
     let title = "The nodes that a correct traversal tests, and the part of the ray in each box";
     Some(sheet.finish(title, caption(comparison, &layout)))
@@ -64,7 +64,7 @@ fn axis_distances(comparison: &HitComparison, layout: &Layout) -> Vec<f64> {
     seen.extend(spans.flat_map(|span| [f64::from(span.min), f64::from(span.max)]));
     let reach = seen.iter().copied().filter(|t| t.is_finite());
     let reach = 3.0 * reach.fold(1e-3, f64::max);
-    let got = comparison.got.hit().map(|hit| f64::from(hit.distance));
+    let got = comparison.got_hit().map(|hit| f64::from(hit.distance));
     seen.extend(got.filter(|distance| distance.abs() < reach));
     if range.max.is_finite() {
         seen.push(f64::from(range.max).min(reach));
@@ -82,13 +82,13 @@ fn draw_legend(sheet: &mut Sheet, comparison: &HitComparison, layout: &Layout) {
         None => sheet.add_wanted(Symbol::None, "no hit"),
     }
     match comparison.got {
-        HitAnswer::Hit(hit) => {
+        Some(Some(hit)) => {
             let decoy = layout.decoy().map_or("", |_| ", a decoy");
             let text = hit_text(&hit) + &leaf(layout.got_leaf) + decoy;
             sheet.add_got(Symbol::Mark(Mark::Wrong), &text);
         }
-        HitAnswer::Miss => sheet.add_got(Symbol::None, "no hit"),
-        HitAnswer::NoAnswer => {}
+        Some(None) => sheet.add_got(Symbol::None, "no hit"),
+        None => {}
     }
     add_range_legend(sheet, comparison);
     let entered = Symbol::Area(Fill::Tint(Ink::Text, 0.4));
@@ -98,17 +98,17 @@ fn draw_legend(sheet: &mut Sheet, comparison: &HitComparison, layout: &Layout) {
 
 fn caption(comparison: &HitComparison, layout: &Layout) -> String {
     let why = layout.got_row().map(|row| (row, row.status));
-    match (comparison.got, layout.got_leaf, why) {
-        (HitAnswer::Hit(hit), None, _) => format!(
+    match (comparison.got_hit(), layout.got_leaf, why) {
+        (Some(hit), None, _) => format!(
             "Your hit at {} is on a primitive that isn't in any leaf below the root, so a traversal of the \
              tree never reaches it.",
             short(hit.distance.into())
         ),
-        (HitAnswer::Hit(_), Some(leaf), Some((row, NodeStatus::Missed))) => format!(
+        (Some(_), Some(leaf), Some((row, NodeStatus::Missed))) => format!(
             "Your hit is in leaf {leaf}, {} box the ray misses.",
             whose(row, leaf)
         ),
-        (HitAnswer::Hit(hit), Some(leaf), Some((_, NodeStatus::Beyond)))
+        (Some(hit), Some(leaf), Some((_, NodeStatus::Beyond)))
             if is_farther(comparison, hit.distance) =>
         {
             format!(
@@ -116,7 +116,7 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
                 comparison.caption()
             )
         }
-        (HitAnswer::Hit(_), Some(leaf), Some((row, NodeStatus::Beyond))) => {
+        (Some(_), Some(leaf), Some((row, NodeStatus::Beyond))) => {
             let begin = row
                 .span
                 .map_or(String::new(), |span| short(span.min.into()));
@@ -128,23 +128,17 @@ fn caption(comparison: &HitComparison, layout: &Layout) -> String {
                 short(closest.into())
             )
         }
-        (HitAnswer::Hit(_), Some(leaf), Some((_, NodeStatus::OutOfRange))) => {
+        (Some(_), Some(leaf), Some((_, NodeStatus::OutOfRange))) => {
             format!("Your hit is in leaf {leaf}, whose box is outside the ray's range.")
         }
-        (
-            HitAnswer::Hit(_),
-            Some(_),
-            Some((_, NodeStatus::Entered | NodeStatus::Elided)) | None,
-        )
-        | (HitAnswer::Miss | HitAnswer::NoAnswer, _, _) => {
-            match (comparison.wanted, layout.wanted_leaf_number()) {
-                (Some(_), Some(number)) => format!(
-                    "{} That hit is in the leaf numbered {number}.",
-                    comparison.caption()
-                ),
-                (Some(_) | None, _) => comparison.caption(),
-            }
-        }
+        (Some(_), Some(_), Some((_, NodeStatus::Entered | NodeStatus::Elided)) | None)
+        | (None, _, _) => match (comparison.wanted, layout.wanted_leaf_number()) {
+            (Some(_), Some(number)) => format!(
+                "{} That hit is in the leaf numbered {number}.",
+                comparison.caption()
+            ),
+            (Some(_) | None, _) => comparison.caption(),
+        },
     }
 }
 

@@ -8,6 +8,7 @@ use crate::drawing::bars::Axis;
 use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
 use crate::drawing::hit_comparison::HitComparison;
 use crate::drawing::ink::{Fill, Ink, LineStyle};
+use crate::drawing::sheet::Sheet;
 
 /// The height of a row.
 const ROW_HEIGHT: f64 = 17.0;
@@ -18,15 +19,9 @@ const INDENT: f64 = 5.0;
 /// The maximum number of levels to indent. Deeper nodes aren't indented further.
 const MAX_INDENTS: usize = 9;
 
-/// Draws the rows from `y` downward and the axis below them. Returns the y coordinate below the
-/// axis.
-pub(super) fn draw(
-    canvas: &mut Canvas,
-    y: f64,
-    axis: &Axis,
-    comparison: &HitComparison,
-    layout: &Layout,
-) -> f64 {
+/// Draws the rows and the axis below them.
+pub(super) fn draw(sheet: &mut Sheet, axis: &Axis, comparison: &HitComparison, layout: &Layout) {
+    let (canvas, y) = (&mut sheet.canvas, sheet.y);
     let foot = y + ROW_HEIGHT * layout.rows.len() as f64 + 3.0;
     let range = comparison.ray.range;
     if comparison.limited_range().is_some() {
@@ -34,7 +29,7 @@ pub(super) fn draw(
         let ends = [from, to.max(from)].map(|x| dvec2(x, foot + 2.0));
         canvas.line(ends[0], ends[1], LineStyle::Range);
     }
-    let hits = [comparison.wanted, comparison.got.hit()];
+    let hits = [comparison.wanted, comparison.got_hit()];
     let [wanted, got] = hits.map(|hit| hit.map(|hit| f64::from(hit.distance)));
     for (distance, line) in [(wanted, LineStyle::Right), (got, LineStyle::Wrong)] {
         if let Some(t) = distance.filter(|t| axis.contains(*t)) {
@@ -62,22 +57,22 @@ pub(super) fn draw(
         }
     }
     axis.draw(canvas, foot + 2.0);
-    foot + 26.0
+    sheet.y = foot + 26.0;
 }
 
 fn draw_name(canvas: &mut Canvas, y: f64, row: &NodeRow) {
     let foot = y + 13.0;
     let x = 26.0 + INDENT * row.depth.min(MAX_INDENTS) as f64;
     let kind = if row.is_leaf { "leaf" } else { "node" };
-    let (ink, text) = match row.status {
-        NodeStatus::Entered => (Ink::Text, format!("{kind} {}", row.node)),
-        NodeStatus::Missed | NodeStatus::OutOfRange | NodeStatus::Beyond => {
-            (Ink::Faint, format!("{kind} {}", row.node))
-        }
-        NodeStatus::Elided => (Ink::Faint, format!("… {} more", row.node)),
+    let is_entered = row.status == NodeStatus::Entered;
+    let ink = if is_entered { Ink::Text } else { Ink::Faint };
+    let text = if row.status == NodeStatus::Elided {
+        format!("… {} more", row.node)
+    } else {
+        format!("{kind} {}", row.node)
     };
     canvas.text(dvec2(x, foot), Anchor::Start, ink, &text);
-    if row.status == NodeStatus::Entered {
+    if is_entered {
         let at = dvec2(20.0, foot);
         canvas.text(at, Anchor::End, ink, &row.number.to_string());
     }
@@ -98,11 +93,10 @@ fn draw_span(canvas: &mut Canvas, axis: &Axis, y: f64, row: &NodeRow) {
     let from = axis.page_position(span.min.into());
     // A minimum width keeps a flat box visible.
     let to = axis.page_position(span.max.into()).max(from + 2.0);
-    let fill = match row.status {
-        NodeStatus::Entered => Fill::Tint(Ink::Text, if row.is_leaf { 0.4 } else { 0.15 }),
-        NodeStatus::Missed | NodeStatus::OutOfRange | NodeStatus::Beyond | NodeStatus::Elided => {
-            Fill::None
-        }
+    let fill = if row.status == NodeStatus::Entered {
+        Fill::Tint(Ink::Text, if row.is_leaf { 0.4 } else { 0.15 })
+    } else {
+        Fill::None
     };
     let (low, high) = (dvec2(from, y + 3.0), dvec2(to, y + ROW_HEIGHT - 3.0));
     canvas.rectangle(low, high, LineStyle::Grid, fill);

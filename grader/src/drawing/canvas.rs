@@ -101,8 +101,7 @@ impl Canvas {
 
     /// Draws a rectangle from two opposite corners.
     pub(super) fn rectangle(&mut self, from: DVec2, to: DVec2, line: LineStyle, fill: Fill) {
-        let corners = [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y)];
-        self.polygon(&corners, line, fill);
+        self.polygon(&rectangle(from, to), line, fill);
     }
 
     /// Fills a rectangle between two opposite corners, without an outline.
@@ -237,6 +236,11 @@ impl Canvas {
             element.render_to(&mut self.body);
         }
     }
+}
+
+/// Returns the corners of a rectangle, given two opposite corners.
+pub(super) fn rectangle(from: DVec2, to: DVec2) -> [DVec2; 4] {
+    [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y)]
 }
 
 fn is_drawable(at: DVec2) -> bool {

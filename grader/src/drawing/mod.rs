@@ -70,12 +70,10 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
                 nodes,
                 root,
             } => {
-                let steps = match &question.drawing_data {
-                    DrawingData::Traversals(traversals) => traversals.get(element),
-                    DrawingData::None
-                    | DrawingData::Slabs(_)
-                    | DrawingData::Sweep(_)
-                    | DrawingData::Paths(_) => None,
+                let steps = if let DrawingData::Traversals(all) = &question.drawing_data {
+                    all.get(element)
+                } else {
+                    None
                 };
                 let recorded = RecordedTraversal {
                     shapes,
@@ -107,32 +105,25 @@ pub fn draw(question: &ExamQuestion, element: usize, answer: Option<&Answer>) ->
             } else {
                 None
             },
-            slabs: match &question.drawing_data {
-                DrawingData::Slabs(slabs) => slabs.get(element).copied(),
-                DrawingData::None
-                | DrawingData::Traversals(_)
-                | DrawingData::Sweep(_)
-                | DrawingData::Paths(_) => None,
+            slabs: if let DrawingData::Slabs(slabs) = &question.drawing_data {
+                slabs.get(element).copied()
+            } else {
+                None
             },
         });
     }
     let criteria = TreeCriteria::of(question)?;
-    let sweep = match &question.drawing_data {
-        DrawingData::Sweep(sweep) => Some(sweep),
-        DrawingData::None
-        | DrawingData::Slabs(_)
-        | DrawingData::Traversals(_)
-        | DrawingData::Paths(_) => None,
+    let sweep = if let DrawingData::Sweep(sweep) = &question.drawing_data {
+        Some(sweep)
+    } else {
+        None
     };
     build::draw(&criteria, sweep, answer)
 }
 
 /// Returns the value of an element, or `None` if it is missing, e.g. because the code panicked.
 fn value<T>(outcomes: &[ElementOutcome<T>], element: usize) -> Option<&T> {
-    match outcomes.get(element)? {
-        ElementOutcome::Value(value) => Some(value),
-        ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
-    }
+    outcomes.get(element)?.value()
 }
 
 #[cfg(test)]

@@ -59,9 +59,8 @@ fn draw_along_ray(
     draw_outline(canvas, &window, seen);
     canvas.mark(window.page_position(DVec2::ZERO), Mark::Origin);
     if comparison.focus == Focus::Position {
-        let got = comparison
-            .got_point()
-            .map(|point| side.project_along_ray(point));
+        let got = comparison.got_point();
+        let got = got.map(|point| side.project_along_ray(point));
         canvas.mark_pinned(&window, got, Mark::Wrong);
     }
 }

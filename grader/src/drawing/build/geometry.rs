@@ -10,7 +10,7 @@ use protocol::Shape;
 
 use super::flaw::Flaw;
 use super::{from_left, primitives_below};
-use crate::drawing::canvas::{Canvas, Mark};
+use crate::drawing::canvas::{Canvas, Mark, rectangle};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::numbers::point;
 use crate::drawing::plane::{AXIS_NAMES, Plane};
@@ -90,7 +90,7 @@ fn draw_boxes(sheet: &mut Sheet, shapes: &[Shape], below: &[usize], node: &Reach
 }
 
 fn draw_frame(canvas: &mut Canvas, window: &Window, [min, max]: [DVec2; 2], line: LineStyle) {
-    let corners = [min, dvec2(max.x, min.y), max, dvec2(min.x, max.y)];
+    let corners = rectangle(min, max);
     for i in 0..4 {
         canvas.segment(window, [corners[i], corners[(i + 1) % 4]], line);
     }

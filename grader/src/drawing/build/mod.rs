@@ -5,12 +5,12 @@ mod flaw;
 mod geometry;
 mod levels;
 
-use protocol::{Answer, Tree};
+use protocol::Answer;
 
+use super::Drawing;
 use super::ink::{Fill, Ink};
 use super::numbers::short;
 use super::sheet::{Sheet, Symbol};
-use super::{Drawing, value};
 
 use flaw::Flaw;
 use judging::drawing_data::{LevelNode, UpperLevels};
@@ -27,7 +27,10 @@ pub(super) fn draw(
     sweep: Option<&UpperLevels>,
     answer: Option<&Answer>,
 ) -> Option<Drawing> {
-    let tree = tree_answer(answer)?;
+    let Answer::Tree(tree) = answer? else {
+        return None;
+    };
+    let tree = tree.value()?;
     let nodes = match reached_nodes(criteria.shapes, tree) {
         Ok(nodes) => nodes,
         Err(defect) => {
@@ -53,13 +56,6 @@ pub(super) fn draw(
     }
     draw_legend(&mut sheet, criteria, &flaw, symbol, total);
     Some(sheet.finish(TITLE, flaw.caption(criteria, total)))
-}
-
-fn tree_answer(answer: Option<&Answer>) -> Option<&Tree> {
-    let Answer::Tree(tree) = answer? else {
-        return None;
-    };
-    value(std::slice::from_ref(tree), 0)
 }
 
 fn draw_sweep(sheet: &mut Sheet, sweep: &UpperLevels) {

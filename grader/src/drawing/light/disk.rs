@@ -32,13 +32,11 @@ pub(super) fn draw(
     let rows = (0..count).map(|row| RowComparison::new(question, row, answer));
     let rows: Vec<RowComparison> = rows.collect::<Option<_>>()?;
     let shown = rows.get(row)?;
-    let wanted = rows
-        .iter()
-        .map(|row| Dot::new(row, row.wanted.as_deref(), true));
-    let got = rows
-        .iter()
-        .map(|row| Dot::new(row, row.got, row.is_right()));
-    let (wanted, got): (Vec<Dot>, Vec<Dot>) = (wanted.collect(), got.collect());
+    let dots = rows.iter().map(|row| {
+        let wanted = Dot::new(row, row.wanted.as_deref(), true);
+        (wanted, Dot::new(row, row.got, row.is_right()))
+    });
+    let (wanted, got): (Vec<Dot>, Vec<Dot>) = dots.unzip();
     let max = |dots: &[Dot]| {
         let values = dots.iter().filter_map(|dot| dot.value);
         values.filter(|value| value.is_finite()).fold(0.0, f64::max)
@@ -56,12 +54,8 @@ pub(super) fn draw(
         let window = Window::around(panel, [DVec2::splat(-edge), DVec2::splat(edge)]);
         let canvas = &mut sheet.canvas;
         let center = window.page_position(DVec2::ZERO);
-        canvas.circle(
-            center,
-            window.page_length(edge),
-            LineStyle::Grid,
-            Fill::None,
-        );
+        let radius = window.page_length(edge);
+        canvas.circle(center, radius, LineStyle::Grid, Fill::None);
         let above = Fill::Tint(Ink::Text, 0.06);
         canvas.circle(center, window.page_length(1.0), LineStyle::Outline, above);
         for (index, dot) in dots.iter().enumerate() {
@@ -69,10 +63,8 @@ pub(super) fn draw(
         }
     }
     let (what, symbols) = if wanted.iter().any(|dot| dot.value.is_some()) {
-        let what = format!(
-            "a dot's area shows its {}; a small ring means 0",
-            shown.judged
-        );
+        let judged = shown.judged;
+        let what = format!("a dot's area shows its {judged}; a small ring means 0");
         (what, [RIGHT, WRONG].map(Symbol::Area))
     } else {
         let what = format!("the directions of {count} samples");

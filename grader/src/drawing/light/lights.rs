@@ -81,7 +81,7 @@ pub(super) fn draw(lights: &[ListedLight], row: &RowComparison) -> Option<Drawin
     for (is_lit, text) in [(true, "a light"), (false, "a light that faces away")] {
         let mut alike = outlines.iter().filter(|outline| outline.is_lit == is_lit);
         if alike.any(|outline| !outline.points.iter().all(|point| is_off(*point))) {
-            sheet.add_legend(Symbol::Line(line(is_lit)), text);
+            sheet.add_legend(Symbol::Line(style(is_lit).0), text);
         }
     }
     let text = format!(
@@ -92,19 +92,11 @@ pub(super) fn draw(lights: &[ListedLight], row: &RowComparison) -> Option<Drawin
     Some(sheet.finish("The lights as seen from the point", row.caption()))
 }
 
-fn line(is_lit: bool) -> LineStyle {
+fn style(is_lit: bool) -> (LineStyle, Fill) {
     if is_lit {
-        LineStyle::Outline
+        (LineStyle::Outline, Fill::Tint(Ink::Text, 0.12))
     } else {
-        LineStyle::Behind
-    }
-}
-
-fn fill(is_lit: bool) -> Fill {
-    if is_lit {
-        Fill::Tint(Ink::Text, 0.12)
-    } else {
-        Fill::None
+        (LineStyle::Behind, Fill::None)
     }
 }
 
@@ -121,12 +113,11 @@ impl View {
         let forward = direction.try_normalize()?;
         let right = forward.cross(DVec3::Y).try_normalize();
         let right = right.unwrap_or(DVec3::X);
-        let up = right.cross(forward);
         Some(View {
             from,
             forward,
             right,
-            up,
+            up: right.cross(forward),
         })
     }
 
@@ -201,12 +192,12 @@ impl Outline {
     }
 
     fn draw(&self, canvas: &mut Canvas, window: &Window) {
-        let line = line(self.is_lit);
+        let (line, fill) = style(self.is_lit);
         let pinned = self.points.iter().map(|point| window.pin_to_border(*point));
         let inside = pinned.map(|pinned| pinned.filter(|(_, is_off)| !is_off));
         if let Some(page) = inside.map(|at| Some(at?.0)).collect::<Option<Vec<DVec2>>>() {
             // A single element keeps a drawing of many lights small.
-            canvas.polygon(&page, line, fill(self.is_lit));
+            canvas.polygon(&page, line, fill);
             return;
         }
         let next = self.points.iter().cycle().skip(1);

@@ -8,7 +8,7 @@ use protocol::light::environment::MapImage;
 
 use super::row::{RowComparison, last_direction};
 use crate::drawing::Drawing;
-use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH};
+use crate::drawing::canvas::{Anchor, Canvas, Mark, WIDTH, rectangle};
 use crate::drawing::ink::{Fill, Ink, LineStyle};
 use crate::drawing::numbers::short;
 use crate::drawing::sheet::{Sheet, Symbol};
@@ -118,9 +118,7 @@ impl Grid {
         for (cell, share) in self.shares.iter().enumerate() {
             // The cube root shows differences between shares that are far smaller than the largest.
             let shade = (share / largest.max(1e-30)).cbrt() * SHADES as f64;
-            let min = corner(cell);
-            let max = min + step;
-            let corners = [min, dvec2(max.x, min.y), max, dvec2(min.x, max.y)];
+            let corners = rectangle(corner(cell), corner(cell) + step);
             shades[(shade.ceil() as usize).min(SHADES)].push(corners);
         }
         for (shade, cells) in shades.iter().enumerate() {
@@ -131,11 +129,9 @@ impl Grid {
             let shares = self.shares.iter().enumerate();
             for (cell, share) in shares.filter(|(_, share)| **share > 0.0) {
                 let at = corner(cell) + dvec2(0.5 * step.x, step.y - 5.0);
-                let percent = 100.0 * share;
-                let text = if percent < 0.5 {
-                    "<1%".to_owned()
-                } else {
-                    format!("{percent:.0}%")
+                let text = match 100.0 * share {
+                    percent if percent < 0.5 => "<1%".to_owned(),
+                    percent => format!("{percent:.0}%"),
                 };
                 canvas.text(at, Anchor::Middle, Ink::Text, &text);
             }

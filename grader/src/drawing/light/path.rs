@@ -10,6 +10,7 @@ use crate::drawing::Drawing;
 use crate::drawing::canvas::{Anchor, Mark};
 use crate::drawing::ink::{Ink, LineStyle};
 use crate::drawing::numbers::point;
+use crate::drawing::plane::AXIS_NAMES;
 use crate::drawing::sheet::{Sheet, Symbol};
 
 /// The maximum number of hits that are described in the legend.
@@ -20,14 +21,12 @@ pub(super) fn draw(ray: &Ray, steps: &[PathStep], row: &RowComparison) -> Option
     let last = steps.last()?;
     let hits = steps.iter().map(|step| step.position.as_dvec3());
     let points: Vec<DVec3> = std::iter::once(ray.origin.as_dvec3()).chain(hits).collect();
-    let view = View::of(&points);
-    let seen: Vec<DVec2> = points.iter().map(|point| view.project(*point)).collect();
+    let axis = shortest_side(&points);
+    let seen: Vec<DVec2> = points.iter().map(|point| project(axis, *point)).collect();
 
     let mut sheet = Sheet::default();
-    sheet.title(&format!(
-        "a correct path, seen along the {}-axis",
-        view.axis()
-    ));
+    let axis = AXIS_NAMES[axis];
+    sheet.title(&format!("a correct path, seen along the {axis}-axis"));
     let window = sheet.window(seen.clone());
     for pair in seen.windows(2) {
         let arrow = [pair[0], pair[1]];
@@ -74,36 +73,21 @@ fn light(step: &PathStep) -> String {
     point(step.light.as_dvec3())
 }
 
-/// A view along an axis.
-struct View {
-    axis: usize,
+/// Returns the axis of the shortest side of the box around these points.
+fn shortest_side(points: &[DVec3]) -> usize {
+    let min = points.iter().copied().reduce(DVec3::min);
+    let max = points.iter().copied().reduce(DVec3::max);
+    let size = max.unwrap_or_default() - min.unwrap_or_default();
+    let mut sides = size.to_array().into_iter();
+    let axis = sides.position(|side| side == size.min_element());
+    axis.unwrap_or(2)
 }
 
-impl View {
-    /// Returns the view along the shortest side of the box around these points.
-    fn of(points: &[DVec3]) -> View {
-        let min = points.iter().copied().reduce(DVec3::min);
-        let max = points.iter().copied().reduce(DVec3::max);
-        let size = max.unwrap_or_default() - min.unwrap_or_default();
-        let axis = size
-            .to_array()
-            .iter()
-            .position(|side| *side == size.min_element());
-        View {
-            axis: axis.unwrap_or(2),
-        }
-    }
-
-    fn axis(&self) -> char {
-        ['x', 'y', 'z'][self.axis]
-    }
-
-    /// Projects a point. The y-axis points up, unless the view is along it: then −z does.
-    fn project(&self, DVec3 { x, y, z }: DVec3) -> DVec2 {
-        match self.axis {
-            0 => dvec2(-z, y),
-            1 => dvec2(x, -z),
-            _ => dvec2(x, y),
-        }
+/// Projects a point along an axis. The y-axis points up, unless the view is along it: then −z does.
+fn project(axis: usize, DVec3 { x, y, z }: DVec3) -> DVec2 {
+    match axis {
+        0 => dvec2(-z, y),
+        1 => dvec2(x, -z),
+        _ => dvec2(x, y),
     }
 }

@@ -58,14 +58,14 @@ impl<'a> RowComparison<'a> {
         let got = outcome.as_ref().and_then(ElementOutcome::value).copied();
         let single = answer.and_then(|answer| answer.single(row));
         let failure = single.and_then(|answer| judge(&question.single(row), &answer).failure);
-        let difference = failure.and_then(|failure| match failure.kind {
-            FailureKind::Wrong {
-                what, got, wanted, ..
-            } => Some(Difference { what, got, wanted }),
-            FailureKind::Uneven { .. } | FailureKind::Panicked(_) | FailureKind::Protocol(_) => {
-                None
-            }
-        });
+        let difference = if let Some(FailureKind::Wrong {
+            what, got, wanted, ..
+        }) = failure.map(|failure| failure.kind)
+        {
+            Some(Difference { what, got, wanted })
+        } else {
+            None
+        };
         Some(RowComparison {
             input,
             subject: table.subject(),

@@ -37,38 +37,30 @@ pub(super) fn draw(answer: &[ElementOutcome<LocalDirection>], shown: usize) -> D
             let fill = Fill::Tint(Ink::Wrong, share(*count).min(0.9));
             sheet.canvas.rectangle(min, max, LineStyle::Grid, fill);
             let at = 0.5 * (min + max) + dvec2(0.0, 4.5);
-            sheet
-                .canvas
-                .text(at, Anchor::Middle, Ink::Text, &count.to_string());
+            let text = count.to_string();
+            sheet.canvas.text(at, Anchor::Middle, Ink::Text, &text);
         }
     }
     let foot = sheet.y + CELL_HEIGHT * rows as f64;
-    for (y, label) in [(sheet.y + 12.0, "y = 1"), (foot - 3.0, "-1")] {
-        sheet
-            .canvas
-            .text(dvec2(left - 4.0, y), Anchor::End, Ink::Faint, label);
-    }
-    for (x, anchor, label) in [
-        (left, Anchor::Start, "φ = 0"),
-        (WIDTH - 1.0, Anchor::End, "φ = 2π"),
+    let (beside, below) = (left - 4.0, foot + 14.0);
+    for (x, y, anchor, label) in [
+        (beside, sheet.y + 12.0, Anchor::End, "y = 1"),
+        (beside, foot - 3.0, Anchor::End, "-1"),
+        (left, below, Anchor::Start, "φ = 0"),
+        (WIDTH - 1.0, below, Anchor::End, "φ = 2π"),
     ] {
-        sheet
-            .canvas
-            .text(dvec2(x, foot + 14.0), anchor, Ink::Faint, label);
+        let canvas = &mut sheet.canvas;
+        canvas.text(dvec2(x, y), anchor, Ink::Faint, label);
     }
     sheet.y = foot + 20.0;
-    let all = || counts.iter().flatten();
-    let (least, most) = (
-        all().min().copied().unwrap_or(0),
-        all().max().copied().unwrap_or(0),
-    );
+    let all = counts.iter().flatten().copied();
+    let least = all.clone().min().unwrap_or(0);
+    let most = all.max().unwrap_or(0);
     let wanted = format!("about {} in every cell", short(expected));
     sheet.add_wanted(Symbol::None, &wanted);
     let got = format!("{least} to {most}; a stronger shade means more");
-    sheet.add_got(
-        Symbol::Area(Fill::Tint(Ink::Wrong, 2.0 * EXPECTED_TINT)),
-        &got,
-    );
+    let fill = Fill::Tint(Ink::Wrong, 2.0 * EXPECTED_TINT);
+    sheet.add_got(Symbol::Area(fill), &got);
     let text = "every cell covers the same area of the sphere";
     sheet.add_legend(Symbol::None, text);
 

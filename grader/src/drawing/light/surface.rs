@@ -19,11 +19,12 @@ const GLASS: Fill = Fill::Tint(Ink::Text, 0.12);
 /// Draws the direction to where the path came from, the expected direction and the submitted one.
 pub(super) fn draw(row: &RowComparison) -> Option<Drawing> {
     let out = directions(row.input.as_ref()).next()?;
-    let frame = Frame::new(out);
-    let is_glass = row
-        .subject
-        .values()
-        .any(|value| matches!(value, Value::Ratio(_)));
+    // `out` leads to the left in both views.
+    let right = (-out.with_z(0.0)).try_normalize().unwrap_or(DVec3::X);
+    // Points up in the view from above.
+    let up = DVec3::Z.cross(right);
+    let mut subject = row.subject.values();
+    let is_glass = subject.any(|value| matches!(value, Value::Ratio(_)));
 
     let mut sheet = Sheet::default();
     let panels = sheet.panels(["from the side", "from above"], 166.0);
@@ -39,8 +40,9 @@ pub(super) fn draw(row: &RowComparison) -> Option<Drawing> {
         wanted: row.wanted_direction(),
         got: row.wrong_direction(),
     };
-    arrows.draw(canvas, &windows[0], |direction| frame.side_view(direction));
-    arrows.draw(canvas, &windows[1], |direction| frame.top_view(direction));
+    let along = |direction: DVec3| direction.dot(right);
+    arrows.draw(canvas, &windows[0], |to| dvec2(along(to), to.z));
+    arrows.draw(canvas, &windows[1], |to| dvec2(along(to), to.dot(up)));
 
     let text = format!("out, {}", angle_text(out));
     sheet.add_legend(Symbol::Line(LineStyle::Ray), &text);
@@ -48,31 +50,6 @@ pub(super) fn draw(row: &RowComparison) -> Option<Drawing> {
     row.add_results(&mut sheet, lines.map(Symbol::Line));
     let title = "Directions at the surface, from the side and from above";
     Some(sheet.finish(title, row.caption()))
-}
-
-/// The axes of both views, as unit vectors in the surface.
-struct Frame {
-    /// Points to the right. `out` leads to the left.
-    right: DVec3,
-    /// Points up in the view from above.
-    up: DVec3,
-}
-
-impl Frame {
-    fn new(out: DVec3) -> Frame {
-        let along = -out.with_z(0.0);
-        let right = along.try_normalize().unwrap_or(DVec3::X);
-        let up = DVec3::Z.cross(right);
-        Frame { right, up }
-    }
-
-    fn side_view(&self, direction: DVec3) -> DVec2 {
-        dvec2(direction.dot(self.right), direction.z)
-    }
-
-    fn top_view(&self, direction: DVec3) -> DVec2 {
-        dvec2(direction.dot(self.right), direction.dot(self.up))
-    }
 }
 
 /// Draws the surface and its normal from the side.

@@ -15,35 +15,22 @@ const ATTEMPTS: usize = 96;
 
 /// Generates the items of a task. If `practice` contains the same item, the item's questions differ
 /// from those in the practice exam.
-pub(super) fn draw_items(
-    seed: Seed,
-    task: &AuthoredTask,
-    items: &[Declaration],
-    practice: &[Item],
-) -> Vec<DeclaredItem> {
-    draw_complete(seed, task, items, |seed, index| {
-        let item = &items[index];
-        match practice.iter().find(|it| it.id == item.id) {
-            Some(practice) => draw_distinct(seed, item, practice),
-            None => item.draw(seed),
-        }
-    })
-}
-
-/// Generates the items of a task. While any class of the task's domains is missing, items that could
-/// test it are regenerated. A new item is kept only if it reduces the number of missing classes.
-fn draw_complete(
-    seed: Seed,
-    task: &AuthoredTask,
-    items: &[Declaration],
-    draw: impl Fn(Seed, usize) -> DeclaredItem,
-) -> Vec<DeclaredItem> {
+///
+/// While any class of the task's domains is missing, items that could test it are regenerated. A new
+/// item is kept only if it reduces the number of missing classes.
+pub(super) fn draw_items(seed: Seed, task: &AuthoredTask, practice: &[Item]) -> Vec<DeclaredItem> {
+    let draw = |seed: Seed, item: &Declaration| match practice.iter().find(|it| it.id == item.id) {
+        Some(practice) => draw_distinct(seed, item, practice),
+        None => item.draw(seed),
+    };
     let finish = |drawn: &[DeclaredItem]| {
         let mut finished = drawn.to_vec();
         (task.finish)(seed, &mut finished);
         finished
     };
-    let mut drawn: Vec<DeclaredItem> = (0..items.len()).map(|index| draw(seed, index)).collect();
+    let items = task.items;
+    let drawn = items.iter().map(|item| draw(seed, item));
+    let mut drawn: Vec<DeclaredItem> = drawn.collect();
     let mut finished = finish(&drawn);
     let count = |item: &DeclaredItem| -> Vec<Classes> {
         let domains = task.domains.iter();
@@ -61,7 +48,7 @@ fn draw_complete(
             continue;
         }
         seeds[index] = seeds[index].next();
-        let before = mem::replace(&mut drawn[index], draw(seeds[index], index));
+        let before = mem::replace(&mut drawn[index], draw(seeds[index], &items[index]));
         let others = finish(&drawn);
         // Only a few items have changed.
         let recounted = others.iter().zip(&finished).zip(&counts);

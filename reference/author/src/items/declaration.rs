@@ -13,8 +13,6 @@ use crate::seed::{Rng, Seed};
 pub struct AuthoredTask {
     /// The items, in the exam's order.
     pub items: &'static [Declaration],
-    /// The points for items whose declarations don't state them.
-    pub points: &'static [(&'static str, u32)],
     /// Changes the items' questions after they have been generated.
     pub finish: fn(Seed, &mut [DeclaredItem]),
     /// The sentences of the method's documentation that no item tests, each with the reason.
@@ -28,7 +26,6 @@ impl AuthoredTask {
     /// tested.
     pub const NEW: AuthoredTask = AuthoredTask {
         items: &[],
-        points: &[],
         finish: |_, _| {},
         untested: &[],
         domains: &[],
@@ -36,13 +33,7 @@ impl AuthoredTask {
 
     /// Generates the items. Their questions differ from those of the items in `practice`.
     pub fn draw(&self, seed: Seed, practice: &[Item]) -> Vec<DeclaredItem> {
-        let declarations = self.items.iter().map(|item| {
-            let mut points = self.points.iter();
-            let found = points.find(|(id, _)| *id == item.id);
-            let points = found.map_or(item.points, |(_, points)| *points);
-            Declaration { points, ..*item }
-        });
-        complete::draw_items(seed, self, &declarations.collect::<Vec<_>>(), practice)
+        complete::draw_items(seed, self, practice)
     }
 }
 

@@ -41,25 +41,6 @@ pub static TASKS: &[&AuthoredTask] = &[
     &traverse::TASK,
 ];
 
-/// The items of `rays` that are worth more than one point, each with its points. The points for a
-/// task's items add up to the points for the task.
-const POINTS: &[(&str, u32)] = &[
-    ("camera.field_of_view", 2),
-    ("camera.offset", 2),
-    ("camera.picture", 2),
-    ("triangle.inside", 2),
-    ("triangle.outside", 2),
-    ("triangle.picture", 3),
-    ("sphere.picture", 2),
-    ("build.contains", 2),
-    ("build.cost_town", 2),
-    ("build.leaf_size", 2),
-    ("build.partition", 2),
-    ("traverse.prunes", 2),
-    ("traverse.radiance", 2),
-    ("traverse.skips_missed", 2),
-];
-
 /// Returns the items of an exam. Each item comes after the items that it needs. None of the
 /// questions is also in the items of the practice exam.
 pub fn items(tasks: &[&AuthoredTask], seed: Seed, practice: &[Item]) -> Vec<Item> {

@@ -8,7 +8,7 @@ use judging::exam::{ExamQuestion, Key};
 use protocol::{Corners, Interval, Question, Ray};
 
 use crate::domains::bbox::{BOX, BoxCall, tables};
-use crate::items::{AuthoredTask, POINTS};
+use crate::items::AuthoredTask;
 use crate::oracle::Ray64;
 use crate::oracle::bbox::Bounds;
 use crate::seed::Rng;
@@ -34,7 +34,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
         "Neither the box nor `times` is ever empty (`min > max`).",
         "This is a promise about the arguments, so there is nothing to test.",
     )],
-    points: POINTS,
     ..AuthoredTask::NEW
 };
 

@@ -215,6 +215,7 @@ pub(super) const COST_SHEETS: Declaration = Declaration {
 
 pub(super) const COST_TOWN: Declaration = Declaration {
     id: "build.cost_town",
+    points: 2,
     title: "the split of dense clusters in empty space depends on areas and counts",
     look: "C = C_trav + S_A/S_N · N_A + S_B/S_N · N_B: keep the cheapest partition so far, \
            together with its cost.",

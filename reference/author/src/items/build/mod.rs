@@ -13,7 +13,7 @@ use protocol::{Question, Shape};
 
 use super::meshes;
 use crate::domains::build::BUILD;
-use crate::items::{AuthoredTask, POINTS};
+use crate::items::AuthoredTask;
 use crate::seed::Seed;
 
 pub use cost::relative_cost;
@@ -56,7 +56,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
             item.questions().push(control.clone());
         }
     },
-    points: POINTS,
 };
 
 /// Returns whether a question is about more than 500 primitives.

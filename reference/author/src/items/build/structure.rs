@@ -155,6 +155,7 @@ fn deep(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const PARTITION: Declaration = Declaration {
     id: "build.partition",
+    points: 2,
     title: "every primitive is in exactly one leaf",
     look: "Return a tree whose root is nodes[root]. From there, l and r, which are indices into \
            nodes, lead to the leaves. A leaf holds the primitives start..start + size of the list \
@@ -174,6 +175,7 @@ pub(super) const PARTITION: Declaration = Declaration {
 
 pub(super) const CONTAINS: Declaration = Declaration {
     id: "build.contains",
+    points: 2,
     title: "every box contains everything below it",
     look: "A node's box must completely enclose the boxes of all primitives below it. A leaf's \
            primitives are start..start + size in the list that you return: compare the leaf's box \
@@ -209,6 +211,7 @@ pub(super) const TIGHT: Declaration = Declaration {
 
 pub(super) const LEAF_SIZE: Declaration = Declaration {
     id: "build.leaf_size",
+    points: 2,
     title: "no leaf holds more than max_leaf_size primitives",
     look: "Split a node until it has at most max_leaf_size primitives, even if a leaf would be \
            cheaper according to the heuristic.",

@@ -15,7 +15,7 @@ use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use protocol::{PinholeCamera, Question, Rows, Sample, SampleRay, Table};
 
 use crate::domains::camera::CAMERA;
-use crate::items::{AuthoredTask, POINTS};
+use crate::items::AuthoredTask;
 use crate::oracle;
 use crate::seed::Rng;
 
@@ -46,7 +46,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
             "This helps to do what the other sentences ask.",
         ),
     ],
-    points: POINTS,
     ..AuthoredTask::NEW
 };
 

@@ -15,6 +15,7 @@ use crate::seed::Rng;
 
 pub(super) const OFFSET: Declaration = Declaration {
     id: "camera.offset",
+    points: 2,
     title: "the offset moves the ray within its pixel",
     look: "Pixel (x, y) with its offset is the point (x + offset.x, y + offset.y) on the film, \
            measured in pixels. Use each component unchanged, on its own axis.",
@@ -193,6 +194,7 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "camera.picture",
+    points: 2,
     title: "in a picture, every pixel's rays point in the right direction",
     look: "Five positions in each pixel are compared. Which of them are wrong: those along one \
            edge, those in one half, or all but the centre?",

@@ -46,6 +46,7 @@ fn corners(rng: &mut Rng) -> Vec<ExamQuestion> {
 
 pub(super) const FIELD_OF_VIEW: Declaration = Declaration {
     id: "camera.field_of_view",
+    points: 2,
     title: "the sensor's height is 2·tan(fov/2)",
     look: "vertical_fov is the full angle, in degrees. Draw the triangle from the camera to the \
            centre and the upper edge of the sensor: what is its angle at the camera?",

@@ -159,7 +159,6 @@ const SINE: Declaration = Declaration {
 
 const LUMINANCE: Declaration = Declaration {
     id: "environment.luminance",
-    points: 1,
     title: "samples and densities weight a coloured pixel by its luminance",
     look: "Compare the weights of a pure green and a pure blue pixel in your code: the green one \
            has a much higher luminance.",
@@ -306,7 +305,6 @@ const PDF: Declaration = Declaration {
 
 const SIZES: Declaration = Declaration {
     id: "environment.sizes",
-    points: 1,
     title: "maps of any size are sampled, from two pixels to two hundred thousand",
     look: "Check whether you swap the width and the height anywhere. If only large maps or dim \
            pixels fail, check that all sums are in `f64` and that nothing is limited.",

@@ -116,7 +116,6 @@ const BELOW: Declaration = Declaration {
 
 const GRAZING: Declaration = Declaration {
     id: "lambertian.grazing",
-    points: 1,
     title: "light that grazes the surface is scattered in proportion to its small cosine",
     look: "Do you treat small cosines as zero, or raise them to a minimum? A cosine of 0.001 is \
            valid.",
@@ -176,7 +175,6 @@ const ATTENUATION: Declaration = Declaration {
 
 const SAMPLED_PDF: Declaration = Declaration {
     id: "lambertian.sampled_pdf",
-    points: 1,
     title: "a sample comes with the density of its own direction",
     look: "Which direction do you compute the density for: `out`, or the one you return?",
     section: "light/materials.md#the-density-of-the-sampled-direction",

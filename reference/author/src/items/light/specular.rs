@@ -56,7 +56,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
 
 const REFLECT: Declaration = Declaration {
     id: "specular.reflect",
-    points: 1,
     title: "a mirror rotates a direction by half a turn about the normal",
     look: "Which components change sign, and which one stays the same?",
     look_fits: &[Symptom::of("direction"), Symptom::reversed("direction")],
@@ -71,7 +70,6 @@ const REFLECT: Declaration = Declaration {
 
 const REFLECT_INSIDE: Declaration = Declaration {
     id: "specular.reflect_inside",
-    points: 1,
     title: "a reflected direction stays on its side of the surface",
     look: "If the path is inside the glass, what is the sign of z in `out`, and what is it in your \
            result?",
@@ -159,7 +157,6 @@ const TOTAL: Declaration = Declaration {
 
 const HEAD_ON: Declaration = Declaration {
     id: "specular.refract_head_on",
-    points: 1,
     title: "along the normal, light goes straight on",
     look: "Along the normal, the sine of the angle is zero. Do you divide by it, or by a length \
            that is zero here?",
@@ -187,7 +184,6 @@ const HEAD_ON: Declaration = Declaration {
 
 const LOW_INDEX: Declaration = Declaration {
     id: "specular.refract_low_index",
-    points: 1,
     title: "an index of 1 bends nothing, and below 1, total reflection occurs outside",
     look: "Does any step in your code assume that `ior` is greater than 1? It can also be 1 or \
            less. Even at 1, the result is on the other side of the surface.",
@@ -260,7 +256,6 @@ const FRESNEL_LEAVING: Declaration = Declaration {
 
 const FRESNEL_TOTAL: Declaration = Declaration {
     id: "specular.fresnel_total",
-    points: 1,
     title: "everything is reflected beyond the critical angle, and only a part below it",
     look: "Is the squared sine of the refracted angle above 1 for the question shown? Then nothing is \
            refracted: what do you return? Otherwise, compare both ratios with those in your code.",
@@ -279,7 +274,6 @@ const FRESNEL_TOTAL: Declaration = Declaration {
 
 const FRESNEL_LOW_INDEX: Declaration = Declaration {
     id: "specular.fresnel_low_index",
-    points: 1,
     title: "an index of 1 reflects nothing, and an index below 1 swaps outside and inside",
     look: "Does any step in your code assume that `ior` is greater than 1? It can also be 1 or \
            less.",
@@ -369,7 +363,6 @@ const GLASS_RADIANCE: Declaration = Declaration {
 
 const GLASS_TOTAL: Declaration = Declaration {
     id: "specular.glass_total",
-    points: 1,
     title: "glass reflects everything beyond the critical angle, with an attenuation of 1",
     look: "What do you return if nothing is refracted? Does it depend on the random number?",
     section: "light/glass.md#total-reflection-is-not-scaled",

@@ -6,7 +6,7 @@ mod surface;
 use judging::exam::ExamQuestion;
 
 use crate::domains::sphere::{Line, SPHERE, tables};
-use crate::items::{AuthoredTask, POINTS, shape_question};
+use crate::items::{AuthoredTask, shape_question};
 use crate::seed::Rng;
 
 /// The task `sphere`.
@@ -28,7 +28,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
         surface::PICTURE,
     ],
     domains: &[&SPHERE],
-    points: POINTS,
     ..AuthoredTask::NEW
 };
 

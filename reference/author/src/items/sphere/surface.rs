@@ -76,6 +76,7 @@ pub(super) const ORIGIN_AND_MATERIAL: Declaration = Declaration {
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "sphere.picture",
+    points: 2,
     title: "a picture of spheres has the correct hits, depth, normals and uv",
     look: "Some spheres are seen from outside, and one from inside. If one sphere is wrong all \
            over, how does it differ from the others: does it have a different radius or centre, or is the \

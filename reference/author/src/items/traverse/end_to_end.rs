@@ -170,6 +170,7 @@ fn picture(rng: &mut Rng) -> Vec<ExamQuestion> {
 /// The item that compares a picture rendered in clay with the reference's picture.
 pub(super) const RADIANCE: Declaration = Declaration {
     id: "traverse.radiance",
+    points: 2,
     title: "all tasks together render the Cornell box in clay",
     look: "All random numbers come from the framework, so your picture must match the correct one \
            except for a few pixels. If only this item fails, look at the output of cargo render \

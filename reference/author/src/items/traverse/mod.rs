@@ -25,7 +25,7 @@ use self::placed::{Mover, is_clear_of_faces};
 use super::meshes;
 use crate::domains::fields::{almost_the_same_ray, mirrored};
 use crate::domains::traverse::{self, TRAVERSE};
-use crate::items::{AuthoredTask, Declaration, POINTS, groups, paper};
+use crate::items::{AuthoredTask, Declaration, groups, paper};
 use crate::oracle::Ray64;
 use crate::seed::Rng;
 use crate::tree::{Tree, construction, decoy};
@@ -63,7 +63,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
             .questions()
             .insert(0, traversal_question(&tree, rays));
     },
-    points: POINTS,
     ..AuthoredTask::NEW
 };
 

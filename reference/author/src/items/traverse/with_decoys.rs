@@ -129,6 +129,7 @@ fn missed_with_sibling(child: Child) -> impl Fn(&Tree, usize, &Ray64) -> bool {
 
 pub(super) const SKIPS_MISSED: Declaration = Declaration {
     id: "traverse.skips_missed",
+    points: 2,
     title: "a node whose box the ray misses is not entered",
     look: "This is what the tree is for. In this exam, some leaves hold primitives outside their \
            boxes: a traversal that enters a missed box finds them.",
@@ -162,6 +163,7 @@ pub(super) const SKIPS_MISSED: Declaration = Declaration {
 
 pub(super) const PRUNES: Declaration = Declaration {
     id: "traverse.prunes",
+    points: 2,
     title: "a node that begins beyond the closest hit is not entered",
     look: "First visit the child whose box the ray enters first. After that, if the ray enters the \
            other box beyond the closest hit so far, nothing in it can be nearer: skip it.",

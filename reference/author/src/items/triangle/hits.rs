@@ -23,6 +23,7 @@ fn is_through(plane: &Plane) -> bool {
 
 pub(super) const INSIDE: Declaration = Declaration {
     id: "triangle.inside",
+    points: 2,
     title: "a ray through the interior of the triangle hits it at distance t",
     look: "Work out u, v and t by hand for the ray shown, and compare them with the values in your code. It \
         is a hit if u, v and 1 − u − v are all at least 0 and t is in ray.range, and \
@@ -44,6 +45,7 @@ pub(super) const INSIDE: Declaration = Declaration {
 
 pub(super) const OUTSIDE: Declaration = Declaration {
     id: "triangle.outside",
+    points: 2,
     title: "a ray hits the triangle within its three edges, and misses it beyond them",
     look: "u, v and w = 1 − u − v each belong to one corner. Beyond any of the three edges, the \
            weight of the opposite corner is negative.",

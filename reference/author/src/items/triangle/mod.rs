@@ -7,7 +7,7 @@ mod surface;
 use judging::exam::ExamQuestion;
 
 use crate::domains::triangle::{Plane, TRIANGLE, tables};
-use crate::items::{AuthoredTask, POINTS, shape_question};
+use crate::items::{AuthoredTask, shape_question};
 use crate::seed::Rng;
 
 /// The task `triangle`.
@@ -35,7 +35,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
         "It need not have length one.",
         "The answer is normalised before it is compared.",
     )],
-    points: POINTS,
     ..AuthoredTask::NEW
 };
 

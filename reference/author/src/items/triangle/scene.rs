@@ -8,6 +8,7 @@ use crate::seed::Rng;
 
 pub(super) const PICTURE: Declaration = Declaration {
     id: "triangle.picture",
+    points: 3,
     title: "a picture of triangles has the correct hits, depth, normals and uv",
     look: "The picture shows a smooth hill, a square made of two triangles, triangles seen from \
         behind and some tiny ones. Where is it wrong: along edges, on one side, or in the tiny \

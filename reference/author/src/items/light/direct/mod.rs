@@ -90,7 +90,6 @@ const SMALL_LIGHT: Declaration = Declaration {
 
 const SKY: Declaration = Declaration {
     id: "direct.sky",
-    points: 1,
     title: "without lights, only the material's direction finds the uniform sky",
     look: "Without lights, only the material's direction remains. Is it the one that `scatter` \
            returns for `numbers.direct`, do you convert it to world space, and what do you divide \
@@ -305,7 +304,6 @@ const TURNED: Declaration = Declaration {
 
 const NO_SAMPLE: Declaration = Declaration {
     id: "direct.no_sample",
-    points: 1,
     title: "the material's direction is used with and without a direction toward a light",
     look: "If `World::sample_light` returns `None`, only the first term is zero: do you still \
            compute the second one?",
@@ -357,7 +355,6 @@ const NO_SAMPLE: Declaration = Declaration {
 
 const OTHER_MATERIALS: Declaration = Declaration {
     id: "direct.other_materials",
-    points: 1,
     title: "only matte surfaces look for direct light",
     look: "If the correct result is 0, the surface may be a mirror, glass or a light: what do you \
            return for these? Otherwise, it is matte: check each factor of the formula.",

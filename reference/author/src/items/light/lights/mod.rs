@@ -78,7 +78,6 @@ const DENSITY: Declaration = Declaration {
 
 const TRIANGLE: Declaration = Declaration {
     id: "lights.triangle",
-    points: 1,
     title: "the density of directions to a triangle uses the triangle's own area",
     look: "The given field `area` is right for both shapes, parallelograms and triangles. Do you \
            use it, or do you compute the area yourself?",
@@ -97,7 +96,6 @@ const TRIANGLE: Declaration = Declaration {
 
 const BEHIND: Declaration = Declaration {
     id: "lights.behind",
-    points: 1,
     title: "a light's density is 0 from behind, and positive in front",
     look: "If the correct density is 0, the point is behind the light: what is the sign of your \
            cosine? Otherwise, compare each factor of the formula with your code.",
@@ -117,7 +115,6 @@ const BEHIND: Declaration = Declaration {
 
 const PAST: Declaration = Declaration {
     id: "lights.past",
-    points: 1,
     title: "only a direction that hits the light has a density",
     look: "If the correct density is 0, `intersect` finds nothing: what do you return then? \
            Otherwise, compare each factor of the formula with your code.",
@@ -140,7 +137,6 @@ const PAST: Declaration = Declaration {
 
 const GRAZING: Declaration = Declaration {
     id: "lights.grazing",
-    points: 1,
     title: "a light that is seen nearly edge-on has a high density",
     look: "The cosine can be very small, so the density can be very large. Do you raise small \
            cosines to a minimum, or limit the density?",
@@ -237,7 +233,6 @@ const PICK: Declaration = Declaration {
 
 const FACES_AWAY: Declaration = Declaration {
     id: "lights.faces_away",
-    points: 1,
     title: "there is a sample only if there are lights and the picked one doesn't face away",
     look: "If the light that was picked faces away, do you pick another light, or return a \
         direction anyway?",
@@ -287,7 +282,6 @@ const FACES_AWAY: Declaration = Declaration {
 
 const SHARES: Declaration = Declaration {
     id: "lights.shares",
-    points: 1,
     title: "the total density weights each light's density by its share of the power",
     look: "What is the probability that the light in this direction is picked? And does your sum run \
            over all lights, even after one that the direction misses?",
@@ -354,7 +348,6 @@ const SHARES: Declaration = Declaration {
 
 const OVERLAP: Declaration = Declaration {
     id: "lights.overlap",
-    points: 1,
     title: "every light in a direction adds its density, even one behind another light",
     look: "A sample of the farther light leads in the same direction. Does your sum end too early?",
     look_fits: &[Symptom::of("pdf")],

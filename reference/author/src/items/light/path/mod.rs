@@ -63,7 +63,6 @@ pub static TASK: AuthoredTask = AuthoredTask {
 
 const SEEN: Declaration = Declaration {
     id: "path.seen",
-    points: 1,
     title: "with 0 bounces, the ray sees only emitted light or the environment",
     look: "What do you add if the ray hits a light, and what if it hits nothing? With 0 bounces, \
            nothing else is added.",
@@ -104,7 +103,6 @@ const SEEN: Declaration = Declaration {
 
 const ONE_BOUNCE: Declaration = Declaration {
     id: "path.one_bounce",
-    points: 1,
     title: "with 1 bounce, the path is scattered at most once and adds direct light there",
     look: "Write down what your loop adds at the first surface, and what it adds at the second. Is \
            a term missing, counted twice, or multiplied by the wrong factor?",
@@ -392,7 +390,6 @@ const MIRROR: Declaration = Declaration {
 
 const GLASS: Declaration = Declaration {
     id: "path.glass",
-    points: 1,
     title: "glass shows what is behind it and inside it",
     look: "Follow the path of the question shown. At each surface, write down which side it \
            continues on, the light that is added and the throughput. From bounce 3 on, roulette \
@@ -534,7 +531,6 @@ const SURVIVORS: Declaration = Declaration {
 
 const SIZES: Declaration = Declaration {
     id: "path.sizes",
-    points: 1,
     title: "a path doesn't hit the surface that it leaves, in a room of any size",
     look: "Where does your next ray start? Use `Surface::leave`, which takes into account how far \
            rounding can move a point.",

@@ -54,13 +54,7 @@ pub fn levels(boxes: &[Bounds], max_leaf_size: usize) -> usize {
         if indices.len() <= max_leaf_size {
             return 1;
         }
-        let middle = match cheapest_partition(boxes, indices) {
-            Some(partition) => {
-                sort_by_center(boxes, indices, partition.axis);
-                partition.left
-            }
-            None => indices.len() / 2,
-        };
+        let middle = sort_by_side(boxes, indices);
         let (left, right) = indices.split_at_mut(middle);
         let [left, right] = [left, right].map(|side| below(boxes, side, max_leaf_size));
         1 + left.max(right)
@@ -196,13 +190,7 @@ impl SweepBuilder<'_> {
         if is_leaf {
             return own;
         }
-        let middle = match cheapest_partition(self.boxes, indices) {
-            Some(partition) => {
-                sort_by_center(self.boxes, indices, partition.axis);
-                partition.left
-            }
-            None => indices.len() / 2,
-        };
+        let middle = sort_by_side(self.boxes, indices);
         let (left, right) = indices.split_at_mut(middle);
         own + self.node_cost(left, level + 1, start)
             + self.node_cost(right, level + 1, start + middle)
@@ -215,6 +203,16 @@ struct Partition {
     axis: usize,
     left: usize,
     cost: f64,
+}
+
+/// Sorts the primitives of a node by the side of the cheapest partition and returns the number on its
+/// left side. If all centres coincide, the node is split by count.
+fn sort_by_side(boxes: &[Bounds], indices: &mut [usize]) -> usize {
+    let Some(partition) = cheapest_partition(boxes, indices) else {
+        return indices.len() / 2;
+    };
+    sort_by_center(boxes, indices, partition.axis);
+    partition.left
 }
 
 /// Returns the cheapest partition along any axis.

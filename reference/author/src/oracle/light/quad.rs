@@ -1,12 +1,14 @@
 //! Parallelograms with a material. Rooms are made of them.
 
 use glam::{DVec2, DVec3};
+use serde::Deserialize;
 
 use super::flat_shape::FlatShape;
 use super::lights::FlatLight64;
 
-/// How a surface scatters or emits light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// How a surface scatters or emits light. Scene files describe it in the same way.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Material64 {
     /// A matte surface.
     Lambertian {
@@ -96,21 +98,14 @@ impl Quad {
 
 impl Material64 {
     /// Returns the material with all numbers rounded to single precision.
-    fn rounded(self) -> Material64 {
-        match self {
-            Material64::Lambertian { albedo } => Material64::Lambertian {
-                albedo: rounded(albedo),
-            },
-            Material64::Mirror { reflectance } => Material64::Mirror {
-                reflectance: rounded(reflectance),
-            },
-            Material64::Glass { ior } => Material64::Glass {
-                ior: f64::from(ior as f32),
-            },
-            Material64::Emitter { radiance } => Material64::Emitter {
-                radiance: rounded(radiance),
-            },
+    fn rounded(mut self) -> Material64 {
+        match &mut self {
+            Material64::Lambertian { albedo: color }
+            | Material64::Mirror { reflectance: color }
+            | Material64::Emitter { radiance: color } => *color = rounded(*color),
+            Material64::Glass { ior } => *ior = f64::from(*ior as f32),
         }
+        self
     }
 }
 

@@ -69,10 +69,10 @@ impl Room {
         let scene: SceneText = serde_json::from_str(text)?;
         let quads = scene.shapes.iter().map(|shape| {
             let PolygonText { material, points } = &shape.polygon;
-            let [p, q, _, s] = points.map(DVec3::from_array);
-            Quad::new(p, [q - p, s - p], (&scene.materials[material]).into())
+            let [p, q, _, s] = *points;
+            Quad::new(p, [q - p, s - p], scene.materials[material])
         });
-        let constant = Environment64::Constant(scene.environment.into());
+        let constant = Environment64::Constant(scene.environment);
         Ok(Room::new(
             quads.collect(),
             map.map_or(constant, Environment64::Map),
@@ -83,8 +83,8 @@ impl Room {
 /// The parts of a scene file that a room's text contains, apart from the camera.
 #[derive(Deserialize)]
 struct SceneText {
-    environment: [f64; 3],
-    materials: BTreeMap<String, MaterialText>,
+    environment: DVec3,
+    materials: BTreeMap<String, Material64>,
     shapes: Vec<ShapeText>,
 }
 
@@ -98,34 +98,7 @@ struct ShapeText {
 #[derive(Deserialize)]
 struct PolygonText {
     material: String,
-    points: [[f64; 3]; 4],
-}
-
-/// A material in a scene file.
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum MaterialText {
-    Lambertian { albedo: [f64; 3] },
-    Mirror { reflectance: [f64; 3] },
-    Glass { ior: f64 },
-    Emitter { radiance: [f64; 3] },
-}
-
-impl From<&MaterialText> for Material64 {
-    fn from(text: &MaterialText) -> Material64 {
-        match *text {
-            MaterialText::Lambertian { albedo } => Material64::Lambertian {
-                albedo: albedo.into(),
-            },
-            MaterialText::Mirror { reflectance } => Material64::Mirror {
-                reflectance: reflectance.into(),
-            },
-            MaterialText::Glass { ior } => Material64::Glass { ior },
-            MaterialText::Emitter { radiance } => Material64::Emitter {
-                radiance: radiance.into(),
-            },
-        }
-    }
+    points: [DVec3; 4],
 }
 
 /// Returns a material's entry in a scene file.

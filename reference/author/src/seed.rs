@@ -138,6 +138,21 @@ impl Rng {
         self.attempt(MAX_ATTEMPTS, attempt)
             .expect("an attempt succeeds")
     }
+
+    /// Returns the values that `draw` returns when it is called `count` times.
+    pub fn list<T>(&mut self, count: usize, mut draw: impl FnMut(&mut Rng) -> T) -> Vec<T> {
+        (0..count).map(|_| draw(self)).collect()
+    }
+
+    /// Returns `count` values, each from calling `attempt` until it returns `Some`.
+    #[track_caller]
+    pub fn retry_list<T>(
+        &mut self,
+        count: usize,
+        mut attempt: impl FnMut(&mut Rng) -> Option<T>,
+    ) -> Vec<T> {
+        (0..count).map(|_| self.retry(&mut attempt)).collect()
+    }
 }
 
 #[cfg(test)]

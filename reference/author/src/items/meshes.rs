@@ -86,12 +86,11 @@ fn random_corners(rng: &mut Rng, size: f64) -> [DVec3; 3] {
 /// Returns `count` flat triangles with random sizes between half of `size` and `size`. Their
 /// centres are random points in the cube from −`half` to `half`.
 pub fn soup(rng: &mut Rng, count: usize, half: f64, size: f64) -> Vec<Shape> {
-    let triangles = (0..count).map(|_| {
+    number_shapes(rng.list(count, |rng| {
         let center = rng.point(half);
         let size = size * rng.uniform(0.5, 1.0);
         random_flat_triangle(rng, center, size)
-    });
-    number_shapes(triangles)
+    }))
 }
 
 /// Returns a thin triangle along an axis.
@@ -153,8 +152,8 @@ pub fn lanes(rng: &mut Rng, count: usize) -> Vec<Shape> {
 
 /// Returns spheres in a few clumps. Some clumps contain far more spheres than others.
 pub fn clumps(rng: &mut Rng, count: usize) -> Vec<Shape> {
-    let clumps = (0..rng.integer(7, 9)).map(|_| (rng.point(10.0), rng.log_uniform(1.0, 12.0)));
-    let clumps: Vec<(DVec3, f64)> = clumps.collect();
+    let number = rng.integer(7, 9) as usize;
+    let clumps = rng.list(number, |rng| (rng.point(10.0), rng.log_uniform(1.0, 12.0)));
     let all: f64 = clumps.iter().map(|(_, weight)| weight).sum();
     let mut spheres = Vec::new();
     for (center, weight) in &clumps {
@@ -191,7 +190,7 @@ pub fn many_spheres(rng: &mut Rng, count: usize) -> Vec<Shape> {
 /// clusters. Their coordinates have few digits, so that even many spheres take up little space in
 /// an exam.
 pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
-    let spots: Vec<DVec3> = (0..7).map(|_| rng.point(900.0)).collect();
+    let spots = rng.list(7, |rng| rng.point(900.0));
     let spheres = (0..count).map(|i| {
         let center = if i % 2 == 0 {
             rng.point(950.0)
@@ -205,9 +204,7 @@ pub fn galaxy(rng: &mut Rng, count: usize) -> Vec<Shape> {
 
 /// Returns a few large triangles on the ground and several clusters of many small primitives.
 pub fn town(rng: &mut Rng, count: usize) -> Vec<Shape> {
-    let spots: Vec<DVec3> = (0..7)
-        .map(|_| rng.point(10.0) * dvec3(1.0, 0.1, 1.0))
-        .collect();
+    let spots = rng.list(7, |rng| rng.point(10.0) * dvec3(1.0, 0.1, 1.0));
     let triangles = (0..count).map(|i| {
         if i % 10 == 0 {
             let center = rng.point(10.0) * dvec3(1.0, 0.02, 1.0);

@@ -87,16 +87,13 @@ pub(super) fn bbox(rng: &mut Rng) -> (Bounds, Vec<(Ray, Interval)>) {
         min,
         max: min + DVec3::from_array(size),
     };
-    let mut queries = Vec::new();
-    for is_hit in [true, false] {
-        for _ in 0..BOX_RAYS_OF_EACH_KIND {
-            queries.push((
-                rng.retry(|rng| box_ray(rng, &bounds, is_hit)),
-                Interval::AHEAD,
-            ));
-        }
-    }
-    (bounds, queries)
+    let queries = [true, false].map(|is_hit| {
+        rng.list(BOX_RAYS_OF_EACH_KIND, |rng| {
+            let ray = rng.retry(|rng| box_ray(rng, &bounds, is_hit));
+            (ray, Interval::AHEAD)
+        })
+    });
+    (bounds, queries.concat())
 }
 
 /// Returns a tree over four triangles, one behind the other, and rays through them from either end.
@@ -147,18 +144,8 @@ fn box_ray(rng: &mut Rng, bounds: &Bounds, is_hit: bool) -> Option<Ray> {
     let dir = one + 2.0 * other + 2.0 * third;
     let origin = 3.0 * whole_point(rng);
     let ray = paper_ray(origin, dir);
-    let slabs = [0, 1, 2].map(|axis| {
-        let times = [bounds.min, bounds.max].map(|plane| 3.0 * (plane - origin)[axis] / dir[axis]);
-        (times[0].min(times[1]), times[0].max(times[1]))
-    });
-    let enter = slabs
-        .iter()
-        .map(|slab| slab.0)
-        .fold(f64::NEG_INFINITY, f64::max);
-    let leave = slabs
-        .iter()
-        .map(|slab| slab.1)
-        .fold(f64::INFINITY, f64::min);
+    let [a, b] = [bounds.min, bounds.max].map(|planes| 3.0 * (planes - origin) / dir);
+    let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
     let is_clear = enter >= 1.0 && (leave - enter).abs() >= 1.0;
     let is_as_required = bounds.span(&Ray64::from(&ray)).is_some() == is_hit;
     (is_clear && is_as_required).then_some(ray)

@@ -54,22 +54,13 @@ fn is_in_small_leaves(call: &BuildCall) -> bool {
     call.shapes.len() > 3 * call.max_leaf_size as usize
 }
 
-/// For each pair of a triangle count and a maximum leaf size, creates a question about small random
-/// triangles. Up to seven more triangles are added to each question. Every other question is far
-/// from the origin.
+/// For each pair of a triangle count and a maximum leaf size, creates a question about random
+/// triangles of this size. Up to seven more triangles are added to each question. Every other
+/// question is far from the origin.
 fn soup_questions(
     rng: &mut Rng,
     checks: &[TreeCheck],
-    sizes: &[(usize, u32)],
-) -> Vec<ExamQuestion> {
-    soup_questions_of_size(0.2, rng, checks, sizes)
-}
-
-/// Creates the same questions as [`soup_questions`], but with triangles of this size.
-fn soup_questions_of_size(
     size: f64,
-    rng: &mut Rng,
-    checks: &[TreeCheck],
     sizes: &[(usize, u32)],
 ) -> Vec<ExamQuestion> {
     let question = |(index, &(count, max_leaf_size)): (usize, &(usize, u32))| {
@@ -94,9 +85,7 @@ fn moved_inside(rng: &mut Rng, checks: &[TreeCheck]) -> Vec<ExamQuestion> {
     let count = rng.integer(8, 40) as usize;
     let corners = [-3.0, 3.0].map(|at| meshes::sphere(DVec3::splat(at), 0.3));
     let moved = rng.vector(1.0, 2.5);
-    let mut inside: Vec<_> = (1..count)
-        .map(|_| meshes::sphere(rng.point(2.5), 0.2))
-        .collect();
+    let mut inside = rng.list(count - 1, |rng| meshes::sphere(rng.point(2.5), 0.2));
     let question = |inside: &[Shape]| {
         let [first, last] = corners;
         let spheres = std::iter::once(first).chain(inside.iter().copied());
@@ -226,7 +215,7 @@ pub(super) const LEAF_SIZE: Declaration = Declaration {
         // very last plane. In the crowd, the triangles are so close together that buckets over the
         // node's box don't separate them.
         let sizes = [(300, 1), (60, 2), (150, 4), (150, 8)];
-        let mut questions = soup_questions_of_size(2.5, rng, &[LeafSize], &sizes);
+        let mut questions = soup_questions(rng, &[LeafSize], 2.5, &sizes);
         questions.push(crowd);
         questions.push(large(rng, &[LeafSize]));
         questions.extend(deep(rng));
@@ -252,15 +241,14 @@ pub(super) const STOPS: Declaration = Declaration {
     tests: &["A node is a leaf…"],
     questions: |rng| {
         let checks = [Stops, LeafSize];
-        let mut questions = soup_questions(rng, &[Stops], &[(160, 8)]);
+        let mut questions = soup_questions(rng, &[Stops], 0.2, &[(160, 8)]);
         questions.push(large(rng, &[Stops]));
         // The same primitives again, with a different maximum leaf size. The root is a node like
         // any other: one question has exactly as many primitives as fit into a leaf, and another
         // has one more.
         let small = rng.integer(5, 10) as usize;
         for (count, most) in [(small, 130), (1000, 2)] {
-            let balls = (0..count).map(|_| meshes::sphere(rng.point(3.0), 0.1));
-            let balls: Vec<_> = balls.collect();
+            let balls = rng.list(count, |rng| meshes::sphere(rng.point(3.0), 0.1));
             let fits = count as u32;
             for max_leaf_size in [fits, fits - 1, fits + 1].into_iter().take(most) {
                 questions.push(build_question(&checks, balls.clone(), max_leaf_size));

@@ -15,6 +15,21 @@ use crate::seed::Rng;
 /// All properties of a tree except its cost.
 const ALL: &[TreeCheck] = &[Partition, Contains, Tight, LeafSize, Stops];
 
+/// The symptoms of a builder that doesn't split primitives along an axis without extent.
+const NOT_SPLIT: &[Symptom] = &[
+    Symptom::of("nodes"),
+    Symptom::of("leaves"),
+    Symptom::of("splits"),
+];
+
+/// The symptoms of a builder that doesn't split primitives with a common centre.
+const NOT_SPLIT_BY_COUNT: &[Symptom] = &[
+    Symptom::of("nodes"),
+    Symptom::of("leaves"),
+    Symptom::of("splits"),
+    Symptom::of("leaf size"),
+];
+
 /// Returns the given questions, followed by random questions from the domain about primitives in
 /// the given arrangements. The additional questions check how the primitives are split, using
 /// [`Split`] if a different item tests the exact size of leaves.
@@ -59,16 +74,11 @@ pub(super) const NEGATIVE: Declaration = Declaration {
         });
         let checks = [Partition, Contains, Tight];
         let mut questions = vec![build_question(&checks, triangles, 2)];
-        questions.extend(draw::questions(
-            rng,
-            &checks,
-            5,
-            (&[Scattered], 40),
-            |call| {
-                let mut shapes = call.shapes.iter().map(scan::bounds);
-                shapes.len() > 1 && shapes.any(|bounds| bounds.min.min_element() < 0.0)
-            },
-        ));
+        let drawn = draw::questions(rng, &checks, 5, (&[Scattered], 40), |call| {
+            let mut shapes = call.shapes.iter().map(scan::bounds);
+            shapes.len() > 1 && shapes.any(|bounds| bounds.min.min_element() < 0.0)
+        });
+        questions.extend(drawn);
         questions
     },
     ..Declaration::in_group(groups::TREES)
@@ -79,12 +89,7 @@ pub(super) const COINCIDENT: Declaration = Declaration {
     title: "primitives with the same centre are split by count",
     look: "If all centres coincide, no plane separates the primitives. A leaf with all of them is too \
         large, and a split where one side is empty doesn't help: split them by count.",
-    look_fits: &[
-        Symptom::of("nodes"),
-        Symptom::of("leaves"),
-        Symptom::of("splits"),
-        Symptom::of("leaf size"),
-    ],
+    look_fits: NOT_SPLIT_BY_COUNT,
     section: "building.md#when-all-centres-coincide",
     tests: &["If all centres coincide,…"],
     questions: |rng| {
@@ -119,12 +124,7 @@ pub(super) const CONCENTRIC: Declaration = Declaration {
     title: "spheres around one centre are split by count",
     look: "The boxes of the spheres differ, but their centres coincide, so no plane between \
         buckets of centres separates them on any axis. Split them by count.",
-    look_fits: &[
-        Symptom::of("nodes"),
-        Symptom::of("leaves"),
-        Symptom::of("splits"),
-        Symptom::of("leaf size"),
-    ],
+    look_fits: NOT_SPLIT_BY_COUNT,
     section: "building.md#when-all-centres-coincide",
     tests: &["If all centres coincide,…"],
     questions: |rng| {
@@ -150,11 +150,7 @@ pub(super) const COPLANAR: Declaration = Declaration {
     look: "Along one axis, all centres coincide: no plane separates them there, and dividing by \
            their extent gives NaN. Both the search for the cheapest partition and the partition \
            itself must use another axis.",
-    look_fits: &[
-        Symptom::of("nodes"),
-        Symptom::of("leaves"),
-        Symptom::of("splits"),
-    ],
+    look_fits: NOT_SPLIT,
     section: "building.md#an-axis-without-extent",
     tests: &["Every primitive is…", "The box of a node…"],
     questions: |rng| {
@@ -178,11 +174,7 @@ pub(super) const COLLINEAR: Declaration = Declaration {
     id: "build.collinear",
     title: "a row of primitives along any axis works too",
     look: "Along two axes, all centres coincide. Find the third axis, whether it is x, y or z.",
-    look_fits: &[
-        Symptom::of("nodes"),
-        Symptom::of("leaves"),
-        Symptom::of("splits"),
-    ],
+    look_fits: NOT_SPLIT,
     section: "building.md#an-axis-without-extent",
     tests: &["Every primitive is…", "The box of a node…"],
     questions: |rng| {

@@ -86,8 +86,7 @@ pub(super) const OFFSET_AXES: Declaration = Declaration {
         let films = [uvec2(1, rng.integer(2, 9)), uvec2(rng.integer(2, 9), 1)];
         let line = |film: UVec2| {
             let camera = camera(rng.uniform(60.0, 100.0), 1.0, film);
-            let samples: Vec<Sample> = (0..12).map(|_| sample(rng, camera.film)).collect();
-            direction_question(camera, samples)
+            direction_question(camera, rng.list(12, |rng| sample(rng, camera.film)))
         };
         [vec![single], films.map(line).to_vec()].concat()
     },
@@ -108,15 +107,15 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
         let wide = [(2048, 3400), (3550, 4096)].map(|(least, most)| {
             let film = UVec2::from([(); 2].map(|()| rng.integer(least, most)));
             let wide = camera(rng.uniform(173.0, 175.0), rng.uniform(8.0, 10.0), film);
-            let in_the_middle = (0..12).map(|_| Sample {
+            let in_the_middle = rng.list(12, |rng| Sample {
                 pixel: film / 2,
                 offset: Vec2::new(offset(rng), offset(rng)),
             });
-            (wide, in_the_middle.collect())
+            (wide, in_the_middle)
         });
         let mut all = almost_equal_cameras(rng, usual);
-        let more = (0..16).map(|_| sample(rng, usual.film));
-        all[0].1 = more.chain(all[0].1.clone()).collect();
+        let more = rng.list(16, |rng| sample(rng, usual.film));
+        all[0].1.splice(..0, more);
         all.extend(wide);
         all.extend(extreme_views(rng));
         all.extend(films_of_few_pixels(rng));
@@ -134,9 +133,10 @@ pub(super) const LARGE_FILM: Declaration = Declaration {
 /// about lengths, origins or ranges.
 fn spread_question(judged: &[&str], rng: &mut Rng) -> ExamQuestion {
     let film = UVec2::splat(rng.integer(7, 19));
-    let samples = (0..16).map(|_| middle_of(random_below(rng, film.x), random_below(rng, film.y)));
-    let samples = Rows::List(samples.collect());
-    camera_question(judged, camera(90.0, 1.0, film), samples)
+    let samples = rng.list(16, |rng| {
+        middle_of(random_below(rng, film.x), random_below(rng, film.y))
+    });
+    camera_question(judged, camera(90.0, 1.0, film), Rows::List(samples))
 }
 
 /// Creates questions about all kinds of cameras, for quantities that don't depend on the kind.
@@ -148,9 +148,8 @@ fn questions_about_all_cameras(judged: &[&str], rng: &mut Rng) -> Vec<ExamQuesti
         let aspect = drawn(ASPECT_RATIOS[ratio], rng);
         let film = uvec2(side(rng, index), side(rng, 3 * index + 4));
         let camera = camera(drawn(part, rng), aspect, film);
-        let samples = (0..8).map(|_| sample(rng, camera.film));
-        let samples = Rows::List(samples.collect());
-        camera_question(judged, camera, samples)
+        let samples = rng.list(8, |rng| sample(rng, camera.film));
+        camera_question(judged, camera, Rows::List(samples))
     };
     parts.map(question).collect()
 }
@@ -165,11 +164,8 @@ pub(super) const UNIT_LENGTH: Declaration = Declaration {
     tests: &["The ray's `dir` has…"],
     questions: |rng| {
         let spread = spread_question(&["direction", "unit_direction"], rng);
-        [
-            vec![spread],
-            questions_about_all_cameras(&["unit_direction"], rng),
-        ]
-        .concat()
+        let all = questions_about_all_cameras(&["unit_direction"], rng);
+        [vec![spread], all].concat()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };
@@ -183,11 +179,8 @@ pub(super) const ORIGIN_AND_RANGE: Declaration = Declaration {
     tests: &["The ray's `dir` has…"],
     questions: |rng| {
         let spread = spread_question(&["direction", "origin", "range"], rng);
-        [
-            vec![spread],
-            questions_about_all_cameras(&["origin", "range"], rng),
-        ]
-        .concat()
+        let all = questions_about_all_cameras(&["origin", "range"], rng);
+        [vec![spread], all].concat()
     },
     ..Declaration::in_group(groups::CAMERA_RAYS)
 };

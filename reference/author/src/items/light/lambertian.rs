@@ -164,11 +164,8 @@ const ATTENUATION: Declaration = Declaration {
     ],
     questions: |rng| {
         // These lead to directions close to the normal and to the horizon.
-        samples(
-            rng,
-            &["attenuation"],
-            &[0.0, 1e-6, 1.0 - f32::EPSILON, BELOW_ONE],
-        )
+        let ends = [0.0, 1e-6, 1.0 - f32::EPSILON, BELOW_ONE];
+        samples(rng, &["attenuation"], &ends)
     },
     ..Declaration::in_group(MATTE_SAMPLES)
 };
@@ -251,20 +248,19 @@ fn pairs(
     out: fn(&mut Rng) -> DVec3,
     incoming: fn(&mut Rng) -> DVec3,
 ) -> Vec<DirectionPair> {
-    let pairs = (0..CALLS).map(|_| DirectionPair {
+    rng.list(CALLS, |rng| DirectionPair {
         out: out(rng).as_vec3(),
         incoming: incoming(rng).as_vec3(),
-    });
-    pairs.collect()
+    })
 }
 
 fn evaluations(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
-    let albedo = matte.albedo.as_dvec3();
+    let evaluate = |pair: &DirectionPair| {
+        let albedo = matte.albedo.as_dvec3();
+        lambertian::evaluate(albedo, pair.out.as_dvec3(), pair.incoming.as_dvec3())
+    };
     let ask = |pairs: Vec<DirectionPair>| {
-        let rows = pairs.iter().map(|pair| {
-            lambertian::evaluate(albedo, pair.out.as_dvec3(), pair.incoming.as_dvec3())
-        });
-        let rows = colors(rows);
+        let rows = colors(pairs.iter().map(evaluate));
         let question = LightQuestion::Evaluate(Table::of_list(matte, pairs));
         table(question, &["value"], rows)
     };
@@ -272,11 +268,9 @@ fn evaluations(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
 }
 
 fn pdfs(matte: Matte, pairs: Vec<DirectionPair>) -> ExamQuestion {
+    let pdf = |pair: &DirectionPair| lambertian::pdf(pair.out.as_dvec3(), pair.incoming.as_dvec3());
     let ask = |pairs: Vec<DirectionPair>| {
-        let rows = pairs
-            .iter()
-            .map(|pair| lambertian::pdf(pair.out.as_dvec3(), pair.incoming.as_dvec3()));
-        let rows = densities(rows);
+        let rows = densities(pairs.iter().map(pdf));
         let question = LightQuestion::LambertianPdf(Table::of_list(matte, pairs));
         table(question, &["pdf"], rows)
     };
@@ -289,17 +283,16 @@ fn samples(rng: &mut Rng, judged: &[&str], ends: &[f32]) -> Vec<ExamQuestion> {
     // Each question ends with the call that the next one starts with.
     let same = sample(rng, None);
     surfaces(rng, |rng, matte| {
-        let firsts = [None; CALLS]
-            .into_iter()
-            .chain(ends.iter().copied().map(Some));
-        let others: Vec<MatteSample> = firsts.map(|x| sample(rng, x)).collect();
-        let calls = [vec![same], others, vec![same]].concat();
-        let albedo = matte.albedo.as_dvec3();
+        let mut calls = vec![same];
+        calls.extend(rng.list(CALLS, |rng| sample(rng, None)));
+        calls.extend(ends.iter().map(|end| sample(rng, Some(*end))));
+        calls.push(same);
+        let scatter = |call: &MatteSample| {
+            let albedo = matte.albedo.as_dvec3();
+            lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2())
+        };
         let ask = |calls: Vec<MatteSample>| {
-            let rows = calls.iter().map(|call| {
-                lambertian::scatter(albedo, call.out.as_dvec3(), call.random.as_dvec2())
-            });
-            let rows = scattered(rows);
+            let rows = scattered(calls.iter().map(scatter));
             let question = LightQuestion::LambertianScatter(Table::of_list(matte, calls));
             table(question, judged, rows)
         };

@@ -38,13 +38,8 @@ fn own_tree(rng: &mut Rng) -> Vec<ExamQuestion> {
     for (count, max_leaf_size) in [(400, 4), (260, 257)] {
         let shapes = meshes::soup(rng, count, 2.0, 0.5);
         let judged = &["distance"];
-        questions.push(own_tree_question(
-            rng,
-            shapes,
-            max_leaf_size,
-            judged,
-            ray_from_around,
-        ));
+        let kind = ray_from_around;
+        questions.push(own_tree_question(rng, shapes, max_leaf_size, judged, kind));
     }
     for (kind, count, max_leaf_size) in [(0, 1, 1), (1, 4, 2), (1, 40, 1), (0, 20, 20)] {
         let shapes = trace::shapes(rng, kind, count);
@@ -53,14 +48,8 @@ fn own_tree(rng: &mut Rng) -> Vec<ExamQuestion> {
         questions.push(own_tree_question(rng, shapes, max_leaf_size, judged, kind));
     }
     questions.push(long_row(rng));
-    let past_nothing = (0..8).map(|_| ray(4.0 * rng.direction(), rng.point(1.0)));
-    let past_nothing = past_nothing.collect();
-    questions.push(built_tree_question(
-        Vec::new(),
-        4,
-        &["distance"],
-        past_nothing,
-    ));
+    let rays = rng.list(8, |rng| ray(4.0 * rng.direction(), rng.point(1.0)));
+    questions.push(built_tree_question(vec![], 4, &["distance"], rays));
     questions.push(linear_scan_control(rng));
     questions
 }

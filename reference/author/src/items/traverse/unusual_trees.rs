@@ -104,8 +104,7 @@ fn no_nodes(rng: &mut Rng) -> Vec<ExamQuestion> {
         let target = rng.point(0.8);
         ray(target + 4.0 * rng.direction(), target)
     };
-    let mut empty_question =
-        |tree: &Tree| traversal_question(tree, (0..8).map(|_| toward(rng)).collect());
+    let mut empty_question = |tree: &Tree| traversal_question(tree, rng.list(8, toward));
     let mut questions = vec![empty_question(&nothing), empty_question(&empty_leaf)];
     // The smallest nonempty trees consist of a single leaf.
     for count in [1, 5] {

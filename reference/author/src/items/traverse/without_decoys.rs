@@ -218,13 +218,8 @@ pub(super) const FIRST_BOX_EMPTY: Declaration = Declaration {
     questions: |rng| {
         // Small triangles leave most of a node's box empty.
         let tree = soup_tree(rng, 40, 0.5, 1);
-        let counts = [20, 17];
-        vec![question_without_decoys(
-            rng,
-            tree,
-            counts,
-            ray_from_around_or_in_a_corner(),
-        )]
+        let kind = ray_from_around_or_in_a_corner();
+        vec![question_without_decoys(rng, tree, [20, 17], kind)]
     },
     ..TRAVERSAL
 };
@@ -467,12 +462,8 @@ pub(super) const FLAT: Declaration = Declaration {
             meshes::flat_triangle([corner, corner + size * x, corner + size * y], 0)
         });
         let tree = construction::median_split(meshes::number_shapes(triangles), 1);
-        vec![question_without_decoys(
-            rng,
-            tree,
-            [24, 10],
-            ray_from_around,
-        )]
+        let counts = [24, 10];
+        vec![question_without_decoys(rng, tree, counts, ray_from_around)]
     },
     ..TRAVERSAL
 };

@@ -1,20 +1,15 @@
-//! Random rooms of parallelograms, and cases in them whose answers don't depend on rounding.
+//! Random rooms of parallelograms, and random rays in them.
 
-use std::f64::consts::TAU;
-
-use glam::{DVec3, UVec2, Vec2, Vec3, dvec2, uvec2};
+use glam::{DVec3, Vec3, uvec2};
 use protocol::Ray;
 use protocol::light::environment::MapImage;
-use protocol::light::transport::{self as functions, DirectSample, PathStart};
-use protocol::sampler::Sampler;
+use protocol::light::transport as functions;
 
-use super::{MARGIN, color, random, random_pair};
-use crate::oracle::Ray64;
+use super::{MARGIN, color};
 use crate::oracle::light::environment::Map64;
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
-use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::{Numbers64, WithMargin, numbers_of_path, transport};
+use crate::oracle::light::room::Room;
 use crate::seed::Rng;
 
 /// Half the size of most rooms.
@@ -46,17 +41,22 @@ pub(super) fn emitter(rng: &mut Rng) -> Material64 {
     }
 }
 
-/// Returns the six walls of a box between −`half` and `half`. Their fronts face inward.
-pub(super) fn walls(half: DVec3, mut material: impl FnMut() -> Material64) -> Vec<Quad> {
-    let mut walls = Vec::new();
-    for axis in 0..3 {
-        for sign in [-1.0, 1.0] {
-            let mut center = DVec3::ZERO;
-            center[axis] = sign * half[axis];
-            walls.push(panel(center, axis, -sign, half, material()));
-        }
-    }
-    walls
+/// Returns the six walls of a box between −[`HALF`] and [`HALF`]. Their fronts face inward.
+pub(super) fn walls(materials: impl IntoIterator<Item = Material64>) -> Vec<Quad> {
+    sides(DVec3::ZERO, HALF, -1.0, materials)
+}
+
+/// Returns a closed room with these walls and a light just below the ceiling.
+pub(super) fn closed_room(rng: &mut Rng, walls: impl IntoIterator<Item = Material64>) -> Room {
+    let mut quads = self::walls(walls);
+    quads.push(light_below_the_ceiling(rng, 1.0));
+    Room::new(quads, DARK)
+}
+
+/// Returns a square light just below the ceiling. `half` is half of its width.
+pub(super) fn light_below_the_ceiling(rng: &mut Rng, half: f64) -> Quad {
+    let light = emitter(rng);
+    panel(1.8 * DVec3::Y, 1, -1.0, DVec3::splat(half), light)
 }
 
 /// Returns a rectangle around a point, perpendicular to an axis. `half` is half of its size along
@@ -91,7 +91,7 @@ pub(super) fn tilted(rng: &mut Rng, center: DVec3, size: f64, material: Material
 /// Returns a room that is open at +z, under a uniform sky. The ceiling is a light, so most directions
 /// soon find it or the sky.
 pub(super) fn with_shining_ceiling(rng: &mut Rng) -> Room {
-    let mut quads = walls(HALF, || matte(rng));
+    let mut quads = walls(rng.list(6, matte));
     quads.pop();
     let light = emitter(rng);
     quads[3] = panel(HALF.y * DVec3::Y, 1, -1.0, HALF, light);
@@ -103,20 +103,14 @@ pub(super) fn with_shining_ceiling(rng: &mut Rng) -> Room {
 /// the material of the wall at −x, whose frame isn't that of the world. `lights` is the number of
 /// lights above the floor, at most two.
 pub(super) fn under_a_map(rng: &mut Rng, left: Material64, lights: usize) -> Room {
-    let all = walls(HALF, || matte(rng));
+    let all = walls(rng.list(6, matte));
     let left = panel(DVec3::new(-HALF.x, 0.0, 0.0), 0, 1.0, HALF, left);
     let mut quads = vec![left, all[1], all[2], all[4]];
     let places = [DVec3::new(-0.5, 1.0, -0.4), DVec3::new(1.4, 0.2, -1.6)];
     for center in places.into_iter().take(lights) {
         let radiance = color(rng) * rng.log_uniform(0.5, 20.0);
-        let size = DVec3::new(0.8, 0.0, 0.8);
-        quads.push(panel(
-            center,
-            1,
-            -1.0,
-            size,
-            Material64::Emitter { radiance },
-        ));
+        let light = Material64::Emitter { radiance };
+        quads.push(panel(center, 1, -1.0, DVec3::splat(0.8), light));
     }
     let map = map(rng);
     Room::new(quads, map)
@@ -124,15 +118,23 @@ pub(super) fn under_a_map(rng: &mut Rng, left: Material64, lights: usize) -> Roo
 
 /// Returns the six sides of a box around a point. Their fronts face outward.
 pub(super) fn block(center: DVec3, half: DVec3, material: Material64) -> Vec<Quad> {
-    let mut sides = Vec::new();
-    for axis in 0..3 {
-        for sign in [-1.0, 1.0] {
-            let mut at = center;
-            at[axis] += sign * half[axis];
-            sides.push(panel(at, axis, sign, half, material));
-        }
-    }
-    sides
+    sides(center, half, 1.0, [material; 6])
+}
+
+/// Returns the six sides of a box around a point. `facing` is 1 if their fronts face outward, and −1
+/// if they face inward.
+fn sides(
+    center: DVec3,
+    half: DVec3,
+    facing: f64,
+    materials: impl IntoIterator<Item = Material64>,
+) -> Vec<Quad> {
+    let sides = (0..3).flat_map(|axis| [(axis, -1.0), (axis, 1.0)]);
+    let sides = sides.zip(materials).map(|((axis, sign), material)| {
+        let center = center + sign * half * DVec3::AXES[axis];
+        panel(center, axis, facing * sign, half, material)
+    });
+    sides.collect()
 }
 
 /// Returns an environment with the same random radiance from all directions. Some are very dim, and
@@ -149,18 +151,16 @@ pub(super) fn sky(rng: &mut Rng) -> Environment64 {
 /// Returns an environment map with random pixels, whose brightness is very uneven. Some are black.
 /// Some maps are very bright as a whole.
 fn map(rng: &mut Rng) -> Environment64 {
-    let size = uvec2(8, 4);
     let brightness = if rng.coin() {
         rng.log_uniform(1e2, 2e3)
     } else {
         1.0
     };
-    let pixel = |_| match rng.index(5) {
+    let pixels = rng.list(8 * 4, |rng| match rng.index(5) {
         0 => Vec3::ZERO,
         _ => (tint(rng) * rng.log_uniform(0.02, 50.0) * brightness).as_vec3(),
-    };
-    let pixels: Vec<Vec3> = (0..size.element_product()).map(pixel).collect();
-    Environment64::Map(Map64::new(size, &pixels))
+    });
+    Environment64::Map(Map64::new(uvec2(8, 4), &pixels))
 }
 
 /// Converts a room to the one in a question.
@@ -186,75 +186,6 @@ pub(super) fn is_lit(light: DVec3) -> bool {
 /// An environment without light.
 pub(super) const DARK: Environment64 = Environment64::Constant(DVec3::ZERO);
 
-/// Returns a call for which `wanted` is true of the surface that a random ray hits, of the random
-/// numbers and of the surface's direct light. In some calls, the scattered direction leads to a
-/// point on a light, since it would hardly ever find a small light by chance.
-#[track_caller]
-pub(super) fn direct_case(
-    rng: &mut Rng,
-    room: &Room,
-    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectSample {
-    let direct = |rng: &mut Rng, surface: &Surface64| match rng.index(4) {
-        0 => toward_a_light(rng, room, surface),
-        _ => Some(random_pair(rng)),
-    };
-    let pairs = |rng: &mut Rng, surface: &Surface64| {
-        let direct = direct(rng, surface)?;
-        Some([random_pair(rng), direct])
-    };
-    direct_case_with(rng, room, margin(room), pairs, wanted)
-}
-
-/// Like [`direct_case`], but the lights can look so small that all directions toward them are close
-/// to their edges.
-#[track_caller]
-pub(super) fn far_case(
-    rng: &mut Rng,
-    room: &Room,
-    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectSample {
-    let pairs = |rng: &mut Rng, _: &Surface64| Some([random_pair(rng), random_pair(rng)]);
-    direct_case_with(rng, room, 1e-4, pairs, wanted)
-}
-
-/// Like [`direct_case`], but the scattered direction is almost along the surface.
-#[track_caller]
-pub(super) fn grazing_case(
-    rng: &mut Rng,
-    room: &Room,
-    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectSample {
-    let pairs = |rng: &mut Rng, _: &Surface64| Some([random_pair(rng), along_the_surface(rng)]);
-    direct_case_with(rng, room, 1e-4, pairs, wanted)
-}
-
-/// Like [`grazing_case`], but the direction toward the light is almost along the surface, too. The
-/// room is one of those that [`beside_a_light`] returns.
-#[track_caller]
-pub(super) fn both_grazing_case(
-    rng: &mut Rng,
-    room: &Room,
-    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectSample {
-    let pairs = |rng: &mut Rng, _: &Surface64| {
-        // Small numbers lead to the lower edge of the light.
-        let low = rng.log_uniform(2e-3, 0.2) as f32;
-        Some([random_pair(rng).with_y(low), along_the_surface(rng)])
-    };
-    direct_case_with(rng, room, 1e-5, pairs, |surface, numbers, light| {
-        let sample = room.sources().sample(surface.position, numbers).value;
-        let is_low = |direction| (4e-4..9e-4).contains(&surface.frame.to_local(direction).z);
-        sample.is_some_and(is_low) && wanted(surface, numbers, light)
-    })
-}
-
-/// Returns random numbers for which a surface scatters almost along itself.
-fn along_the_surface(rng: &mut Rng) -> Vec2 {
-    let below_one = 1.0 - rng.log_uniform(6e-8, 9e-7) as f32;
-    random_pair(rng).with_x(below_one)
-}
-
 /// Returns a floor with a low light at its edge, like a glowing skirting board. The floor is at y = 0,
 /// so heights above it are hardly rounded.
 pub(super) fn beside_a_light(rng: &mut Rng, environment: Environment64) -> Room {
@@ -269,182 +200,35 @@ pub(super) fn beside_a_light(rng: &mut Rng, environment: Environment64) -> Room 
     Room::new(quads, environment)
 }
 
-/// Returns the random numbers for which a surface scatters toward a random point on a light. Returns
-/// `None` if that point is below the surface.
-fn toward_a_light(rng: &mut Rng, room: &Room, surface: &Surface64) -> Option<Vec2> {
-    let quads = room.quads().iter();
-    let is_light = |quad: &&Quad| matches!(quad.material(), Material64::Emitter { .. });
-    let lights: Vec<&Quad> = quads.filter(is_light).collect();
-    let light = lights.get(rng.index(lights.len().max(1)))?;
-    let to = light.shape().at(random_pair(rng).as_dvec2()) - surface.position;
-    let direction = surface.frame.to_local(to.normalize());
-    // The inverse of `sample_cosine_hemisphere`.
-    let turn = libm::atan2(direction.y, direction.x) / TAU;
-    let x = 1.0 - direction.z * direction.z;
-    (direction.z > 0.0).then(|| dvec2(x, turn - turn.floor()).as_vec2())
-}
-
-/// Returns a case with at least this margin. `pairs` returns the random numbers for the point on the
-/// light and for the scattered direction.
-#[track_caller]
-fn direct_case_with(
-    rng: &mut Rng,
-    room: &Room,
-    margin: f64,
-    pairs: impl Fn(&mut Rng, &Surface64) -> Option<[Vec2; 2]>,
-    wanted: impl Fn(&Surface64, &Numbers64, DVec3) -> bool,
-) -> DirectSample {
-    rng.retry(|rng| {
-        let ray = random_ray(rng, room);
-        let surface = room.hit(&Ray64::from(&ray), None).value?;
-        let light = random(rng);
-        let [on_light, direct] = pairs(rng, &surface)?;
-        let call = DirectSample {
-            ray,
-            light,
-            on_light,
-            direct,
-        };
-        let light = clear_direct(room, &call, margin)?;
-        wanted(&surface, &Numbers64::from(&call), light).then_some(call)
-    })
-}
-
-/// Returns the answer to a call of `direct`, whose ray hits a surface.
-pub(super) fn direct_light(room: &Room, call: &DirectSample) -> DVec3 {
-    let surface = room.hit(&Ray64::from(&call.ray), None).value;
-    let surface = surface.expect("the ray of every call hits a surface");
-    transport::direct(room, &surface, &Numbers64::from(call)).value
-}
-
-/// Returns whether a call's answer keeps the margin that the room requires.
-pub(super) fn is_clear_direct(room: &Room, call: &DirectSample) -> bool {
-    clear_direct(room, call, margin(room)).is_some()
-}
-
-/// Returns the answer to a call of `direct` if it has at least this margin.
-fn clear_direct(room: &Room, call: &DirectSample, margin: f64) -> Option<DVec3> {
-    let hit = room.hit(&Ray64::from(&call.ray), None);
-    let is_clear = hit.margin > self::margin(room);
-    let surface = hit.value?;
-    let light = transport::direct(room, &surface, &Numbers64::from(call));
-    let is_clear = is_clear && surface.out.z.abs() > least_cosine(room) && light.margin > margin;
-    is_clear.then_some(light.value)
-}
-
-/// Returns a case in which `wanted` is true of the surface that a random ray hits first, if any, and
-/// of the radiance along the ray.
-#[track_caller]
-pub(super) fn path_case(
-    rng: &mut Rng,
-    room: &Room,
-    bounces: u32,
-    wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
-) -> PathStart {
-    path_case_along(rng, room, bounces, |ray, numbers, light| {
-        wanted(room.hit(ray, None).value.as_ref(), numbers, light)
-    })
-}
-
-/// Returns a case in which `wanted` is true of a random ray, of the random numbers and of the
-/// radiance along the ray.
-#[track_caller]
-pub(super) fn path_case_along(
-    rng: &mut Rng,
-    room: &Room,
-    bounces: u32,
-    wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
-) -> PathStart {
-    let seed = |rng: &mut Rng| rng.integer(0, 1 << 30);
-    path_case_with(rng, room, bounces, margin(room), seed, wanted)
-}
-
-/// Like [`path_case_along`], but the first surface, if it is matte, scatters almost along itself.
-#[track_caller]
-pub(super) fn grazing_path_case(
-    rng: &mut Rng,
-    room: &Room,
-    bounces: u32,
-    wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
-) -> PathStart {
-    path_case_with(rng, room, bounces, 1e-4, grazing_seed, wanted)
-}
-
-/// Returns a seed that makes a matte first surface scatter almost along itself, at a cosine between
-/// 2.4e-4 and 2.8e-3. Only about one in 120,000 seeds does.
-fn grazing_seed(rng: &mut Rng) -> u32 {
-    let start = rng.integer(0, 1 << 30);
-    let is_grazing = |seed: &u32| {
-        let numbers = Sampler::new((*seed).into(), UVec2::ZERO, 0).numbers(0);
-        numbers.scatter.x > 1.0 - 8e-6
-    };
-    (start..).find(is_grazing).unwrap_or(start)
-}
-
-/// Returns a case with at least this margin. `seed` returns the seed of the random numbers.
-#[track_caller]
-fn path_case_with(
-    rng: &mut Rng,
-    room: &Room,
-    bounces: u32,
-    margin: f64,
-    seed: impl Fn(&mut Rng) -> u32,
-    wanted: impl Fn(&Ray64, &[Numbers64], DVec3) -> bool,
-) -> PathStart {
-    rng.retry(|rng| {
-        let ray = random_ray(rng, room);
-        let ray64 = Ray64::from(&ray);
-        let seed = seed(rng);
-        let call = PathStart { ray, seed, bounces };
-        let radiance = path_light(room, &call);
-        let hit = room.hit(&ray64, None);
-        let is_clear = hit.margin > self::margin(room) && radiance.margin > margin;
-        let is_wanted = is_clear && wanted(&ray64, &numbers_of_path(&call), radiance.value);
-        is_wanted.then_some(call)
-    })
-}
-
-/// Returns the answer to a call of `radiance`.
-pub(super) fn path_light(room: &Room, call: &PathStart) -> WithMargin<DVec3> {
-    transport::radiance(room, &Ray64::from(&call.ray), &numbers_of_path(call))
-}
-
-/// Returns whether a call's answer keeps the margin that the room requires.
-pub(super) fn is_clear_path(room: &Room, call: &PathStart) -> bool {
-    let hit = room.hit(&Ray64::from(&call.ray), None);
-    hit.margin.min(path_light(room, call).margin) > margin(room)
-}
-
 /// Returns the room with matte surfaces whose albedo is multiplied by a factor.
 pub(super) fn repainted(room: &Room, factor: f64) -> Room {
-    let quads = room.quads().iter().map(|quad| {
-        let material = match *quad.material() {
-            Material64::Lambertian { albedo } => Material64::Lambertian {
-                albedo: factor * albedo,
-            },
-            other @ (Material64::Mirror { .. }
-            | Material64::Glass { .. }
-            | Material64::Emitter { .. }) => other,
-        };
-        let shape = quad.shape();
-        Quad::new(shape.corner, shape.edges, material)
-    });
-    Room::new(quads.collect(), room.sources().environment.clone())
+    changed(room, |quad| {
+        let mut material = *quad.material();
+        if let Material64::Lambertian { albedo } = &mut material {
+            *albedo *= factor;
+        }
+        Quad::new(quad.shape().corner, quad.shape().edges, material)
+    })
 }
 
 /// Returns the room with a different size and position.
 pub(super) fn moved(room: &Room, factor: f64, shift: DVec3) -> Room {
-    let quads = room.quads().iter().map(|quad| {
+    changed(room, |quad| {
         let shape = quad.shape();
         let edges = shape.edges.map(|edge| factor * edge);
         Quad::new(factor * shape.corner + shift, edges, *quad.material())
-    });
-    Room::new(quads.collect(), room.sources().environment.clone())
+    })
+}
+
+/// Returns the room with each quad replaced.
+fn changed(room: &Room, change: impl Fn(&Quad) -> Quad) -> Room {
+    let quads = room.quads().iter().map(change).collect();
+    Room::new(quads, room.sources().environment.clone())
 }
 
 /// Returns the margin that calls in a room must have. Margins are relative to the largest coordinate,
 /// so in a room that is far from the origin, all are small.
-fn margin(room: &Room) -> f64 {
+pub(super) fn margin(room: &Room) -> f64 {
     MARGIN / remoteness(room)
 }
 
@@ -462,7 +246,7 @@ fn remoteness(room: &Room) -> f64 {
 }
 
 /// Returns a ray from a random point near the middle of a room in a random direction.
-fn random_ray(rng: &mut Rng, room: &Room) -> Ray {
+pub(super) fn random_ray(rng: &mut Rng, room: &Room) -> Ray {
     let (center, half) = room.extent();
     let origin = center + half * rng.point(0.5);
     Ray::new(origin.as_vec3(), rng.direction().as_vec3())

@@ -4,7 +4,6 @@ use glam::DVec3;
 use judging::drawing_data::{PathHit, PathStep};
 
 use super::Numbers64;
-use super::quad::Material64;
 use super::room::{Room, Surface64};
 use super::transport::{direct, ray, scatter, survival};
 use crate::oracle::Ray64;
@@ -42,11 +41,11 @@ pub fn path_steps(room: &Room, start: &Ray64, numbers: &[Numbers64]) -> Vec<Path
             surface.emitted
         };
         let Some(numbers) = numbers.get(bounce) else {
-            step(kind(&surface), surface.position, emitted);
+            step(surface.kind(), surface.position, emitted);
             break;
         };
         let direct = direct(room, &surface, numbers).value;
-        step(kind(&surface), surface.position, emitted + direct);
+        step(surface.kind(), surface.position, emitted + direct);
         let Some(scattered) = scatter(&surface, numbers) else {
             break;
         };
@@ -63,13 +62,4 @@ pub fn path_steps(room: &Room, start: &Ray64, numbers: &[Numbers64]) -> Vec<Path
         from = Some(surface);
     }
     steps
-}
-
-fn kind(surface: &Surface64) -> PathHit {
-    match surface.material {
-        Material64::Lambertian { .. } => PathHit::Matte,
-        Material64::Mirror { .. } => PathHit::Mirror,
-        Material64::Glass { .. } => PathHit::Glass,
-        Material64::Emitter { .. } => PathHit::Light,
-    }
 }

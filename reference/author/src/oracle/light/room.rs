@@ -1,6 +1,7 @@
 //! Scenes made of parallelograms.
 
 use glam::DVec3;
+use judging::drawing_data::PathHit;
 
 use super::WithMargin;
 use super::flat_shape::PlaneHit;
@@ -37,6 +38,18 @@ pub struct Surface64 {
     pub frame: Frame64,
     /// The index of the quad.
     quad: usize,
+}
+
+impl Surface64 {
+    /// Returns the kind of the surface.
+    pub fn kind(&self) -> PathHit {
+        match self.material {
+            Material64::Lambertian { .. } => PathHit::Matte,
+            Material64::Mirror { .. } => PathHit::Mirror,
+            Material64::Glass { .. } => PathHit::Glass,
+            Material64::Emitter { .. } => PathHit::Light,
+        }
+    }
 }
 
 impl Room {

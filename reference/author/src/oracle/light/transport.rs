@@ -258,7 +258,7 @@ pub fn next_surface(room: &Room, surface: &Surface64, numbers: &Numbers64) -> Op
 }
 
 /// Returns the ray from a point in a direction.
-pub(super) fn ray(origin: DVec3, dir: DVec3) -> Ray64 {
+pub fn ray(origin: DVec3, dir: DVec3) -> Ray64 {
     Ray64 {
         origin,
         dir,

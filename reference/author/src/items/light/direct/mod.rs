@@ -1,37 +1,40 @@
 //! The items about direct light.
 
+mod calls;
 mod map;
 
 use std::ops::Range;
 
 use glam::{DVec3, dvec3};
+use judging::drawing_data::PathHit;
 use judging::exam::ExamQuestion;
 use judging::symptom::Symptom;
 use protocol::Table;
 use protocol::light::LightQuestion;
 use protocol::light::transport::DirectSample;
 
+use self::calls::{ANYWHERE, DirectCase, FAR, GRAZING, LOW, direct_calls};
 use super::groups::{DIRECT, LIGHT_DENSITIES, LIGHT_SAMPLES, MATTE, MATTE_SAMPLES};
 use super::rooms::{
-    DARK, HALF, beside_a_light, both_grazing_case, direct_case, direct_light, emitter, far_case,
-    grazing_case, is_clear_direct, is_lit, least_cosine, matte, moved, panel, repainted, sky,
-    subject, tilted, walls, with_shining_ceiling,
+    DARK, HALF, beside_a_light, closed_room, emitter, matte, moved, panel, repainted, sky, subject,
+    tilted, walls, with_shining_ceiling,
 };
 use super::{color, colors, table, with_changes};
 use crate::domains::light::fields::saturation;
-use crate::items::{AuthoredTask, Declaration, Group};
-use crate::oracle::Ray64;
+use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::light_sources::Environment64;
 use crate::oracle::light::quad::{Material64, Quad};
 use crate::oracle::light::room::{Room, Surface64};
 use crate::oracle::light::specular::reflect;
-use crate::oracle::light::{Numbers64, lambertian, transport as oracle};
 use crate::seed::Rng;
 
 /// The number of calls of each kind in a question.
 const CALLS: usize = 10;
-/// The items of other tasks that direct light needs.
-const NEEDS: &[Group] = &[MATTE, MATTE_SAMPLES, LIGHT_SAMPLES, LIGHT_DENSITIES];
+/// The default fields of an item about direct light.
+const DIRECT_LIGHT: Declaration = Declaration {
+    needs: &[MATTE, MATTE_SAMPLES, LIGHT_SAMPLES, LIGHT_DENSITIES],
+    ..Declaration::in_group(DIRECT)
+};
 
 /// The task `direct`.
 pub static TASK: AuthoredTask = AuthoredTask {
@@ -64,28 +67,23 @@ const SMALL_LIGHT: Declaration = Declaration {
         "[`World::light_pdf`] returns the light pdf.",
     ],
     questions: |rng| {
-        let mut questions = rooms(
-            rng,
-            |rng| {
-                let mut quads = walls(HALF, || matte(rng));
-                let center = rng.point(1.2);
-                let size = rng.uniform(0.1, 0.2);
-                let material = emitter(rng);
-                quads.push(tilted(rng, center, size, material));
-                Room::new(quads, DARK)
-            },
-            LIT_AND_DARK,
-        );
+        let mut questions = rooms(rng, LIT_AND_DARK, |rng| {
+            let mut quads = walls(rng.list(6, matte));
+            let center = rng.point(1.2);
+            let size = rng.uniform(0.1, 0.2);
+            let material = emitter(rng);
+            quads.push(tilted(rng, center, size, material));
+            Room::new(quads, DARK)
+        });
         // Farther away, the light looks even smaller, so its density is very high.
         for distances in [150.0..300.0, 400.0..750.0] {
-            let far = below_a_far_light(rng, distances);
-            let case = |_| far_case(rng, &far, |_, _, light| is_lit(light));
-            questions.push(question(&far, (0..CALLS).map(case).collect()));
+            let room = below_a_far_light(rng, distances);
+            let calls = direct_calls(rng, &room, FAR, CALLS, |case| case.is_lit());
+            questions.push(question(&room, calls));
         }
         questions
     },
-    needs: NEEDS,
-    ..Declaration::in_group(DIRECT)
+    ..DIRECT_LIGHT
 };
 
 const SKY: Declaration = Declaration {
@@ -103,30 +101,25 @@ const SKY: Declaration = Declaration {
          environment.",
     ],
     questions: |rng| {
-        let mut questions = rooms(
-            rng,
-            |rng| {
-                let mut quads = open(rng);
-                let center = rng.point(1.0);
-                let material = matte(rng);
-                quads.push(tilted(rng, center, 1.5, material));
-                let sky = sky(rng);
-                Room::new(quads, sky)
-            },
-            LIT_AND_DARK,
-        );
+        let mut questions = rooms(rng, LIT_AND_DARK, |rng| {
+            let mut quads = open(rng);
+            let center = rng.point(1.0);
+            let material = matte(rng);
+            quads.push(tilted(rng, center, 1.5, material));
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        });
         // Almost along a floor, evaluate and the pdf are tiny, but their quotient isn't.
         let floor = open(rng).swap_remove(0);
         let material = matte(rng);
         let above = tilted(rng, 1.5 * DVec3::Y, 0.3, material);
         let sky = Environment64::Constant(color(rng) * rng.log_uniform(1e-3, 1e4));
-        let floor = Room::new(vec![floor, above], sky);
-        let case = |_| grazing_case(rng, &floor, |_, _, light| is_lit(light));
-        questions.push(question(&floor, (0..CALLS / 2).map(case).collect()));
+        let room = Room::new(vec![floor, above], sky);
+        let calls = direct_calls(rng, &room, GRAZING, CALLS / 2, |case| case.is_lit());
+        questions.push(question(&room, calls));
         questions
     },
-    needs: NEEDS,
-    ..Declaration::in_group(DIRECT)
+    ..DIRECT_LIGHT
 };
 
 const BOTH: Declaration = Declaration {
@@ -144,9 +137,7 @@ const BOTH: Declaration = Declaration {
          was sampled.",
     ],
     questions: |rng| {
-        let mut questions = rooms(rng, with_shining_ceiling, |rng, room| {
-            lit(rng, room, 2 * CALLS)
-        });
+        let mut questions = rooms(rng, &[(2 * CALLS, |it| it.is_lit())], with_shining_ceiling);
         // Light can be very bright or very dim, and walls can be very dark.
         let saturation = saturation(rng);
         let extremes = [
@@ -156,27 +147,26 @@ const BOTH: Declaration = Declaration {
             (1.0, saturation),
         ];
         questions.extend(extremes.map(|(brightness, albedo)| {
-            let mut quads = walls(HALF, || Material64::Lambertian {
+            let mut quads = walls(rng.list(6, |rng| Material64::Lambertian {
                 albedo: albedo * color(rng),
-            });
+            }));
             let radiance = brightness * color(rng);
             let ceiling = Material64::Emitter { radiance };
             quads[3] = panel(HALF.y * DVec3::Y, 1, -1.0, HALF, ceiling);
             let room = Room::new(quads, DARK);
-            let cases = lit(rng, &room, CALLS);
-            question(&room, cases)
+            question(&room, lit(rng, &room, CALLS))
         }));
         // Almost along a floor, both terms are small, but neither is zero, even if it is dark.
         let low = beside_a_light(rng, DARK);
-        for low in [repainted(&low, 1e-3), low] {
-            let case = |_| {
-                both_grazing_case(rng, &low, |surface, numbers, light| {
-                    is_lit(light)
-                        && surface.position.x < 4.0
-                        && scatters_to_a_light(&low, surface, numbers)
-                })
-            };
-            questions.push(question(&low, (0..CALLS).map(case).collect()));
+        for room in [repainted(&low, 1e-3), low] {
+            let calls = direct_calls(rng, &room, LOW, CALLS, |case| {
+                let is_low = |direction: DVec3| (4e-4..9e-4).contains(&direction.z);
+                case.local_sample().is_some_and(is_low)
+                    && case.is_lit()
+                    && case.surface.position.x < 4.0
+                    && case.scatters_to_a_light()
+            });
+            questions.push(question(&room, calls));
         }
         // Each question begins with the call that the previous one ends with.
         let room = with_shining_ceiling(rng);
@@ -187,8 +177,7 @@ const BOTH: Declaration = Declaration {
         }
         questions
     },
-    needs: NEEDS,
-    ..Declaration::in_group(DIRECT)
+    ..DIRECT_LIGHT
 };
 
 const BLOCKED: Declaration = Declaration {
@@ -207,40 +196,20 @@ const BLOCKED: Declaration = Declaration {
         // In a tiny room, things are close together.
         let tiny = (1e-4, DVec3::ZERO);
         let places = [vec![tiny], places(rng)].concat();
-        rooms_at(rng, &places, with_screens, |rng, room| {
-            let mut cases = lit(rng, room, CALLS);
-            cases.extend((0..CALLS).map(|_| {
-                direct_case(rng, room, |surface, numbers, _| {
-                    is_like_matte(room, surface, numbers)
-                })
-            }));
+        let kinds: &[Kind] = &[
+            (CALLS, |it| it.is_lit()),
+            (CALLS, is_like_matte),
             // The direction toward a light is blocked, but scattering finds a light.
-            cases.extend((0..CALLS / 2).map(|_| {
-                direct_case(rng, room, |surface, numbers, light| {
-                    is_lit(light) && blocker(room, surface, numbers).is_some()
-                })
-            }));
-            let kinds: [fn(&Surface64) -> bool; 4] = [
-                |it| matches!(it.material, Material64::Lambertian { .. }),
-                |it| matches!(it.material, Material64::Mirror { .. }),
-                |it| matches!(it.material, Material64::Glass { .. }),
-                // The back of another light.
-                |it| matches!(it.material, Material64::Emitter { .. }),
-            ];
-            for is_kind in kinds {
-                cases.extend((0..CALLS / 2).map(|_| {
-                    direct_case(rng, room, |surface, numbers, _| {
-                        let blocker = blocker(room, surface, numbers);
-                        blocker.as_ref().is_some_and(is_kind)
-                            && is_like_matte(room, surface, numbers)
-                    })
-                }));
-            }
-            cases
-        })
+            (CALLS / 2, |it| it.is_lit() && it.blocker().is_some()),
+            (CALLS / 2, |it| is_blocked_by(it, PathHit::Matte)),
+            (CALLS / 2, |it| is_blocked_by(it, PathHit::Mirror)),
+            (CALLS / 2, |it| is_blocked_by(it, PathHit::Glass)),
+            // The back of another light.
+            (CALLS / 2, |it| is_blocked_by(it, PathHit::Light)),
+        ];
+        rooms_at(rng, &places, kinds, with_screens)
     },
-    needs: NEEDS,
-    ..Declaration::in_group(DIRECT)
+    ..DIRECT_LIGHT
 };
 
 const TURNED: Declaration = Declaration {
@@ -253,53 +222,40 @@ const TURNED: Declaration = Declaration {
     section: "light/direct.md#evaluate-in-the-frame-of-the-surface",
     tests: &["The result is the sum, over both directions, of evaluate × radiance / …"],
     questions: |rng| {
-        let mut questions = rooms(
-            rng,
-            |rng| {
-                let mut quads: Vec<Quad> = Vec::new();
-                for _ in 0..5 {
-                    let center = rng.point(2.0);
-                    let material = matte(rng);
-                    quads.push(tilted(rng, center, 1.2, material));
-                }
-                for x in [-2.6, 2.6] {
-                    let light = emitter(rng);
-                    quads.push(panel(dvec3(x, 3.5, 0.0), 1, -1.0, HALF, light));
-                }
-                let sky = sky(rng);
-                Room::new(quads, sky)
-            },
-            |rng, room| {
-                let mut cases = LIT_AND_DARK(rng, room);
-                cases.extend((0..CALLS / 2).map(|_| {
-                    direct_case(rng, room, |surface, _, light| {
-                        let most = (2.0 * least_cosine(room)).max(0.049);
-                        is_lit(light) && surface.out.z < most
-                    })
-                }));
-                // The light that was picked is below the surface, but scattering finds the other.
-                cases.extend((0..CALLS / 2).map(|_| {
-                    direct_case(rng, room, |surface, numbers, _| {
-                        let sample = room.sources().sample(surface.position, numbers).value;
-                        let is_below = |direction| surface.frame.to_local(direction).z < 0.0;
-                        sample.is_some_and(is_below) && scatters_to_a_light(room, surface, numbers)
-                    })
-                }));
-                cases
-            },
-        );
+        let kinds: &[Kind] = &[
+            (CALLS, |it| it.is_lit()),
+            (CALLS, |_| true),
+            (CALLS / 2, |it| it.is_lit() && it.is_grazed()),
+            // The light that was picked is below the surface, but scattering finds the other.
+            (CALLS / 2, |it| {
+                let is_below = |direction: DVec3| direction.z < 0.0;
+                it.local_sample().is_some_and(is_below) && it.scatters_to_a_light()
+            }),
+        ];
+        let mut questions = rooms(rng, kinds, |rng| {
+            let mut quads = rng.list(5, |rng| {
+                let center = rng.point(2.0);
+                let material = matte(rng);
+                tilted(rng, center, 1.2, material)
+            });
+            for x in [-2.6, 2.6] {
+                let light = emitter(rng);
+                quads.push(panel(dvec3(x, 3.5, 0.0), 1, -1.0, HALF, light));
+            }
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        });
         // Close above a large floor, rays can hit it almost along it.
-        let floor = below_a_close_light(rng);
-        let cases = [0.0199, 0.0199, 0.0199, 0.0049, 0.0049, 0.0049].map(|most| {
-            direct_case(rng, &floor, |surface, _, light| {
-                is_lit(light) && surface.out.z < most
+        let room = below_a_close_light(rng);
+        let calls = [0.0199, 0.0049].map(|most| {
+            direct_calls(rng, &room, ANYWHERE, 3, |case| {
+                case.is_lit() && case.surface.out.z < most
             })
         });
-        questions.push(question(&floor, cases.into()));
+        questions.push(question(&room, calls.concat()));
         questions
     },
-    needs: NEEDS,
-    ..Declaration::in_group(DIRECT)
+    ..DIRECT_LIGHT
 };
 
 const NO_SAMPLE: Declaration = Declaration {
@@ -311,46 +267,30 @@ const NO_SAMPLE: Declaration = Declaration {
     section: "light/direct.md#without-a-light-sample",
     tests: &["If it returns `None`, the first term is zero."],
     questions: |rng| {
-        rooms(
-            rng,
-            |rng| {
-                // One light faces away from nearly everything, and one faces the floor.
-                let mut quads = open(rng);
-                let half = dvec3(0.7, 0.0, 0.7);
-                let brightness = rng.log_uniform(0.5, 50.0);
-                let mut light = || Material64::Emitter {
-                    radiance: color(rng) * brightness,
-                };
-                quads.push(panel(dvec3(0.2, -1.0, 0.3), 1, 1.0, half, light()));
-                quads.push(panel(dvec3(-0.4, 1.0, 0.0), 1, -1.0, 2.0 * half, light()));
-                let sky = sky(rng);
-                Room::new(quads, sky)
-            },
-            |rng, room| {
-                let is_sampled = |surface: &Surface64, numbers: &Numbers64| {
-                    let sample = room.sources().sample(surface.position, numbers);
-                    sample.value.is_some()
-                };
-                let mut cases = LIT_AND_DARK(rng, room);
-                cases.extend((0..CALLS).map(|_| {
-                    direct_case(rng, room, |surface, numbers, light| {
-                        is_lit(light) && !is_sampled(surface, numbers)
-                    })
-                }));
-                // The picked light faces away, but scattering finds the other one.
-                cases.extend((0..CALLS).map(|_| {
-                    direct_case(rng, room, |surface, numbers, light| {
-                        is_lit(light)
-                            && scatters_to_a_light(room, surface, numbers)
-                            && !is_sampled(surface, numbers)
-                    })
-                }));
-                cases
-            },
-        )
+        let kinds: &[Kind] = &[
+            (CALLS, |it| it.is_lit()),
+            (CALLS, |_| true),
+            (CALLS, |it| it.is_lit() && it.sample().is_none()),
+            // The picked light faces away, but scattering finds the other one.
+            (CALLS, |it| {
+                it.is_lit() && it.scatters_to_a_light() && it.sample().is_none()
+            }),
+        ];
+        rooms(rng, kinds, |rng| {
+            // One light faces away from nearly everything, and one faces the floor.
+            let mut quads = open(rng);
+            let half = dvec3(0.7, 0.0, 0.7);
+            let brightness = rng.log_uniform(0.5, 50.0);
+            let mut light = || Material64::Emitter {
+                radiance: color(rng) * brightness,
+            };
+            quads.push(panel(dvec3(0.2, -1.0, 0.3), 1, 1.0, half, light()));
+            quads.push(panel(dvec3(-0.4, 1.0, 0.0), 1, -1.0, 2.0 * half, light()));
+            let sky = sky(rng);
+            Room::new(quads, sky)
+        })
     },
-    needs: NEEDS,
-    ..Declaration::in_group(DIRECT)
+    ..DIRECT_LIGHT
 };
 
 const OTHER_MATERIALS: Declaration = Declaration {
@@ -366,133 +306,61 @@ const OTHER_MATERIALS: Declaration = Declaration {
          one that they reflect or refract to.",
     ],
     questions: |rng| {
-        rooms(
-            rng,
-            |rng| {
-                let mirror = Material64::Mirror {
-                    reflectance: color(rng),
-                };
-                let ior = rng.uniform(1.3, 1.8);
-                let mut materials = vec![
-                    mirror,
-                    Material64::Glass { ior },
-                    matte(rng),
-                    matte(rng),
-                    mirror,
-                    Material64::Glass { ior },
-                ];
-                let mut quads = walls(HALF, || materials.pop().expect("there are six walls"));
-                let light = emitter(rng);
-                quads.push(panel(
-                    dvec3(0.0, 1.8, 0.0),
-                    1,
-                    -1.0,
-                    dvec3(1.0, 0.0, 1.0),
-                    light,
-                ));
-                Room::new(quads, DARK)
-            },
-            |rng, room| {
-                let is_matte = |material| matches!(material, Material64::Lambertian { .. });
-                let mut cases: Vec<DirectSample> = (0..CALLS)
-                    .map(|_| {
-                        direct_case(rng, room, |surface, _, light| {
-                            is_matte(surface.material) && is_lit(light)
-                        })
-                    })
-                    .collect();
-                // A matte surface would be lit at the same place.
-                let would_be_lit = |surface: &Surface64, numbers: &Numbers64| {
-                    let mut matte = *surface;
-                    matte.material = Material64::Lambertian { albedo: DVec3::ONE };
-                    is_lit(oracle::direct(room, &matte, numbers).value)
-                };
-                cases.extend((0..CALLS).map(|_| {
-                    direct_case(rng, room, |surface, numbers, _| {
-                        !is_matte(surface.material) && would_be_lit(surface, numbers)
-                    })
-                }));
-                // These show a light in their reflection.
-                cases.extend((0..CALLS).map(|_| {
-                    direct_case(rng, room, |surface, _, _| {
-                        let direction = surface.frame.to_world(reflect(surface.out));
-                        let shown = oracle::emitted(room, surface, direction).value;
-                        !is_matte(surface.material) && is_lit(shown)
-                    })
-                }));
-                cases
-            },
-        )
+        let kinds: &[Kind] = &[
+            (CALLS, |it| it.is_matte() && it.is_lit()),
+            // A matte surface would be lit at the same place.
+            (CALLS, |it| !it.is_matte() && it.would_be_lit()),
+            // These show a light in their reflection.
+            (CALLS, |it| {
+                let reflected = it.surface.frame.to_world(reflect(it.surface.out));
+                !it.is_matte() && it.is_lit_from(reflected)
+            }),
+        ];
+        rooms(rng, kinds, |rng| {
+            let mirror = Material64::Mirror {
+                reflectance: color(rng),
+            };
+            let ior = rng.uniform(1.3, 1.8);
+            let glass = Material64::Glass { ior };
+            let [first, second] = [matte(rng), matte(rng)];
+            closed_room(rng, [glass, mirror, second, first, glass, mirror])
+        })
     },
-    needs: NEEDS,
-    ..Declaration::in_group(DIRECT)
+    ..DIRECT_LIGHT
 };
-
-/// Returns the direction, in the world, that a surface samples for its direct light.
-fn scattered(surface: &Surface64, numbers: &Numbers64) -> DVec3 {
-    let direction = lambertian::sample_cosine_hemisphere(numbers.direct);
-    surface.frame.to_world(direction)
-}
-
-/// Returns whether the direction that a surface samples for its direct light leads to a light.
-fn scatters_to_a_light(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool {
-    let direction = scattered(surface, numbers);
-    let light = oracle::emitted(room, surface, direction).value;
-    is_lit(light) && room.sources().pdf(surface.position, direction).value > 0.0
-}
-
-/// Returns what is in the way of the direction toward a light, if that direction is above the
-/// surface.
-fn blocker(room: &Room, surface: &Surface64, numbers: &Numbers64) -> Option<Surface64> {
-    let direction = room.sources().sample(surface.position, numbers).value?;
-    let is_above = surface.frame.to_local(direction).z > 0.0;
-    let is_dark = !is_lit(oracle::emitted(room, surface, direction).value);
-    let seen = seen(room, surface, direction);
-    seen.filter(|_| is_above && is_dark)
-}
-
-/// Returns what is seen from a surface in a direction.
-fn seen(room: &Room, surface: &Surface64, direction: DVec3) -> Option<Surface64> {
-    let ray = Ray64 {
-        origin: surface.position,
-        dir: direction,
-        min: 0.0,
-        max: f64::INFINITY,
-    };
-    room.hit(&ray, Some(surface)).value
-}
 
 /// Returns whether a surface is matte, or would get no light if it were. The other surfaces are
 /// those that [`OTHER_MATERIALS`] is about.
-fn is_like_matte(room: &Room, surface: &Surface64, numbers: &Numbers64) -> bool {
-    let mut matte = *surface;
-    matte.material = Material64::Lambertian { albedo: DVec3::ONE };
-    matches!(surface.material, Material64::Lambertian { .. })
-        || !is_lit(oracle::direct(room, &matte, numbers).value)
+fn is_like_matte(case: &DirectCase) -> bool {
+    case.is_matte() || !case.would_be_lit()
 }
+
+/// Returns whether a surface of this kind is in the way of the direction toward a light.
+fn is_blocked_by(case: &DirectCase, kind: PathHit) -> bool {
+    let is_kind = |blocker: Surface64| blocker.kind() == kind;
+    case.blocker().is_some_and(is_kind) && is_like_matte(case)
+}
+
+/// The number of calls of some kind, and the condition that is true for them.
+type Kind = (usize, fn(&DirectCase) -> bool);
+
+/// Calls that get light, and as many that get none if the room has any.
+const LIT_AND_DARK: &[Kind] = &[(CALLS, |it| it.is_lit()), (CALLS, |_| true)];
 
 /// Returns calls that get light.
 fn lit(rng: &mut Rng, room: &Room, count: usize) -> Vec<DirectSample> {
-    let case = |_| direct_case(rng, room, |_, _, light| is_lit(light));
-    (0..count).map(case).collect()
+    direct_calls(rng, room, ANYWHERE, count, |case| case.is_lit())
 }
-
-/// Cases that get light, and as many that get none if the room has any.
-const LIT_AND_DARK: fn(&mut Rng, &Room) -> Vec<DirectSample> = |rng, room| {
-    let mut cases = lit(rng, room, CALLS);
-    cases.extend((0..CALLS).map(|_| direct_case(rng, room, |_, _, _| true)));
-    cases
-};
 
 /// Returns a floor and two walls.
 fn open(rng: &mut Rng) -> Vec<Quad> {
-    let all = walls(HALF, || matte(rng));
+    let all = walls(rng.list(6, matte));
     vec![all[2], all[0], all[4]]
 }
 
 /// Returns a room with two lights, and things of different materials below them.
 fn with_screens(rng: &mut Rng) -> Room {
-    let mut quads = walls(HALF, || matte(rng));
+    let mut quads = walls(rng.list(6, matte));
     let half = dvec3(0.6, 0.0, 0.6);
     let light = emitter(rng);
     quads.push(panel(dvec3(0.0, 1.9, 0.0), 1, -1.0, half, light));
@@ -534,14 +402,10 @@ fn below_a_close_light(rng: &mut Rng) -> Room {
     Room::new(quads, DARK)
 }
 
-/// Returns one question for each of two rooms.
-fn rooms(
-    rng: &mut Rng,
-    room: impl Fn(&mut Rng) -> Room,
-    cases: impl Fn(&mut Rng, &Room) -> Vec<DirectSample>,
-) -> Vec<ExamQuestion> {
+/// Returns one question about calls of these kinds for each of two rooms.
+fn rooms(rng: &mut Rng, kinds: &[Kind], room: impl Fn(&mut Rng) -> Room) -> Vec<ExamQuestion> {
     let places = places(rng);
-    rooms_at(rng, &places, room, cases)
+    rooms_at(rng, &places, kinds, room)
 }
 
 /// Returns the scales and positions of two rooms. The first is small or far from the origin, and the
@@ -561,22 +425,33 @@ fn places(rng: &mut Rng) -> Vec<(f64, DVec3)> {
 fn rooms_at(
     rng: &mut Rng,
     places: &[(f64, DVec3)],
+    kinds: &[Kind],
     room: impl Fn(&mut Rng) -> Room,
-    cases: impl Fn(&mut Rng, &Room) -> Vec<DirectSample>,
 ) -> Vec<ExamQuestion> {
     let of_room = |&(scale, shift): &(f64, DVec3)| {
         let room = moved(&room(rng), scale, shift);
-        let cases = cases(rng, &room);
-        question(&room, rng.shuffled(cases))
+        let calls = kinds
+            .iter()
+            .flat_map(|&(count, wanted)| direct_calls(rng, &room, ANYWHERE, count, wanted));
+        let calls = calls.collect();
+        question(&room, rng.shuffled(calls))
     };
     places.iter().map(of_room).collect()
 }
 
 fn question(room: &Room, calls: Vec<DirectSample>) -> ExamQuestion {
+    let case = |call: &DirectSample| DirectCase::new(room, call);
     let ask = |calls: Vec<DirectSample>| {
-        let rows = colors(calls.iter().map(|call| direct_light(room, call)));
+        let light = |call| {
+            case(call)
+                .expect("the ray of every call hits a surface")
+                .light
+        };
+        let rows = colors(calls.iter().map(light));
         let question = LightQuestion::Direct(Table::of_list(subject(room), calls));
         table(question, &["value"], rows)
     };
-    with_changes(calls, ask, |call| is_clear_direct(room, call))
+    with_changes(calls, ask, |call| {
+        case(call).is_some_and(|case| case.is_clear(None))
+    })
 }

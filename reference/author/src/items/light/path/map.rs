@@ -2,19 +2,16 @@
 
 use glam::{DVec3, dvec3};
 use judging::symptom::Symptom;
-use protocol::light::transport::PathStart;
 
 use super::super::color;
 use super::super::groups::{
     DIRECT, DIRECT_MAPS, LIGHT_DENSITIES, LIGHT_SAMPLES, MAPS, MATTE, MATTE_SAMPLES, SPECULAR,
 };
-use super::super::rooms::{block, is_lit, path_case, under_a_map};
-use super::{first_is_matte, is_glass, is_light_from_behind, is_mirror, rooms};
+use super::super::rooms::{block, is_lit, under_a_map};
+use super::{Kind, is_glass, is_light_from_behind, is_lit_matte, is_mirror, rooms};
 use crate::items::Declaration;
-use crate::oracle::light::Numbers64;
 use crate::oracle::light::quad::Material64;
-use crate::oracle::light::room::{Room, Surface64};
-use crate::oracle::light::transport::next_surface;
+use crate::oracle::light::room::Room;
 use crate::seed::Rng;
 
 /// The number of calls of each kind in a question.
@@ -28,58 +25,39 @@ pub(super) const MAP: Declaration = Declaration {
     look_fits: &[Symptom::of("value")],
     section: "light/paths.md#a-ray-that-hits-nothing",
     tests: &[
-        "The light that a surface emits, or the environment if the ray hits nothing, is counted \
-         only if …",
+        "The light that a surface emits, …",
         "After a matte surface, `direct` has already counted it.",
     ],
     questions: |rng| {
-        let questions = [2, 0].into_iter().flat_map(|lights| {
-            rooms(
-                rng,
-                |rng| {
-                    let reflectance = color(rng);
-                    let mirror = Material64::Mirror { reflectance };
-                    let room = under_a_map(rng, mirror, lights);
-                    let mut quads = room.quads().to_vec();
-                    let glass = Material64::Glass { ior: 1.5 };
-                    quads.extend(block(dvec3(1.3, -1.0, 0.9), dvec3(0.6, 0.6, 0.6), glass));
-                    Room::new(quads, room.sources().environment.clone())
-                },
-                |rng, room| {
-                    let escapes = |first: Option<&Surface64>, numbers: &[Numbers64]| {
-                        let next = |first| next_surface(room, first, &numbers[0]);
-                        first.is_some_and(|first| next(first).is_none())
-                    };
-                    let mut cases = cases(rng, room, 1, |surface, _, light| {
-                        surface.is_none() && is_lit(light)
-                    });
-                    cases.extend(self::cases(rng, room, 3, first_is_matte));
-                    // A mirror shows the map.
-                    cases.extend(self::cases(rng, room, 2, |surface, numbers, light| {
-                        is_mirror(surface) && escapes(surface, numbers) && is_lit(light)
-                    }));
-                    // After a matte surface, the map isn't counted again.
-                    cases.extend(self::cases(rng, room, 2, |surface, numbers, light| {
-                        first_is_matte(surface, numbers, light) && escapes(surface, numbers)
-                    }));
-                    // Glass shows it, too.
-                    cases.extend(self::cases(rng, room, 2, |surface, _, light| {
-                        surface.is_some_and(is_glass) && is_lit(light)
-                    }));
-                    if lights > 0 {
-                        let sides: [fn(&Surface64) -> bool; 2] =
-                            [|it| is_lit(it.emitted), is_light_from_behind];
-                        for is_seen in sides {
-                            cases.extend(self::cases(rng, room, 1, |surface, _, _| {
-                                surface.is_some_and(is_seen)
-                            }));
-                        }
-                    }
-                    cases
-                },
-            )
-        });
-        questions.collect()
+        let kinds: &[Kind] = &[
+            (1, |it| it.first.is_none() && it.is_lit()),
+            (3, is_lit_matte),
+            // A mirror shows the map.
+            (2, |it| {
+                it.starts_at(is_mirror) && it.second().is_none() && it.is_lit()
+            }),
+            // After a matte surface, the map isn't counted again.
+            (2, |it| is_lit_matte(it) && it.second().is_none()),
+            // Glass shows it, too.
+            (2, |it| it.starts_at(is_glass) && it.is_lit()),
+        ];
+        let at_lights: &[Kind] = &[
+            (1, |it| it.starts_at(|first| is_lit(first.emitted))),
+            (1, |it| it.starts_at(is_light_from_behind)),
+        ];
+        let room = |rng: &mut Rng, lights: usize| {
+            let reflectance = color(rng);
+            let mirror = Material64::Mirror { reflectance };
+            let room = under_a_map(rng, mirror, lights);
+            let mut quads = room.quads().to_vec();
+            let glass = Material64::Glass { ior: 1.5 };
+            quads.extend(block(dvec3(1.3, -1.0, 0.9), DVec3::splat(0.6), glass));
+            Room::new(quads, room.sources().environment.clone())
+        };
+        let with_lights = [kinds, at_lights].concat();
+        let mut questions = rooms(rng, CALLS, &with_lights, |rng| room(rng, 2));
+        questions.extend(rooms(rng, CALLS, kinds, |rng| room(rng, 0)));
+        questions
     },
     needs: &[
         MATTE,
@@ -93,13 +71,3 @@ pub(super) const MAP: Declaration = Declaration {
     ],
     ..Declaration::ALONE
 };
-
-fn cases(
-    rng: &mut Rng,
-    room: &Room,
-    bounces: u32,
-    wanted: impl Fn(Option<&Surface64>, &[Numbers64], DVec3) -> bool,
-) -> Vec<PathStart> {
-    let case = |_| path_case(rng, room, bounces, &wanted);
-    (0..CALLS).map(case).collect()
-}

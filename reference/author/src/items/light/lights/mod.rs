@@ -7,7 +7,9 @@ use judging::exam::ExamQuestion;
 use judging::symptom::{SOME_OR_NONE, Symptom};
 use protocol::Table;
 use protocol::light::LightQuestion;
-use protocol::light::lights::{FlatLight, LightList, LightSample, ListedLight, Toward};
+use protocol::light::lights::{
+    FlatLight, LightList, LightSample, ListedLight, SphericalLight, Toward,
+};
 
 use super::groups::{LIGHT_DENSITIES, LIGHT_SAMPLES};
 use super::{
@@ -19,7 +21,7 @@ use crate::domains::light::lights::{AREA_LIGHT_PDF, LIGHTS_PDF, LIGHTS_SAMPLE};
 use crate::items::{AuthoredTask, Declaration};
 use crate::oracle::light::flat_shape::FlatShape;
 use crate::oracle::light::lights::{FlatLight64, Light64, Lights64};
-use crate::oracle::light::nearest_border;
+use crate::oracle::light::{WithMargin, nearest_border};
 use crate::seed::Rng;
 
 /// The number of calls in each question.
@@ -64,13 +66,12 @@ const DENSITY: Declaration = Declaration {
     questions: |rng| {
         let forms = [RECTANGLES, RECTANGLES].concat();
         one_light(rng, &forms, |rng, light| {
-            let mut calls = toward(rng, light, FRONT, CALLS / 2)?;
-            calls.extend(toward(rng, light, CLOSE, CALLS / 2)?);
+            let mut views = vec![(FRONT, CALLS / 2), (CLOSE, CALLS / 2)];
             let is_within_the_scene = length(light) < FURTHEST / (1.1 * FAR.distance[1]);
             if is_within_the_scene && narrowness(light) < VERY_NARROW {
-                calls.extend(toward(rng, light, FAR, CALLS / 2)?);
+                views.push((FAR, CALLS / 2));
             }
-            Some(calls)
+            toward(rng, light, &views)
         })
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -82,13 +83,10 @@ const TRIANGLE: Declaration = Declaration {
     look: "The given field `area` is right for both shapes, parallelograms and triangles. Do you \
            use it, or do you compute the area yourself?",
     section: "light/lights.md#the-density-of-an-area-light",
-    tests: &[
-        "Returns the probability density, per solid angle, of a direction from a point to the \
-         light if points on the light are sampled uniformly: …",
-    ],
+    tests: &["Returns the probability density, per solid angle, of a direction …"],
     questions: |rng| {
         one_light(rng, TRIANGLES, |rng, light| {
-            toward(rng, light, FRONT, CALLS)
+            toward(rng, light, &[(FRONT, CALLS)])
         })
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -103,10 +101,13 @@ const BEHIND: Declaration = Declaration {
     section: "light/lights.md#the-back-of-a-light-is-dark",
     tests: &["The result is zero if the direction misses the light, and from behind, …"],
     questions: |rng| {
+        let views = [
+            (BACK, CALLS / 2),
+            (EDGE_ON_BACK, CALLS / 4),
+            (FRONT, CALLS / 2),
+        ];
         one_light(rng, EVERY_FORM, |rng, light| {
-            let mut calls = toward(rng, light, BACK, CALLS / 2)?;
-            calls.extend(toward(rng, light, EDGE_ON_BACK, CALLS / 4)?);
-            calls.extend(toward(rng, light, FRONT, CALLS / 2)?);
+            let calls = toward(rng, light, &views)?;
             Some(rng.shuffled(calls))
         })
     },
@@ -126,9 +127,10 @@ const PAST: Declaration = Declaration {
     ],
     questions: |rng| {
         one_light(rng, EVERY_FORM, |rng, light| {
-            let mut calls = toward(rng, light, FRONT, CALLS / 2)?;
-            calls.extend(calls.iter().map(turned).collect::<Vec<Toward>>());
-            calls.extend(past(rng, light));
+            let front = toward(rng, light, &[(FRONT, CALLS / 2)])?;
+            let turned = front.iter().map(turned).collect();
+            let past = rng.retry_list(CALLS, |rng| past_once(rng, light));
+            let calls = [front, turned, past].concat();
             Some(rng.shuffled(calls))
         })
     },
@@ -141,20 +143,17 @@ const GRAZING: Declaration = Declaration {
     look: "The cosine can be very small, so the density can be very large. Do you raise small \
            cosines to a minimum, or limit the density?",
     section: "light/lights.md#the-cosine-divides",
-    tests: &[
-        "Returns the probability density, per solid angle, of a direction from a point to the \
-         light if points on the light are sampled uniformly: …",
-    ],
+    tests: &["Returns the probability density, per solid angle, of a direction …"],
     questions: |rng| {
         let mut questions = one_light(rng, EVERY_FORM, |rng, light| {
-            toward(rng, light, EDGE_ON, CALLS / 2)
+            toward(rng, light, &[(EDGE_ON, CALLS / 2)])
         });
+        let views = [(ALMOST_IN_ITS_PLANE, 2), (ALMOST_IN_ITS_PLANE_BEHIND, 2)];
         questions.extend(every_size(rng).into_iter().map(|size| {
             rng.retry(|rng| {
                 let light = parallel_to_axes(rng, size);
-                let mut calls = toward(rng, &light, ALMOST_IN_ITS_PLANE, 2)?;
-                calls.extend(toward(rng, &light, ALMOST_IN_ITS_PLANE_BEHIND, 2)?);
-                Some(one_light_densities(&light, calls))
+                let calls = toward(rng, &light, &views)?;
+                Some(one_light_densities(light, calls))
             })
         }));
         questions
@@ -180,9 +179,9 @@ const DIRECTION: Declaration = Declaration {
         let sizes = every_size(rng);
         let forms_and_sizes = EVERY_FORM.iter().zip(sizes.into_iter().cycle());
         let questions = forms_and_sizes.map(|(&form, size)| {
-            let light = light(rng, form, size);
-            let samples = samples(rng, &[light], CALLS, Option::is_some);
-            sampled(&[light], samples)
+            let lights = [light(rng, form, size)];
+            let calls = samples(rng, &lights, CALLS, Option::is_some);
+            sampled(&lights, calls, is_clear)
         });
         questions.collect()
     },
@@ -224,7 +223,7 @@ const PICK: Declaration = Declaration {
             calls.extend(past_rounding(rng, &lights));
             calls.extend(samples(rng, &lights, 2 * CALLS, Option::is_some));
             last = calls.last().copied();
-            sampled(&lights, calls)
+            sampled(&lights, calls, is_clear)
         });
         questions.collect()
     },
@@ -244,20 +243,17 @@ const FACES_AWAY: Declaration = Declaration {
     ],
     questions: |rng| {
         let counts = [1, 2, 5, 9, 25, 60];
-        let sizes = every_size(rng);
-        let mut questions: Vec<ExamQuestion> = counts
-            .into_iter()
-            .zip(sizes)
-            .map(|(count, size)| {
-                let lights = several(rng, count, size);
-                let mut mixed = samples(rng, &lights, CALLS, Option::is_none);
-                mixed.extend(samples(rng, &lights, CALLS / 2, Option::is_some));
-                mixed.extend(past_rounding(rng, &lights));
-                sampled(&lights, rng.shuffled(mixed))
-            })
-            .collect();
+        let lists = counts.into_iter().zip(every_size(rng));
+        let questions = lists.map(|(count, size)| {
+            let lights = several(rng, count, size);
+            let mut mixed = samples(rng, &lights, CALLS, Option::is_none);
+            mixed.extend(samples(rng, &lights, CALLS / 2, Option::is_some));
+            mixed.extend(past_rounding(rng, &lights));
+            sampled(&lights, rng.shuffled(mixed), is_clear)
+        });
+        let mut questions: Vec<ExamQuestion> = questions.collect();
         let nowhere = samples(rng, &[], 3, Option::is_none);
-        questions.push(sampled(&[], nowhere));
+        questions.push(sampled::<Light64>(&[], nowhere, is_clear));
         // A light that is seen almost exactly edge-on still faces the point.
         let size = size(rng, 3);
         let light = parallel_to_axes(rng, size);
@@ -266,15 +262,16 @@ const FACES_AWAY: Declaration = Declaration {
             rng.retry(|rng| {
                 let random = random_pair(rng);
                 let from = toward_point(rng, &light, view, light.point(random.as_dvec2()))?.from;
+                let choice = super::random(rng);
                 Some(LightSample {
                     from,
-                    choice: super::random(rng),
+                    choice,
                     random,
                 })
             })
         });
         let calls = calls.collect();
-        questions.push(sampled(&[light], calls));
+        questions.push(sampled(&[light], calls, is_clear));
         questions
     },
     ..Declaration::in_group(LIGHT_SAMPLES)
@@ -294,53 +291,42 @@ const SHARES: Declaration = Declaration {
     ],
     questions: |rng| {
         let counts = [1, 2, 3, 8, 40, 100];
-        let sizes = every_size(rng);
         // Most questions start with the call that the previous one ends with.
         let mut last = None;
-        let mut questions: Vec<ExamQuestion> = counts
-            .into_iter()
-            .zip(sizes)
-            .flat_map(|(count, size)| {
-                let (lights, calls) = rng.retry(|rng| {
-                    let mut lights = several(rng, count, size);
-                    if count == 3 {
-                        // A light is hardly ever picked.
-                        let others: f64 = lights[1..].iter().map(FlatLight64::power).sum();
-                        let radiance =
-                            rng.log_uniform(1e-9, 9e-8) * others / lights[0].shape.area();
-                        lights[0].radiance = single(DVec3::splat(radiance));
-                    }
-                    let calls = calls_of_list(rng, &lights)?;
-                    Some((lights, calls))
-                });
-                let same = clear(&lights, Vec::from_iter(last));
-                // This one leads to a light.
-                last = Some(calls[0]);
-                let again = Vec::from_iter(last);
-                let exchanged = with_exchanged_powers(&lights);
-                let mut questions = vec![list_densities(
-                    &lights,
-                    [same, calls, again.clone()].concat(),
-                )];
-                if (2..40).contains(&count) {
-                    questions.push(list_densities(&exchanged, again));
+        let mut questions = Vec::new();
+        for (count, size) in counts.into_iter().zip(every_size(rng)) {
+            let (lights, calls) = rng.retry(|rng| {
+                let mut lights = several(rng, count, size);
+                if count == 3 {
+                    // A light is hardly ever picked.
+                    let others: f64 = lights[1..].iter().map(FlatLight64::power).sum();
+                    let power = rng.log_uniform(1e-9, 9e-8) * others;
+                    lights[0].radiance = single(DVec3::splat(power / lights[0].shape.area()));
                 }
-                questions
-            })
-            .collect();
-        let (lights, calls) = rng.retry(|rng| {
+                let calls = calls_of_list(rng, &lights)?;
+                Some((lights, calls))
+            });
+            let same = clear(&lights, Vec::from_iter(last));
+            // This one leads to a light.
+            let again = vec![calls[0]];
+            last = Some(calls[0]);
+            let calls = [same, calls, again.clone()].concat();
+            questions.push(list_densities(&lights, calls));
+            if (2..40).contains(&count) {
+                questions.push(list_densities(&with_exchanged_powers(&lights), again));
+            }
+        }
+        questions.push(rng.retry(|rng| {
             let size = size(rng, 3);
             let lights = alike(rng, size);
             let calls = calls_of_list(rng, &lights)?;
-            Some((lights, calls))
-        });
-        questions.push(list_densities(&lights, calls));
-        let calls = (0..3).map(|_| Toward {
+            Some(list_densities(&lights, calls))
+        }));
+        let calls = rng.list(3, |rng| Toward {
             from: rng.point(3.0).as_vec3(),
             direction: rng.direction().as_vec3(),
         });
-        let calls = calls.collect();
-        questions.push(list_densities(&[], calls));
+        questions.push(list_densities::<Light64>(&[], calls));
         questions
     },
     ..Declaration::in_group(LIGHT_DENSITIES)
@@ -370,19 +356,12 @@ const OVERLAP: Declaration = Declaration {
             if is_reversed {
                 lights.reverse();
             }
-            let hits_several = |call: &Toward| {
-                let pdf = |light: &FlatLight64| {
-                    light.pdf(call.from.as_dvec3(), call.direction.as_dvec3())
-                };
-                lights.iter().filter(|light| pdf(light) > 0.0).count() > 1
-            };
-            let calls = (0..2 * CALLS).map(|_| {
-                rng.retry(|rng| {
-                    let calls = clear(&lights, toward(rng, &front, FRONT, 1)?);
-                    calls.into_iter().find(hits_several)
-                })
+            let hits_several =
+                |call: &Toward| lights.iter().filter(|light| pdf(light, call) > 0.0).count() > 1;
+            let calls = rng.retry_list(2 * CALLS, |rng| {
+                let calls = clear(&lights, toward(rng, &front, &[(FRONT, 1)])?);
+                calls.into_iter().find(hits_several)
             });
-            let calls = calls.collect();
             list_densities(&lights, calls)
         });
         questions.collect()
@@ -403,6 +382,13 @@ struct View {
     margin: f64,
 }
 
+impl View {
+    /// Returns the same view from behind the light.
+    const fn from_behind(self) -> View {
+        View { sign: -1.0, ..self }
+    }
+}
+
 const FRONT: View = View {
     cosine: [0.2, 1.0],
     sign: 1.0,
@@ -419,26 +405,17 @@ const FAR: View = View {
     margin: 2e-5,
     ..FRONT
 };
-const BACK: View = View {
-    sign: -1.0,
-    ..FRONT
-};
+const BACK: View = FRONT.from_behind();
 const EDGE_ON: View = View {
     cosine: [0.005, 0.1],
     ..FRONT
 };
-const EDGE_ON_BACK: View = View {
-    sign: -1.0,
-    ..EDGE_ON
-};
+const EDGE_ON_BACK: View = EDGE_ON.from_behind();
 const VERY_EDGE_ON: View = View {
     cosine: [0.005, 0.0199],
     ..FRONT
 };
-const VERY_EDGE_ON_BACK: View = View {
-    sign: -1.0,
-    ..VERY_EDGE_ON
-};
+const VERY_EDGE_ON_BACK: View = VERY_EDGE_ON.from_behind();
 /// A view of a light that is parallel to two axes, from almost within its plane.
 const ALMOST_IN_ITS_PLANE: View = View {
     cosine: [2e-4, 9e-4],
@@ -446,10 +423,7 @@ const ALMOST_IN_ITS_PLANE: View = View {
     distance: [0.05, 2.0],
     margin: 1e-5,
 };
-const ALMOST_IN_ITS_PLANE_BEHIND: View = View {
-    sign: -1.0,
-    ..ALMOST_IN_ITS_PLANE
-};
+const ALMOST_IN_ITS_PLANE_BEHIND: View = ALMOST_IN_ITS_PLANE.from_behind();
 
 /// The forms of lights, as indices of the classes of their domain.
 const EVERY_FORM: &[usize] = &[0, 1, 2, 3, 4, 5, 6, 7];
@@ -495,12 +469,9 @@ fn past_rounding(rng: &mut Rng, lights: &[FlatLight64]) -> Option<LightSample> {
     let all = Lights64::new(lights.iter().copied());
     rng.attempt(100, |rng| {
         let [call] = samples(rng, lights, 1, Option::is_some).try_into().ok()?;
-        let call = LightSample {
-            choice: BELOW_ONE,
-            ..call
-        };
-        let is_wanted = is_clear(&all, &call) && sample(&all, &call).value.is_some();
-        is_wanted.then_some(call)
+        let choice = BELOW_ONE;
+        let call = LightSample { choice, ..call };
+        (is_clear(&all, &call) && sample(&all, &call).value.is_some()).then_some(call)
     })
 }
 
@@ -535,14 +506,13 @@ fn every_size(rng: &mut Rng) -> Vec<f64> {
 /// Returns lights of different forms. Some lists are dim, and in some, a light has no power.
 fn several(rng: &mut Rng, count: usize, size: f64) -> Vec<FlatLight64> {
     let brightness = rng.log_uniform(1e-3, 1e3);
-    let lights = (0..count).map(|_| {
+    let mut lights = rng.list(count, |rng| {
         let form = rng.index(EVERY_FORM.len());
         let size = size * rng.uniform(0.3, 1.0);
         let mut light = light(rng, form, size);
         light.radiance = single(brightness * light.radiance);
         light
     });
-    let mut lights: Vec<FlatLight64> = lights.collect();
     if count > 1 && rng.coin() {
         let dark = if rng.coin() { 0 } else { rng.index(count) };
         lights[dark].radiance = DVec3::ZERO;
@@ -613,23 +583,57 @@ fn one_light(
         });
         let same = clear(&[light], Vec::from_iter(last));
         last = calls.last().copied();
-        one_light_densities(&light, [same, calls].concat())
+        one_light_densities(light, [same, calls].concat())
     };
     let sizes = sizes.into_iter().cycle();
     forms.iter().zip(sizes).map(question).collect()
 }
 
-fn one_light_densities(light: &FlatLight64, calls: Vec<Toward>) -> ExamQuestion {
+fn one_light_densities(light: FlatLight64, calls: Vec<Toward>) -> ExamQuestion {
+    densities_of(&[light], calls, |light, calls| {
+        LightQuestion::AreaLightPdf(Table::of_list(light, calls))
+    })
+}
+
+fn list_densities<L: Copy + Into<Light64>>(lights: &[L], calls: Vec<Toward>) -> ExamQuestion {
+    densities_of(lights, calls, |lights, calls| {
+        LightQuestion::LightsPdf(Table::of_list(lights, calls))
+    })
+}
+
+/// Returns a question about densities. The density of a single light is the same as that of a list
+/// of this light.
+fn densities_of<L: Copy + Into<Light64>>(
+    lights: &[L],
+    calls: Vec<Toward>,
+    question: fn(LightList, Vec<Toward>) -> LightQuestion,
+) -> ExamQuestion {
+    let all = Lights64::new(lights.iter().copied());
+    let pdf = |call: &Toward| all.pdf(call.from.as_dvec3(), call.direction.as_dvec3());
     let ask = |calls: Vec<Toward>| {
-        let rows = calls
-            .iter()
-            .map(|call| light.pdf(call.from.as_dvec3(), call.direction.as_dvec3()));
-        let rows = densities(rows);
-        let question = LightQuestion::AreaLightPdf(Table::of_list(subject(&[*light]), calls));
-        table(question, &["pdf"], rows)
+        let rows = densities(calls.iter().map(|call| pdf(call).value));
+        table(question(subject(lights), calls), &["pdf"], rows)
     };
-    let lights = [Light64::Flat(*light)];
-    with_changes(calls, ask, |call| spheres::is_clear(&lights, call, MARGIN))
+    with_changes(calls, ask, |call| {
+        pdf(call).margin > MARGIN && is_steep(lights, call)
+    })
+}
+
+/// Returns whether a direction isn't almost in the plane of any flat light, where correct formulas
+/// lose too many digits.
+fn is_steep<L: Copy + Into<Light64>>(lights: &[L], call: &Toward) -> bool {
+    let direction = call.direction.as_dvec3();
+    lights.iter().all(|light| match (*light).into() {
+        Light64::Flat(light) => {
+            light.shape.normal().dot(direction).abs() > 0.01 * direction.length()
+        }
+        Light64::Sphere(_) => true,
+    })
+}
+
+/// Returns the density of a single light.
+fn pdf(light: &FlatLight64, call: &Toward) -> f64 {
+    light.pdf(call.from.as_dvec3(), call.direction.as_dvec3())
 }
 
 /// Returns the length of a light's first edge.
@@ -643,27 +647,24 @@ fn narrowness(light: &FlatLight64) -> f64 {
     (a / b).max(b / a)
 }
 
-/// Returns directions to points on a light. No direction is close to the light's edge. Returns
-/// `None` if there are no such directions, e.g. because the light is too narrow.
-fn toward(rng: &mut Rng, light: &FlatLight64, view: View, count: usize) -> Option<Vec<Toward>> {
+/// Returns directions to points on a light, as many as given for each view. No direction is close to
+/// the light's edge. Returns `None` if there are no such directions, e.g. because the light is too
+/// narrow.
+fn toward(rng: &mut Rng, light: &FlatLight64, views: &[(View, usize)]) -> Option<Vec<Toward>> {
     const ATTEMPTS: usize = 2_000;
     let is_very_narrow = narrowness(light) > VERY_NARROW;
-    let margin = if is_very_narrow {
-        0.05 * view.margin
-    } else {
-        view.margin
-    };
-    let call = |_| {
+    let factor = if is_very_narrow { 0.05 } else { 1.0 };
+    let views = views.iter().flat_map(|(view, count)| vec![*view; *count]);
+    let call = |view: View| {
         rng.attempt(ATTEMPTS, |rng| {
             let along = DVec2::new(rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0));
             let call = toward_point(rng, light, view, light.shape.at(along))?;
             let (from, direction) = (call.from.as_dvec3(), call.direction.as_dvec3());
-            let hit = light.shape.intersect_plane(from, direction);
-            hit.filter(|hit| hit.is_hit() && hit.margin() > margin)?;
-            Some(call)
+            let hit = light.shape.intersect_plane(from, direction)?;
+            (hit.is_hit() && hit.margin() > factor * view.margin).then_some(call)
         })
     };
-    (0..count).map(call).collect()
+    views.map(call).collect()
 }
 
 /// Returns a direction to a point in a light's plane. Some directions are along an axis or in a
@@ -712,18 +713,14 @@ fn toward_any(
     let call = |_| {
         rng.attempt(ATTEMPTS, |rng| {
             let light = lights[rng.index(lights.len())];
-            clear(lights, toward(rng, &light, view, 1)?).pop()
+            clear(lights, toward(rng, &light, &[(view, 1)])?).pop()
         })
     };
     (0..count).map(call).collect()
 }
 
-/// Returns directions that miss a light but hit its plane, half of them just past an edge.
-fn past(rng: &mut Rng, light: &FlatLight64) -> Vec<Toward> {
-    let call = |_| rng.retry(|rng| past_once(rng, light));
-    (0..CALLS).map(call).collect()
-}
-
+/// Returns a direction that misses a light but hits its plane, with a probability of one half just
+/// past an edge.
 fn past_once(rng: &mut Rng, light: &FlatLight64) -> Option<Toward> {
     let [mut a, b] = [rng.uniform(-1.5, 2.5), rng.uniform(-1.5, 2.5)];
     if rng.coin() {
@@ -732,21 +729,8 @@ fn past_once(rng: &mut Rng, light: &FlatLight64) -> Option<Toward> {
     let along = if rng.coin() { [a, b] } else { [b, a] };
     let target = light.shape.at(DVec2::from_array(along));
     let call = toward_point(rng, light, FRONT, target)?;
-    let density = light.pdf(call.from.as_dvec3(), call.direction.as_dvec3());
     let calls = clear(&[*light], vec![call]);
-    calls.into_iter().find(|_| density == 0.0)
-}
-
-/// Returns directions that miss the light that they are next to.
-fn past_any(rng: &mut Rng, lights: &[FlatLight64]) -> Vec<Toward> {
-    let call = |_| {
-        rng.retry(|rng| {
-            let light = lights[rng.index(lights.len())];
-            let call = past_once(rng, &light)?;
-            clear(lights, vec![call]).pop()
-        })
-    };
-    (0..4).map(call).collect()
+    calls.into_iter().find(|call| pdf(light, call) == 0.0)
 }
 
 /// Returns directions toward and past the lights in a list. Returns `None` if too few are found.
@@ -765,7 +749,12 @@ fn calls_of_list(rng: &mut Rng, lights: &[FlatLight64]) -> Option<Vec<Toward>> {
             calls.extend(toward_any(rng, lights, view, 1)?);
         }
     }
-    calls.extend(past_any(rng, lights));
+    // These miss the light that they are next to.
+    calls.extend(rng.retry_list(4, |rng| {
+        let light = lights[rng.index(lights.len())];
+        let call = past_once(rng, &light)?;
+        clear(lights, vec![call]).pop()
+    }));
     Some(calls)
 }
 
@@ -795,11 +784,6 @@ fn clear(lights: &[FlatLight64], calls: Vec<Toward>) -> Vec<Toward> {
     calls.into_iter().filter(is_clear).collect()
 }
 
-fn list_densities(lights: &[FlatLight64], calls: Vec<Toward>) -> ExamQuestion {
-    let all: Vec<Light64> = lights.iter().copied().map(Light64::Flat).collect();
-    spheres::list_densities(&all, calls)
-}
-
 /// Returns calls of `Lights::sample` whose results fulfil a condition.
 fn samples(
     rng: &mut Rng,
@@ -810,36 +794,33 @@ fn samples(
     let all = Lights64::new(lights.iter().copied());
     let portions = all.portions();
     let scale = lights.iter().map(length).fold(0.0, f64::max).max(1e-3);
-    let call = |_| {
-        rng.retry(|rng| {
-            let random = fields::number_pair(rng);
-            let from = if lights.is_empty() || rng.coin() {
-                let half = (scale * rng.log_uniform(0.3, 10.0)).min(FURTHEST);
-                rng.point(half)
-            } else {
-                // In front of a light or behind it, close to its normal or to its plane.
-                let light = lights[rng.index(lights.len())];
-                let view = [FRONT, CLOSE, BACK, EDGE_ON, EDGE_ON_BACK][rng.index(5)];
-                let target = light.point(random.as_dvec2());
-                toward_point(rng, &light, view, target)?.from.as_dvec3()
-            };
-            let choice = if portions.is_empty() || rng.coin() {
-                fields::number(rng)
-            } else {
-                // Every light is as frequent as the others.
-                let [start, end] = portions[rng.index(portions.len())];
-                (rng.uniform(start, end) as f32).min(BELOW_ONE)
-            };
-            let call = LightSample {
-                from: from.as_vec3(),
-                choice,
-                random,
-            };
-            let is_clear = is_clear(&all, &call);
-            (is_clear && condition(&sample(&all, &call).value)).then_some(call)
-        })
-    };
-    (0..count).map(call).collect()
+    rng.retry_list(count, |rng| {
+        let random = fields::number_pair(rng);
+        let from = if lights.is_empty() || rng.coin() {
+            let half = (scale * rng.log_uniform(0.3, 10.0)).min(FURTHEST);
+            rng.point(half)
+        } else {
+            // In front of a light or behind it, close to its normal or to its plane.
+            let light = lights[rng.index(lights.len())];
+            let view = [FRONT, CLOSE, BACK, EDGE_ON, EDGE_ON_BACK][rng.index(5)];
+            let target = light.point(random.as_dvec2());
+            toward_point(rng, &light, view, target)?.from.as_dvec3()
+        };
+        let choice = if portions.is_empty() || rng.coin() {
+            fields::number(rng)
+        } else {
+            // Every light is as frequent as the others.
+            let [start, end] = portions[rng.index(portions.len())];
+            (rng.uniform(start, end) as f32).min(BELOW_ONE)
+        };
+        let call = LightSample {
+            from: from.as_vec3(),
+            choice,
+            random,
+        };
+        let is_clear = is_clear(&all, &call);
+        (is_clear && condition(&sample(&all, &call).value)).then_some(call)
+    })
 }
 
 /// Returns whether a choice isn't close to the border between two lights, relative to the picked
@@ -864,18 +845,16 @@ fn is_clear(lights: &Lights64, call: &LightSample) -> bool {
     nearest > ROUNDING.max(BORDER * share) && margin > MARGIN
 }
 
-fn sample(
-    lights: &Lights64,
-    call: &LightSample,
-) -> crate::oracle::light::WithMargin<Option<DVec3>> {
-    lights.sample(
-        call.from.as_dvec3(),
-        call.choice.into(),
-        call.random.as_dvec2(),
-    )
+fn sample(lights: &Lights64, call: &LightSample) -> WithMargin<Option<DVec3>> {
+    let from = call.from.as_dvec3();
+    lights.sample(from, call.choice.into(), call.random.as_dvec2())
 }
 
-fn sampled(lights: &[FlatLight64], calls: Vec<LightSample>) -> ExamQuestion {
+fn sampled<L: Copy + Into<Light64>>(
+    lights: &[L],
+    calls: Vec<LightSample>,
+    is_clear: impl Fn(&Lights64, &LightSample) -> bool,
+) -> ExamQuestion {
     let all = Lights64::new(lights.iter().copied());
     let ask = |calls: Vec<LightSample>| {
         let rows = optional_directions(calls.iter().map(|call| sample(&all, call).value));
@@ -885,19 +864,22 @@ fn sampled(lights: &[FlatLight64], calls: Vec<LightSample>) -> ExamQuestion {
     with_changes(calls, ask, |call| is_clear(&all, call))
 }
 
-fn subject(lights: &[FlatLight64]) -> LightList {
-    let lights = lights.iter().map(|light| ListedLight::Flat(listed(light)));
+/// Converts lights to those in a question.
+fn subject<L: Copy + Into<Light64>>(lights: &[L]) -> LightList {
+    let lights = lights.iter().map(|light| match (*light).into() {
+        Light64::Flat(light) => ListedLight::Flat(FlatLight {
+            corner: light.shape.corner.as_vec3(),
+            edges: light.shape.edges.map(|edge| edge.as_vec3()),
+            is_triangle: light.shape.is_triangle,
+            radiance: light.radiance.as_vec3(),
+        }),
+        Light64::Sphere(light) => ListedLight::Sphere(SphericalLight {
+            center: light.center.as_vec3(),
+            radius: light.radius as f32,
+            radiance: light.radiance.as_vec3(),
+        }),
+    });
     LightList {
         lights: lights.collect(),
-    }
-}
-
-/// Converts a light to the one in a question.
-fn listed(light: &FlatLight64) -> FlatLight {
-    FlatLight {
-        corner: light.shape.corner.as_vec3(),
-        edges: light.shape.edges.map(|edge| edge.as_vec3()),
-        is_triangle: light.shape.is_triangle,
-        radiance: light.radiance.as_vec3(),
     }
 }

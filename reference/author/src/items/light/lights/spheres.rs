@@ -3,19 +3,14 @@
 use glam::DVec3;
 use judging::exam::ExamQuestion;
 use judging::symptom::{SOME_OR_NONE, Symptom};
-use protocol::Table;
-use protocol::light::LightQuestion;
-use protocol::light::lights::{LightList, LightSample, ListedLight, SphericalLight, Toward};
+use protocol::light::lights::{LightSample, Toward};
 
-use super::super::{
-    MARGIN, color, densities, optional_directions, random_pair, single, table, with_changes,
-};
-use super::{EVERY_FORM, every_size, light, listed};
+use super::super::{MARGIN, color, random_pair, single};
+use super::{EVERY_FORM, every_size, is_steep, light, list_densities, sample, sampled};
 use crate::domains::fields::FURTHEST;
 use crate::domains::light::fields;
 use crate::items::Declaration;
-use crate::oracle::light::WithMargin;
-use crate::oracle::light::lights::{Light64, Lights64};
+use crate::oracle::light::lights::{FlatLight64, Light64, Lights64};
 use crate::oracle::light::spherical_light::SphericalLight64;
 use crate::seed::Rng;
 
@@ -37,45 +32,41 @@ pub(super) const SAMPLES: Declaration = Declaration {
     look_fits: &[Symptom::of("direction"), Symptom::less(SOME_OR_NONE)],
     section: "light/lights.md#what-to-return",
     tests: &[
-        "`choice` picks the light: a light's share of `[0, 1)` is its share of the power, in the \
-         order of the list.",
+        "`choice` picks the light: …",
         "`random` picks the point on that light: …",
     ],
     questions: |rng| {
         lists(rng, |rng, lights| {
-            let of_spheres = (0..CALLS).map(|_| sample_of(rng, lights, outside, is_sphere));
-            let mut calls: Vec<LightSample> = of_spheres.collect();
+            let all = Lights64::new(lights.iter().copied());
+            let is_some = |call: &LightSample| sample(&all, call).value.is_some();
+            let mut calls = rng.list(CALLS, |rng| sample_of(rng, lights, outside, is_sphere));
             if !lights.iter().all(is_sphere) {
-                let others = |_| sample_of(rng, lights, outside, |light| !is_sphere(light));
-                calls.extend((0..CALLS).map(others));
+                calls.extend(rng.list(CALLS, |rng| sample_of(rng, lights, outside, is_flat)));
             }
             // Inside a sphere, there is no sample of that sphere.
-            calls.extend((0..FROM_INSIDE).map(|_| {
-                rng.retry(|rng| {
-                    let call = sample_of(rng, lights, inside, is_sphere);
-                    Some(call).filter(|call| sample(lights, call).value.is_none())
-                })
+            calls.extend(rng.retry_list(FROM_INSIDE, |rng| {
+                let call = sample_of(rng, lights, inside, is_sphere);
+                (!is_some(&call)).then_some(call)
             }));
             // But there is one of any other light that doesn't face away.
             if lights.len() > 1 {
                 calls.extend((0..2 * FROM_INSIDE).filter_map(|index| {
-                    let kinds: [fn(&Light64) -> bool; 2] = [|_| true, |light| !is_sphere(light)];
+                    let kinds: [fn(&Light64) -> bool; 2] = [|_| true, is_flat];
                     let kind = kinds[index % 2];
                     if !lights.iter().any(kind) {
                         return None;
                     }
                     rng.attempt(1_000, |rng| {
                         let call = sample_of(rng, lights, inside, kind);
-                        let is_some = sample(lights, &call).value.is_some();
-                        (is_some == (index % 2 == 0)).then_some(call)
+                        (is_some(&call) == (index % 2 == 0)).then_some(call)
                     })
                 }));
             }
             for from in [close as Position, far] {
-                let special = |_| sample_of(rng, lights, from, is_sphere);
-                calls.extend((0..FROM_SPECIAL).map(special));
+                let special = |rng: &mut Rng| sample_of(rng, lights, from, is_sphere);
+                calls.extend(rng.list(FROM_SPECIAL, special));
             }
-            sampled(lights, rng.shuffled(calls))
+            sampled(lights, rng.shuffled(calls), is_clear_sample)
         })
     },
     ..Declaration::ALONE
@@ -90,15 +81,14 @@ pub(super) const DENSITIES: Declaration = Declaration {
     tests: &["Every light in that direction adds its density, given by [`Light::pdf`], …"],
     questions: |rng| {
         lists(rng, |rng, lights| {
-            let toward_spheres = (0..CALLS).map(|_| toward_any(rng, lights, outside, is_sphere));
-            let mut calls: Vec<Toward> = toward_spheres.collect();
-            calls.extend((0..CALLS).map(|_| toward_any(rng, lights, outside, |_| true)));
+            let mut calls = rng.list(CALLS, |rng| toward_any(rng, lights, outside, is_sphere));
+            calls.extend(rng.list(CALLS, |rng| toward_any(rng, lights, outside, |_| true)));
             for from in [close as Position, far] {
-                let special = |_| toward_any(rng, lights, from, is_sphere);
-                calls.extend((0..FROM_SPECIAL).map(special));
+                let special = |rng: &mut Rng| toward_any(rng, lights, from, is_sphere);
+                calls.extend(rng.list(FROM_SPECIAL, special));
             }
-            calls.extend((0..CALLS).map(|_| anywhere(rng, lights, outside)));
-            calls.extend((0..FROM_INSIDE).map(|_| anywhere(rng, lights, inside)));
+            calls.extend(rng.list(CALLS, |rng| anywhere(rng, lights, outside)));
+            calls.extend(rng.list(FROM_INSIDE, |rng| anywhere(rng, lights, inside)));
             list_densities(lights, rng.shuffled(calls))
         })
     },
@@ -112,23 +102,21 @@ fn lists(
     mut question: impl FnMut(&mut Rng, &[Light64]) -> ExamQuestion,
 ) -> Vec<ExamQuestion> {
     let counts = [(1, 0), (1, 1), (2, 0), (2, 1), (2, 3), (20, 20)];
-    let sizes = every_size(rng);
-    let questions = counts
-        .into_iter()
-        .zip(sizes)
-        .map(|((spheres, others), size)| {
-            // Larger spheres would leave no space for the points that they light.
-            let size = size.min(0.25 * FURTHEST);
-            let mut lights: Vec<Light64> = (0..spheres).map(|_| sphere(rng, size)).collect();
-            lights.extend((0..others).map(|_| {
-                let form = EVERY_FORM[rng.index(EVERY_FORM.len())];
-                Light64::Flat(light(rng, form, size))
-            }));
-            let lights = lights.into_iter().map(|light| similar(rng, light));
-            let lights: Vec<Light64> = lights.collect();
-            let lights = rng.shuffled(lights);
-            question(rng, &lights)
-        });
+    let lists = counts.into_iter().zip(every_size(rng));
+    let questions = lists.map(|((spheres, others), size)| {
+        // Larger spheres would leave no space for the points that they light.
+        let size = size.min(0.25 * FURTHEST);
+        let mut lights = rng.list(spheres, |rng| sphere(rng, size));
+        lights.extend(rng.list(others, |rng| {
+            let form = EVERY_FORM[rng.index(EVERY_FORM.len())];
+            Light64::Flat(light(rng, form, size))
+        }));
+        for light in &mut lights {
+            make_similar(rng, light);
+        }
+        let lights = rng.shuffled(lights);
+        question(rng, &lights)
+    });
     questions.collect()
 }
 
@@ -152,18 +140,19 @@ fn extent(lights: &[Light64]) -> f64 {
 }
 
 /// Changes the brightness of a light. In a list of such lights, no light has nearly all the power.
-fn similar(rng: &mut Rng, mut light: Light64) -> Light64 {
+fn make_similar(rng: &mut Rng, light: &mut Light64) {
     let factor = rng.uniform(1.0, 4.0) / light.power();
-    let radiance = match &mut light {
-        Light64::Flat(light) => &mut light.radiance,
-        Light64::Sphere(light) => &mut light.radiance,
-    };
+    let (Light64::Flat(FlatLight64 { radiance, .. })
+    | Light64::Sphere(SphericalLight64 { radiance, .. })) = light;
     *radiance = single(*radiance * factor);
-    light
 }
 
 fn is_sphere(light: &Light64) -> bool {
     matches!(light, Light64::Sphere(_))
+}
+
+fn is_flat(light: &Light64) -> bool {
+    !is_sphere(light)
 }
 
 /// Returns a point at some position relative to the lights, and the margin that calls from there
@@ -243,24 +232,13 @@ fn sample_of(
             random: fields::number_pair(rng),
         };
         let is_wanted = all.picked(call.choice.into()).is_some_and(wanted);
-        (is_wanted && sample(lights, &call).margin > margin).then_some(call)
+        (is_wanted && sample(&all, &call).margin > margin).then_some(call)
     })
 }
 
-fn sample(lights: &[Light64], call: &LightSample) -> WithMargin<Option<DVec3>> {
-    let all = Lights64::new(lights.iter().copied());
-    let from = call.from.as_dvec3();
-    all.sample(from, call.choice.into(), call.random.as_dvec2())
-}
-
-fn sampled(lights: &[Light64], calls: Vec<LightSample>) -> ExamQuestion {
-    let ask = |calls: Vec<LightSample>| {
-        let rows = calls.iter().map(|call| sample(lights, call).value);
-        let rows = optional_directions(rows);
-        let question = LightQuestion::LightsSample(Table::of_list(subject(lights), calls));
-        table(question, &["direction", "unit_direction"], rows)
-    };
-    with_changes(calls, ask, |call| sample(lights, call).margin > MARGIN)
+/// Returns whether a call keeps the margin of calls from ordinary positions.
+fn is_clear_sample(lights: &Lights64, call: &LightSample) -> bool {
+    sample(lights, call).margin > MARGIN
 }
 
 /// Returns a direction toward a light that fulfils a condition.
@@ -301,51 +279,7 @@ fn clear(lights: &[Light64], from: DVec3, direction: DVec3, margin: f64) -> Opti
         from: from.as_vec3(),
         direction: direction.normalize().as_vec3(),
     };
-    is_clear(lights, &call, margin).then_some(call)
-}
-
-/// Returns whether a direction is clear of the edges of all lights and of the planes of flat lights,
-/// where correct formulas lose too many digits.
-pub(super) fn is_clear(lights: &[Light64], call: &Toward, margin: f64) -> bool {
-    let (from, direction) = (call.from.as_dvec3(), call.direction.as_dvec3());
     let all = Lights64::new(lights.iter().copied());
-    all.pdf(from, direction).margin > margin && is_steep(lights, direction)
-}
-
-/// Returns whether a direction isn't almost in the plane of any flat light.
-fn is_steep(lights: &[Light64], direction: DVec3) -> bool {
-    lights.iter().all(|light| match light {
-        Light64::Flat(light) => {
-            light.shape.normal().dot(direction).abs() > 0.01 * direction.length()
-        }
-        Light64::Sphere(_) => true,
-    })
-}
-
-pub(super) fn list_densities(lights: &[Light64], calls: Vec<Toward>) -> ExamQuestion {
-    let all = Lights64::new(lights.iter().copied());
-    let pdf = |call: &Toward| {
-        all.pdf(call.from.as_dvec3(), call.direction.as_dvec3())
-            .value
-    };
-    let ask = |calls: Vec<Toward>| {
-        let rows = densities(calls.iter().map(pdf));
-        let question = LightQuestion::LightsPdf(Table::of_list(subject(lights), calls));
-        table(question, &["pdf"], rows)
-    };
-    with_changes(calls, ask, |call| is_clear(lights, call, MARGIN))
-}
-
-fn subject(lights: &[Light64]) -> LightList {
-    let light = |light: &Light64| match light {
-        Light64::Flat(light) => ListedLight::Flat(listed(light)),
-        Light64::Sphere(light) => ListedLight::Sphere(SphericalLight {
-            center: light.center.as_vec3(),
-            radius: light.radius as f32,
-            radiance: light.radiance.as_vec3(),
-        }),
-    };
-    LightList {
-        lights: lights.iter().map(light).collect(),
-    }
+    let pdf = all.pdf(call.from.as_dvec3(), call.direction.as_dvec3());
+    (pdf.margin > margin && is_steep(lights, &call)).then_some(call)
 }

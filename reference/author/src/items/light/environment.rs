@@ -60,17 +60,15 @@ const UNIFORM: Declaration = Declaration {
         "The direction has length one.",
     ],
     questions: |rng| {
-        let pairs = (0..UNIFORM_CALLS).map(|_| RandomPair {
+        let pairs = rng.list(UNIFORM_CALLS, |rng| RandomPair {
             random: random_pair(rng),
         });
-        let question = LightQuestion::UniformSphere(Table::of_list((), pairs.collect()));
+        let question = LightQuestion::UniformSphere(Table::of_list((), pairs));
         let key = Key::SpreadEvenly {
             max_chi_squared: MAX_CHI_SQUARED,
         };
-        vec![
-            ExamQuestion::new(question.into(), key),
-            unit_at_the_ends(rng),
-        ]
+        let spread = ExamQuestion::new(question.into(), key);
+        vec![spread, unit_at_the_ends(rng)]
     },
     ..Declaration::ALONE
 };
@@ -123,9 +121,9 @@ const POSITION: Declaration = Declaration {
     ],
     questions: |rng| {
         // In maps with few pixels, the position matters most.
-        let sizes = [uvec2(2, 1), uvec2(2, 1), uvec2(4, 2)];
-        let questions = sizes.map(|size| {
-            let map = colorful(rng, size);
+        let widths = [2, 2, 4];
+        let questions = widths.map(|width| {
+            let map = colorful(rng, width);
             samples(rng, map)
         });
         questions.into()
@@ -143,13 +141,9 @@ const SINE: Declaration = Declaration {
     section: "light/environment.md#the-sine-belongs-in-the-weight",
     tests: &["A pixel's weight is its luminance, times the sine of θ in the middle of its row."],
     questions: |rng| {
-        let sizes = [uvec2(4, 2), uvec2(6, 3), uvec2(16, 8)];
-        let questions = sizes.map(|size| {
+        let questions = [4, 6, 16].map(|width| {
             let grey = single(DVec3::splat(rng.log_uniform(0.02, 500.0)));
-            let map = MapImage {
-                size,
-                pixels: vec![grey.as_vec3(); size.element_product() as usize],
-            };
+            let map = map_of(width, |_| grey.as_vec3());
             samples(rng, map)
         });
         questions.into()
@@ -166,16 +160,9 @@ const LUMINANCE: Declaration = Declaration {
     section: "light/environment.md#the-weight-of-a-pixel",
     tests: &["A pixel's weight is its luminance, …"],
     questions: |rng| {
-        let size = uvec2(4, 2);
         let pure = [Vec3::X, Vec3::Y, Vec3::Z];
-        let pixels = (0..8).map(|n| pure[n % 3] * rng.uniform(0.5, 2.0) as f32);
-        let map = MapImage {
-            size,
-            pixels: pixels.collect(),
-        };
-        let mut questions = vec![samples(rng, map.clone())];
-        questions.extend([pdfs(rng, map, |_| true)]);
-        questions
+        let map = map_of(4, |n| pure[n % 3] * rng.uniform(0.5, 2.0) as f32);
+        samples_and_pdfs(rng, map)
     },
     ..Declaration::in_group(MAPS)
 };
@@ -190,18 +177,12 @@ const ENDS: Declaration = Declaration {
     section: "light/environment.md#black-pixels-are-never-picked",
     tests: &["`choice` picks the pixel: …"],
     questions: |rng| {
-        let sizes = [uvec2(2, 1), uvec2(4, 2), uvec2(16, 8)];
         let mut questions = Vec::new();
-        for size in sizes {
-            let whole = colorful(rng, size);
+        // The first bright pixel and the last one aren't the first and the last, and can be in other
+        // rows.
+        for (width, black) in [(2, 0), (4, 1), (16, 17)] {
+            let whole = colorful(rng, width);
             let mut with_borders = whole.clone();
-            // The first bright pixel and the last one aren't the first and the last, and can be in
-            // other rows.
-            let black = match size.x {
-                2 => 0,
-                4 => 1,
-                width => width as usize + 1,
-            };
             let last = with_borders.pixels.len() - black;
             with_borders.pixels[..black].fill(Vec3::ZERO);
             with_borders.pixels[last..].fill(Vec3::ZERO);
@@ -234,37 +215,26 @@ const BLACK: Declaration = Declaration {
         "The result is zero for a black pixel, and everywhere if all pixels are black.",
     ],
     questions: |rng| {
-        let sizes = [uvec2(6, 3), uvec2(8, 4), uvec2(10, 5)];
         let mut questions = Vec::new();
-        for size in sizes {
-            let mut map = colorful(rng, size);
-            // Most pixels are black, but in the largest map only some.
-            let share = if size.x == 10 { 0.15 } else { 0.6 };
+        // Most pixels are black, but in the largest map only some.
+        for (width, share) in [(6, 0.6), (8, 0.6), (10, 0.15)] {
+            let mut map = colorful(rng, width);
             for pixel in &mut map.pixels {
                 if rng.uniform(0.0, 1.0) < share {
                     *pixel = Vec3::ZERO;
                 }
             }
             // An entire row is black, and two pixels are certainly bright.
-            let width = size.x as usize;
             map.pixels[width..2 * width].fill(Vec3::ZERO);
             map.pixels[1] = Vec3::ONE;
             map.pixels[2 * width] = Vec3::new(0.5, 0.25, 1.0);
-            questions.push(samples(rng, map.clone()));
-            questions.push(pdfs(rng, map.clone(), |pdf| pdf == 0.0));
-            questions.push(pdfs(rng, map, |pdf| pdf > 0.0));
+            questions.extend(samples_and_both_pdfs(rng, map));
         }
-        let size = uvec2(4, 2);
-        let mut black = MapImage {
-            size,
-            pixels: vec![Vec3::ZERO; 8],
-        };
+        let mut black = map_of(4, |_| Vec3::ZERO);
         questions.push(pdfs(rng, black.clone(), |_| true));
         // A single pixel has all the weight.
         black.pixels[rng.index(8)] = color(rng).as_vec3();
-        questions.push(samples(rng, black.clone()));
-        questions.push(pdfs(rng, black.clone(), |pdf| pdf == 0.0));
-        questions.push(pdfs(rng, black, |pdf| pdf > 0.0));
+        questions.extend(samples_and_both_pdfs(rng, black));
         questions
     },
     ..Declaration::in_group(MAPS)
@@ -319,23 +289,17 @@ const SIZES: Declaration = Declaration {
         "Here, `share` is the pixel's share of the weights, …",
     ],
     questions: |rng| {
-        let sizes = [uvec2(2, 1), uvec2(24, 12), uvec2(32, 16)];
         let mut questions = Vec::new();
-        for size in sizes {
-            let map = colorful(rng, size);
-            questions.push(samples(rng, map.clone()));
-            questions.push(pdfs(rng, map, |_| true));
+        for width in [2, 24, 32] {
+            let map = colorful(rng, width);
+            questions.extend(samples_and_pdfs(rng, map));
         }
         // Next to the sun, all other shares are tiny.
-        let size = uvec2(4, 2);
-        let pixels = (0..8).map(|_| (color(rng) * rng.log_uniform(0.5, 5.0)).as_vec3());
-        let mut pixels: Vec<Vec3> = pixels.collect();
-        pixels[rng.index(8)] = Vec3::splat(1e8);
-        let map = MapImage { size, pixels };
+        let mut map = map_of(4, |_| (color(rng) * rng.log_uniform(0.5, 5.0)).as_vec3());
+        map.pixels[rng.index(8)] = Vec3::splat(1e8);
         questions.push(pdfs(rng, map, |_| true));
         let map = large(rng);
-        questions.push(samples(rng, map.clone()));
-        questions.push(pdfs(rng, map, |_| true));
+        questions.extend(samples_and_pdfs(rng, map));
         questions.extend(sunny(rng));
         questions
     },
@@ -346,9 +310,8 @@ const SIZES: Declaration = Declaration {
 fn unit_at_the_ends(rng: &mut Rng) -> ExamQuestion {
     let ends = [0.0, 1e-7, 0.25, 0.5, 0.75, 0.9999, BELOW_ONE];
     let corners = ends.into_iter().flat_map(|x| ends.map(|y| Vec2::new(x, y)));
-    let mut pairs: Vec<Vec2> = corners.collect();
-    pairs.extend((0..CALLS).map(|_| fields::number_pair(rng)));
-    let pairs = pairs.into_iter().map(|random| RandomPair { random });
+    let others = rng.list(CALLS, fields::number_pair);
+    let pairs = corners.chain(others).map(|random| RandomPair { random });
     let pairs: Vec<RandomPair> = pairs.collect();
     // Only the length is judged, so any direction will do.
     let rows = directions(pairs.iter().map(|_| DVec3::Y));
@@ -356,20 +319,24 @@ fn unit_at_the_ends(rng: &mut Rng) -> ExamQuestion {
     table(question, &["unit_direction"], rows)
 }
 
-/// Returns a map whose pixels have random colours, some of which are very bright.
-fn colorful(rng: &mut Rng, size: UVec2) -> MapImage {
-    let pixels = (0..size.element_product()).map(|_| pixel(rng));
+/// Returns a map that is twice as wide as high. `pixel` returns the colour of the pixel with this
+/// index.
+fn map_of(width: usize, pixel: impl FnMut(usize) -> Vec3) -> MapImage {
     MapImage {
-        size,
-        pixels: pixels.collect(),
+        size: uvec2(width as u32, width as u32 / 2),
+        pixels: (0..width * width / 2).map(pixel).collect(),
     }
+}
+
+/// Returns a map whose pixels have random colours, some of which are very bright.
+fn colorful(rng: &mut Rng, width: usize) -> MapImage {
+    map_of(width, |_| pixel(rng))
 }
 
 /// Returns maps in a few sizes: two are dim everywhere, and in another, the sun is about as bright
 /// as all the other pixels together.
 fn every_brightness(rng: &mut Rng) -> Vec<MapImage> {
-    let mut maps =
-        [uvec2(2, 1), uvec2(4, 2), uvec2(6, 3), uvec2(10, 5)].map(|size| colorful(rng, size));
+    let mut maps = [2, 4, 6, 10].map(|width| colorful(rng, width));
     for (map, dim) in [(1, 1e-12..1e-10), (2, 1e-6..1e-4)] {
         let dim = rng.log_uniform(dim.start, dim.end) as f32;
         for pixel in &mut maps[map].pixels {
@@ -470,16 +437,13 @@ fn with_polar_suns(rng: &mut Rng) -> MapImage {
 /// Returns directions to different points in the pixels that most samples pick.
 fn toward_the_sun(rng: &mut Rng, map: &MapImage) -> Vec<DVec3> {
     let map64 = oracle(map);
-    let direction = |_| {
-        rng.retry(|rng| {
-            let sample = map64.sample(rng.uniform(0.0, 1.0), random_pair(rng).as_dvec2());
-            let direction = single(sample.value?);
-            let index = map64.index(direction);
-            let is_sun = map64.shares()[index.value] > 0.4;
-            (is_sun && index.margin > EDGE).then_some(direction)
-        })
-    };
-    (0..CALLS).map(direction).collect()
+    rng.retry_list(CALLS, |rng| {
+        let sample = map64.sample(rng.uniform(0.0, 1.0), random_pair(rng).as_dvec2());
+        let direction = single(sample.value?);
+        let index = map64.index(direction);
+        let is_sun = map64.shares()[index.value] > 0.4;
+        (is_sun && index.margin > EDGE).then_some(direction)
+    })
 }
 
 fn oracle(map: &MapImage) -> Map64 {
@@ -492,19 +456,31 @@ fn samples(rng: &mut Rng, map: MapImage) -> ExamQuestion {
     sampled(map, calls)
 }
 
+/// Returns a question about samples of a map, and one about densities.
+fn samples_and_pdfs(rng: &mut Rng, map: MapImage) -> Vec<ExamQuestion> {
+    vec![samples(rng, map.clone()), pdfs(rng, map, |_| true)]
+}
+
+/// Returns a question about samples of a map, one about directions to black pixels, and one about
+/// directions to bright pixels.
+fn samples_and_both_pdfs(rng: &mut Rng, map: MapImage) -> [ExamQuestion; 3] {
+    [
+        samples(rng, map.clone()),
+        pdfs(rng, map.clone(), |pdf| pdf == 0.0),
+        pdfs(rng, map, |pdf| pdf > 0.0),
+    ]
+}
+
 /// Returns random calls that aren't close to the border between two pixels.
 fn sample_calls(rng: &mut Rng, map: &MapImage, count: usize) -> Vec<MapSample> {
     let map64 = oracle(map);
-    let call = |_| {
-        rng.retry(|rng| {
-            let call = MapSample {
-                choice: fields::number(rng),
-                random: fields::number_pair(rng),
-            };
-            is_clear(&map64, &call).then_some(call)
-        })
-    };
-    (0..count).map(call).collect()
+    rng.retry_list(count, |rng| {
+        let call = MapSample {
+            choice: fields::number(rng),
+            random: fields::number_pair(rng),
+        };
+        is_clear(&map64, &call).then_some(call)
+    })
 }
 
 /// Returns whether a call isn't close to the border between two pixels.
@@ -550,14 +526,11 @@ fn pdfs(rng: &mut Rng, map: MapImage, condition: fn(f64) -> bool) -> ExamQuestio
 
 fn pdf_calls(rng: &mut Rng, map: &MapImage, condition: fn(f64) -> bool) -> Vec<DVec3> {
     let map64 = oracle(map);
-    let direction = |_| {
-        rng.retry(|rng| {
-            let direction = direction(rng);
-            let pdf = map64.pdf(direction);
-            (pdf.margin > EDGE && condition(pdf.value)).then_some(direction)
-        })
-    };
-    (0..CALLS).map(direction).collect()
+    rng.retry_list(CALLS, |rng| {
+        let direction = direction(rng);
+        let pdf = map64.pdf(direction);
+        (pdf.margin > EDGE && condition(pdf.value)).then_some(direction)
+    })
 }
 
 fn densities_at(map: MapImage, calls: Vec<DVec3>) -> ExamQuestion {

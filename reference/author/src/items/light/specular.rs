@@ -63,7 +63,7 @@ const REFLECT: Declaration = Declaration {
     tests: &["Mirrors a direction about the normal."],
     questions: |rng| {
         let special = every_height(rng, 0..=HORIZON);
-        vec![reflections([list(rng, above), special].concat())]
+        vec![reflections([rng.list(CALLS, above), special].concat())]
     },
     ..Declaration::in_group(SPECULAR)
 };
@@ -80,8 +80,8 @@ const REFLECT_INSIDE: Declaration = Declaration {
     ],
     questions: |rng| {
         let special = every_height(rng, HORIZON + 1..=2 * HORIZON);
-        let usual = [list(rng, below), list(rng, above)].concat();
-        vec![reflections([usual, special].concat())]
+        let [inside, outside] = [below, above].map(|draw| rng.list(CALLS, draw));
+        vec![reflections([inside, outside, special].concat())]
     },
     ..Declaration::in_group(SPECULAR)
 };
@@ -102,14 +102,12 @@ const ENTERING: Declaration = Declaration {
     ],
     questions: |rng| {
         // Each question ends with the direction that the next one starts with.
-        let same = vec![above(rng)];
+        let same = above(rng);
         media(rng, DENSE, |rng, medium| {
             let out = directions_that(rng, medium, above, any);
             let grazing = few(rng, medium, grazing, any);
-            refraction(
-                medium,
-                [&same, &out, &grazing, &same].map(Vec::as_slice).concat(),
-            )
+            let out = [vec![same], out, grazing, vec![same]].concat();
+            refraction(medium, out)
         })
     },
     ..Declaration::in_group(SPECULAR)
@@ -169,14 +167,12 @@ const HEAD_ON: Declaration = Declaration {
     tests: &["The result has length one, even along the normal."],
     questions: |rng| {
         media(rng, DENSE, |rng, medium| {
-            let tilted = [
-                above(rng),
-                directions_that(rng, medium, below, refracted)[0],
-            ];
-            let out = [DVec3::Z, DVec3::NEG_Z].into_iter().chain(tilted);
-            let near = (0..CALLS).flat_map(|_| [1, 2 * HORIZON - 1]);
-            let near = near.map(|class| fields::direction(rng, class));
-            refraction(medium, out.chain(near).collect())
+            let above = above(rng);
+            let below = directions_that(rng, medium, below, refracted)[0];
+            let mut out = vec![DVec3::Z, DVec3::NEG_Z, above, below];
+            let near = [1, 2 * HORIZON - 1].repeat(CALLS).into_iter();
+            out.extend(near.map(|class| fields::direction(rng, class)));
+            refraction(medium, out)
         })
     },
     ..Declaration::in_group(SPECULAR)
@@ -192,15 +188,7 @@ const LOW_INDEX: Declaration = Declaration {
         "`ior` can be less than 1, in which case total reflection can occur outside.",
         "It can also be 1, in which case light isn't bent.",
     ],
-    questions: |rng| {
-        let mut questions = media(rng, THIN, |rng, medium| {
-            refraction(medium, thin_directions(rng, medium))
-        });
-        questions.extend(media(rng, SAME, |rng, medium| {
-            refraction(medium, straight_directions(rng, medium))
-        }));
-        questions
-    },
+    questions: |rng| thin_and_straight(rng, refraction),
     ..Declaration::in_group(SPECULAR)
 };
 
@@ -279,15 +267,7 @@ const FRESNEL_LOW_INDEX: Declaration = Declaration {
            less.",
     section: "light/glass.md#an-index-below-one",
     tests: &["The result is 1 for total reflection, and 0 if `ior` is 1."],
-    questions: |rng| {
-        let mut questions = media(rng, THIN, |rng, medium| {
-            fresnel(medium, thin_directions(rng, medium))
-        });
-        questions.extend(media(rng, SAME, |rng, medium| {
-            fresnel(medium, straight_directions(rng, medium))
-        }));
-        questions
-    },
+    questions: |rng| thin_and_straight(rng, fresnel),
     ..Declaration::in_group(SPECULAR)
 };
 
@@ -307,16 +287,13 @@ const MIRROR: Declaration = Declaration {
         // Each question ends with the direction that the next one starts with.
         let same = any_above(rng);
         let question = |reflectance: DVec3| {
-            let out = [vec![same], list(rng, any_above), vec![same]].concat();
-            let rows = out
-                .iter()
-                .map(|out| specular::mirror_scatter(reflectance, *out));
-            let rows = scattered(rows);
+            let out = [vec![same], rng.list(CALLS, any_above), vec![same]].concat();
+            let scatter = |out: &DVec3| specular::mirror_scatter(reflectance, *out);
+            let rows = scattered(out.iter().map(scatter));
             let mirror = MirrorColor {
                 reflectance: reflectance.as_vec3(),
             };
-            let out = out.into_iter().map(local).collect();
-            let question = LightQuestion::MirrorScatter(Table::of_list(mirror, out));
+            let question = LightQuestion::MirrorScatter(Table::of_list(mirror, locals(out)));
             table(question, &["direction", "attenuation", "pdf"], rows)
         };
         colors.map(question).collect()
@@ -384,11 +361,6 @@ const GLASS_TOTAL: Declaration = Declaration {
     ..Declaration::in_group(SPECULAR)
 };
 
-/// Returns directions that are drawn by a function.
-fn list(rng: &mut Rng, draw: fn(&mut Rng) -> DVec3) -> Vec<DVec3> {
-    (0..CALLS).map(|_| draw(rng)).collect()
-}
-
 /// Returns two directions at each angle in this range of classes.
 fn every_height(rng: &mut Rng, classes: RangeInclusive<usize>) -> Vec<DVec3> {
     let twice = classes.clone().chain(classes);
@@ -417,23 +389,30 @@ fn slanted(rng: &mut Rng) -> DVec3 {
     rng.retry(|rng| Some(above(rng)).filter(|out| out.z < 0.5))
 }
 
-/// Returns directions at the surface of a medium that is thinner than its surroundings.
-fn thin_directions(rng: &mut Rng, medium: Medium) -> Vec<DVec3> {
-    let mut out = directions_that(rng, medium, any_above, total);
-    out.extend(directions_that(rng, medium, above, refracted));
-    out.extend(directions_that(rng, medium, below, any));
-    out.extend(few(rng, medium, any_below, any));
-    for wanted in [refracted, total] {
-        out.extend(near_critical(rng, medium, 1.0, wanted));
-    }
-    rng.shuffled(out)
-}
-
-/// Returns directions at the surface of a medium with the index of its surroundings.
-fn straight_directions(rng: &mut Rng, medium: Medium) -> Vec<DVec3> {
-    let usual = [list(rng, above), list(rng, below)].concat();
-    let special = [any_above, any_below].map(|draw| few(rng, medium, draw, any));
-    [usual, special.concat()].concat()
+/// Returns questions about media that are thinner than their surroundings, and about one with the
+/// index of its surroundings.
+fn thin_and_straight(
+    rng: &mut Rng,
+    question: fn(Medium, Vec<DVec3>) -> ExamQuestion,
+) -> Vec<ExamQuestion> {
+    let mut questions = media(rng, THIN, |rng, medium| {
+        let mut out = directions_that(rng, medium, any_above, total);
+        out.extend(directions_that(rng, medium, above, refracted));
+        out.extend(directions_that(rng, medium, below, any));
+        out.extend(few(rng, medium, any_below, any));
+        for wanted in [refracted, total] {
+            out.extend(near_critical(rng, medium, 1.0, wanted));
+        }
+        question(medium, rng.shuffled(out))
+    });
+    questions.extend(media(rng, SAME, |rng, medium| {
+        let mut out = rng.list(CALLS, above);
+        out.extend(rng.list(CALLS, below));
+        out.extend(few(rng, medium, any_above, any));
+        out.extend(few(rng, medium, any_below, any));
+        question(medium, out)
+    }));
+    questions
 }
 
 /// The classes of indices of media that are denser than their surroundings.
@@ -500,13 +479,10 @@ fn directions_that(
     condition: fn(DVec3, f64) -> bool,
 ) -> Vec<DVec3> {
     let ior = medium.ior.into();
-    let direction = |_| {
-        rng.retry(|rng| {
-            let out = draw(rng);
-            (is_clear(out, ior) && condition(out, ior)).then_some(out)
-        })
-    };
-    (0..CALLS).map(direction).collect()
+    rng.retry_list(CALLS, |rng| {
+        let out = draw(rng);
+        (is_clear(out, ior) && condition(out, ior)).then_some(out)
+    })
 }
 
 /// Returns a direction outside, its mirror image inside, and the first one again. Light is
@@ -617,10 +593,15 @@ fn fraction_margin(out: DVec3, ior: f64) -> f64 {
 fn is_clear_sample(call: &GlassSample, ior: f64) -> bool {
     let (out, number) = (call.out.as_dvec3(), f64::from(call.random));
     let is_far = (number - specular::fresnel(out, ior)).abs() > fraction_margin(out, ior);
-    // Along the normal of a medium with index 1, the fraction isn't rounded, and total reflection
-    // doesn't depend on the number.
-    let is_exactly_zero = ior == 1.0 && out.truncate() == DVec2::ZERO && number == 0.0;
-    is_clear(out, ior) && (is_far || is_exactly_zero || total(out, ior))
+    // Total reflection doesn't depend on the number.
+    let is_decided = is_far || (is_never_reflected(out, ior) && number == 0.0);
+    is_clear(out, ior) && (is_decided || total(out, ior))
+}
+
+/// Returns whether the reflected fraction is zero and isn't rounded: along the normal of a medium
+/// with index 1.
+fn is_never_reflected(out: DVec3, ior: f64) -> bool {
+    ior == 1.0 && out.truncate() == DVec2::ZERO
 }
 
 fn reflections(out: Vec<DVec3>) -> ExamQuestion {
@@ -669,41 +650,33 @@ fn glass_samples(rng: &mut Rng, medium: Medium, out: Vec<DVec3>, judged: &[&str]
     for out in out {
         let fraction = specular::fresnel(out, ior);
         let margin = fraction_margin(out, ior).max(1e-7);
-        let is_exactly_zero = ior == 1.0 && out.truncate() == DVec2::ZERO;
         for is_below in [true, false] {
-            let sample = rng.attempt(1_000, |rng| {
+            calls.extend(rng.attempt(1_000, |rng| {
                 // Numbers close to the fraction are as frequent as others.
                 let distance = rng.log_uniform(2.0 * margin, 1.0);
-                let number = if rng.coin() {
-                    fraction + distance
-                } else {
-                    fraction - distance
-                };
-                let number = if is_exactly_zero {
+                let near = (fraction + rng.sign() * distance) as f32;
+                let random = if is_never_reflected(out, ior) {
                     0.0
                 } else if rng.coin() {
-                    number as f32
+                    near
                 } else {
                     fields::number(rng)
                 };
-                let is_random = (0.0..1.0).contains(&number);
-                let is_wanted = (f64::from(number) < fraction) == is_below;
-                let call = GlassSample {
-                    out: out.as_vec3(),
-                    random: number,
-                };
+                let out = out.as_vec3();
+                let call = GlassSample { out, random };
+                let is_wanted = (f64::from(random) < fraction) == is_below;
+                let is_random = (0.0..1.0).contains(&random);
                 (is_random && is_wanted && is_clear_sample(&call, ior)).then_some(call)
-            });
-            calls.extend(sample);
+            }));
         }
     }
     // The next question is about the same call first, which refracts for every index.
     let calls = [vec![SLANTED], rng.shuffled(calls), vec![SLANTED]].concat();
     let ask = |calls: Vec<GlassSample>| {
-        let rows = calls
-            .iter()
-            .map(|call| specular::glass_scatter(ior, call.out.as_dvec3(), call.random.into()));
-        let rows = scattered(rows);
+        let scatter = |call: &GlassSample| {
+            specular::glass_scatter(ior, call.out.as_dvec3(), call.random.into())
+        };
+        let rows = scattered(calls.iter().map(scatter));
         let question = LightQuestion::GlassScatter(Table::of_list(medium, calls));
         table(question, judged, rows)
     };

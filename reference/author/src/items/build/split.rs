@@ -51,60 +51,58 @@ const ALIGNMENTS: [Alignment; 4] = [
 
 const SMALL: f64 = 0.05;
 
-/// Three clumps, two of which are close together. A builder that forgets the outermost bucket
-/// ignores the clump at that end, so it may prefer to split between the two close clumps.
-const CLUMPS: Layout<'static> = Layout {
-    clumps: &[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)],
-    first_size: SMALL,
-    size: SMALL,
-    alignment: Alignment::Loose,
-};
-/// Clumps with a gap from just above one quarter to just below one half. A builder with four
-/// buckets doesn't have a plane in this gap.
-const GAP: Layout<'static> = Layout {
-    clumps: &[
+impl<'a> Layout<'a> {
+    /// Returns a layout of small primitives.
+    const fn small(clumps: &'a [(f64, f64, usize)]) -> Self {
+        Layout {
+            clumps,
+            first_size: SMALL,
+            size: SMALL,
+            alignment: Alignment::Loose,
+        }
+    }
+}
+
+/// Layouts of twelve primitives.
+const LAYOUTS: [Layout<'static>; 5] = [
+    // Three clumps, two of which are close together. A builder that forgets the outermost bucket
+    // ignores the clump at that end, so it may prefer to split between the two close clumps.
+    Layout::small(&[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)]),
+    // Clumps with a gap from just above one quarter to just below one half. A builder with four
+    // buckets doesn't have a plane in this gap.
+    Layout::small(&[
         (0.0, 0.2, 4),
         (0.262, 0.27, 2),
         (0.485, 0.493, 2),
         (0.51, 1.0, 4),
-    ],
-    first_size: SMALL,
-    size: SMALL,
-    alignment: Alignment::Loose,
-};
+    ]),
+    // Three clumps. The first is the largest, but a builder that takes counts and boxes from
+    // different buckets overlooks this clump and splits at the other gap.
+    Layout::small(&[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)]),
+    // Three clumps. The first consists of large primitives, so it is best to split off this clump.
+    // The other gap is wider, and a builder that treats primitives as points splits there.
+    Layout {
+        first_size: 1.2,
+        size: 0.01,
+        ..Layout::small(&[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)])
+    },
+    // A large primitive beside the best gap. With sixteen buckets, only one plane is in this gap. A
+    // builder that stores the cost of one plane with the next one splits on the wrong side of the
+    // large primitive.
+    Layout {
+        first_size: 1.2,
+        size: 0.02,
+        ..Layout::small(&[
+            (0.4385, 0.4385, 1),
+            (0.0, 0.1, 3),
+            (0.5615, 0.6, 7),
+            (1.0, 1.0, 1),
+        ])
+    },
+];
 
-/// Three clumps. The first is the largest, but a builder that takes counts and boxes from different
-/// buckets overlooks this clump and splits at the other gap.
-const HEAVY_END: Layout<'static> = Layout {
-    clumps: &[(0.0, 0.02, 6), (0.6, 0.62, 2), (0.98, 1.0, 4)],
-    first_size: SMALL,
-    size: SMALL,
-    alignment: Alignment::Loose,
-};
-
-/// Three clumps. The first consists of large primitives, so it is best to split off this clump. The
-/// other gap is wider, and a builder that treats primitives as points splits there.
-const LARGE_END: Layout<'static> = Layout {
-    clumps: &[(0.0, 0.02, 4), (0.42, 0.44, 4), (0.98, 1.0, 4)],
-    first_size: 1.2,
-    size: 0.01,
-    alignment: Alignment::Loose,
-};
-
-/// A large primitive beside the best gap. With sixteen buckets, only one plane is in this gap. A
-/// builder that stores the cost of one plane with the next one splits on the wrong side of the
-/// large primitive.
-const NARROW: Layout<'static> = Layout {
-    clumps: &[
-        (0.4385, 0.4385, 1),
-        (0.0, 0.1, 3),
-        (0.5615, 0.6, 7),
-        (1.0, 1.0, 1),
-    ],
-    first_size: 1.2,
-    size: 0.02,
-    alignment: Alignment::Loose,
-};
+/// The layouts' leaf sizes. All primitives together never fit in a leaf.
+const LEAF_SIZES: [usize; 5] = [8, 8, 8, 8, 10];
 
 pub(super) const ONE_SPLIT: Declaration = Declaration {
     id: "build.one_split",
@@ -164,29 +162,38 @@ impl UnplacedQuestion {
     }
 }
 
-/// Generates random primitives for which one split is by far the best.
-type Draw = Box<dyn Fn(&mut Rng) -> UnplacedQuestion>;
+/// The questions of the item so far.
+struct Questions<'a> {
+    rng: &'a mut Rng,
+    /// The class of the first question's size. Each question has the next size.
+    first_size: usize,
+    questions: Vec<ExamQuestion>,
+}
+
+impl Questions<'_> {
+    /// Adds a question. `draw` generates random primitives for which one split is by far the best.
+    fn add(&mut self, draw: impl Fn(&mut Rng) -> UnplacedQuestion) {
+        let size = (self.first_size + self.questions.len()) % fields::SIZES.len();
+        let question = self.rng.retry(|rng| draw(rng).question(rng, size));
+        self.questions.push(question);
+    }
+}
 
 fn one_split(rng: &mut Rng) -> Vec<ExamQuestion> {
-    let sizes = fields::SIZES.len();
-    let first = rng.index(sizes);
-    let kinds = [
-        in_clumps(),
-        of_a_few(),
-        of_many(),
-        of_outliers(),
-        of_dense_ends(),
-        of_strips(),
-    ];
-    let kinds = kinds.into_iter().flatten().enumerate();
-    let mut questions: Vec<ExamQuestion> = kinds
-        .map(|(index, draw)| {
-            let size = (first + index) % sizes;
-            rng.retry(|rng| draw(rng).question(rng, size))
-        })
-        .collect();
-    questions.extend((0..3).map(|axis| tiny_stack(rng, axis)));
-    questions
+    let mut all = Questions {
+        first_size: rng.index(fields::SIZES.len()),
+        rng,
+        questions: Vec::new(),
+    };
+    add_clumps(&mut all);
+    add_few(&mut all);
+    add_many(&mut all);
+    add_outliers(&mut all);
+    add_dense_ends(&mut all);
+    add_strips(&mut all);
+    let Questions { rng, questions, .. } = all;
+    let tiny = (0..3).map(|axis| tiny_stack(rng, axis));
+    questions.into_iter().chain(tiny).collect()
 }
 
 /// Returns a question about two layers of strips whose centres extend less than `f32::EPSILON` along
@@ -203,127 +210,98 @@ fn tiny_stack(rng: &mut Rng, axis: usize) -> ExamQuestion {
     })
 }
 
-/// Returns functions that generate each layout of clumps along each axis.
-fn in_clumps() -> Vec<Draw> {
+/// Adds questions about each layout of clumps along each axis.
+fn add_clumps(all: &mut Questions) {
     /// The factors by which the layouts' primitive counts are multiplied. One layout with a gap
     /// then has over 1,024 primitives.
     const TIMES: [usize; 12] = [1, 5, 2, 20, 1, 96, 1, 5, 2, 20, 1, 50];
-    /// The layouts and their leaf sizes. All primitives together never fit in a leaf.
-    const LAYOUTS: [(Layout<'static>, usize); 5] = [
-        (CLUMPS, 8),
-        (GAP, 8),
-        (HEAVY_END, 8),
-        (LARGE_END, 8),
-        (NARROW, 10),
-    ];
-    let along_axes = (0..LAYOUTS.len()).flat_map(|number| (0..3).map(move |axis| (number, axis)));
-    let draw = |(index, (number, axis)): (usize, (usize, usize))| -> Draw {
-        let (layout, leaf_size) = LAYOUTS[number];
-        let times = TIMES[index % TIMES.len()];
-        let clumps = layout.clumps.iter();
-        let clumps: Vec<_> = clumps.map(|&(from, to, n)| (from, to, times * n)).collect();
-        let alignment = if number >= 3 {
-            Alignment::Loose
-        } else {
-            ALIGNMENTS[(number + axis) % ALIGNMENTS.len()]
-        };
-        Box::new(move |rng| {
+    for (number, layout) in LAYOUTS.into_iter().enumerate() {
+        for axis in 0..3 {
+            let times = TIMES[(3 * number + axis) % TIMES.len()];
+            let clumps = layout.clumps.iter();
+            let clumps: Vec<_> = clumps.map(|&(from, to, n)| (from, to, times * n)).collect();
+            let alignment = if number >= 3 {
+                Alignment::Loose
+            } else {
+                ALIGNMENTS[(number + axis) % ALIGNMENTS.len()]
+            };
             let layout = Layout {
                 clumps: &clumps,
                 alignment,
                 ..layout
             };
             let is_mirrored = (number + axis).is_multiple_of(2);
-            UnplacedQuestion::new(
-                row(rng, &layout, axis, is_mirrored),
-                times * leaf_size,
-                axis,
-            )
-        })
-    };
-    along_axes.enumerate().map(draw).collect()
+            all.add(|rng| {
+                let shapes = row(rng, &layout, axis, is_mirrored);
+                UnplacedQuestion::new(shapes, times * LEAF_SIZES[number], axis)
+            });
+        }
+    }
 }
 
-/// Returns functions that generate a few primitives: one more than fits in a leaf.
-fn of_a_few() -> Vec<Draw> {
-    let clusters = [3, 4, 5, 6, 8].into_iter().enumerate();
-    let clusters = clusters.map(|(index, count)| -> Draw {
+/// Adds questions about a few primitives: one more than fits in a leaf.
+fn add_few(all: &mut Questions) {
+    for (index, count) in [3, 4, 5, 6, 8].into_iter().enumerate() {
         let alignment = match index % 2 {
             0 => Alignment::Loose,
             _ => ALIGNMENTS[index / 2 % ALIGNMENTS.len()],
         };
-        Box::new(move |rng| {
+        all.add(|rng| {
             let axis = rng.index(3);
             let shapes = few(rng, (count, alignment), axis, index % 2 == 0);
             UnplacedQuestion::new(shapes, count - 1, axis)
-        })
-    });
-    let spheres = (3..=6).map(|count| -> Draw {
-        Box::new(move |rng| {
+        });
+    }
+    for count in 3..=6 {
+        all.add(|rng| {
             let axis = rng.index(3);
             UnplacedQuestion::new(uneven(rng, count, axis), count - 1, axis)
-        })
-    });
-    clusters.chain(spheres).collect()
+        });
+    }
 }
 
-/// Returns functions that generate two clusters of many primitives.
-fn of_many() -> Vec<Draw> {
-    let counts = [16_usize, 64, 129, 256, 513, 1100].into_iter();
-    let draw = |count: usize| -> Draw {
-        Box::new(move |rng| {
+/// Adds questions about two clusters of many primitives.
+fn add_many(all: &mut Questions) {
+    for count in [16_usize, 64, 129, 256, 513, 1100] {
+        all.add(|rng| {
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
             let largest = 6 * count / 10 + chunk_size(count);
             let leaf_size = (largest + rng.index(count - largest)).min(1000);
             UnplacedQuestion::new(many(rng, count, axis, is_mirrored), leaf_size, axis)
-        })
-    };
-    counts.map(draw).collect()
+        });
+    }
 }
 
-/// Returns functions that generate a cluster and, far from it, a few outliers. The cluster has more
-/// than sixteen times as many primitives as there are outliers.
-fn of_outliers() -> Vec<Draw> {
-    let counts = [(18, 60), (100, 180), (250, 400)].into_iter();
-    let draw = |(least, most): (u32, u32)| -> Draw {
-        Box::new(move |rng| {
+/// Adds questions about a cluster and, far from it, a few outliers. The cluster has more than sixteen
+/// times as many primitives as there are outliers.
+fn add_outliers(all: &mut Questions) {
+    for (least, most) in [(18, 60), (100, 180), (250, 400)] {
+        all.add(|rng| {
             let (count, chunk) = in_whole_chunks(rng.integer(least, most) as usize);
             // If there are very many primitives, the outliers are a single chunk.
             let far = chunk * (1 + rng.index((count.min(200) / (20 * chunk)).max(1)));
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
-            let layout = Layout {
-                clumps: &[(0.0, 0.01, far), (0.9, 1.0, count - far)],
-                first_size: SMALL,
-                size: SMALL,
-                alignment: Alignment::Loose,
-            };
+            let clumps = [(0.0, 0.01, far), (0.9, 1.0, count - far)];
             let leaf_size = count - 1 - rng.index(far);
-            UnplacedQuestion::new(row(rng, &layout, axis, is_mirrored), leaf_size, axis)
-        })
-    };
-    counts.map(draw).collect()
+            let shapes = row(rng, &Layout::small(&clumps), axis, is_mirrored);
+            UnplacedQuestion::new(shapes, leaf_size, axis)
+        });
+    }
 }
 
-/// Returns functions that generate a dense cluster at one end. The gap beside the cluster ends just
-/// short of one seventh of the way along the row, so that no builder with fewer than 8 buckets has
-/// a plane there.
-fn of_dense_ends() -> Vec<Draw> {
-    let counts = [(12, 40), (41, 110), (111, 250), (251, 600)].into_iter();
-    let draw = |(least, most): (u32, u32)| -> Draw {
-        Box::new(move |rng| {
+/// Adds questions about a dense cluster at one end. The gap beside the cluster ends just short of one
+/// seventh of the way along the row, so that no builder with fewer than 8 buckets has a plane there.
+fn add_dense_ends(all: &mut Questions) {
+    for (least, most) in [(12, 40), (41, 110), (111, 250), (251, 600)] {
+        all.add(|rng| {
             let (count, chunk) = in_whole_chunks(rng.integer(least, most) as usize);
             let dense = 6 * count / 10 / chunk * chunk;
             let (axis, is_mirrored) = (rng.index(3), rng.coin());
-            let layout = Layout {
-                clumps: &[(0.0, 5e-4, dense), (0.141, 1.0, count - dense)],
-                first_size: SMALL,
-                size: SMALL,
-                alignment: Alignment::Loose,
-            };
-            UnplacedQuestion::new(row(rng, &layout, axis, is_mirrored), dense, axis)
-        })
-    };
-    counts.map(draw).collect()
+            let clumps = [(0.0, 5e-4, dense), (0.141, 1.0, count - dense)];
+            let shapes = row(rng, &Layout::small(&clumps), axis, is_mirrored);
+            UnplacedQuestion::new(shapes, dense, axis)
+        });
+    }
 }
 
 /// Returns the largest primitive count up to `most` that is a multiple of its chunk size, along
@@ -340,17 +318,16 @@ fn chunk_size(count: usize) -> usize {
     count.div_ceil(64)
 }
 
-/// Returns functions that generate strips in layers.
-fn of_strips() -> Vec<Draw> {
-    let stacks = STACKS.iter().enumerate();
-    let stacks = stacks.map(|(index, &(count, least))| -> Draw {
-        Box::new(move |rng| {
+/// Adds questions about strips in layers.
+fn add_strips(all: &mut Questions) {
+    for (index, (count, least)) in STACKS.into_iter().enumerate() {
+        all.add(|rng| {
             let ratio = least * rng.log_uniform(1.1, 8.0);
             stack(rng, (count, index % 2 == 1), ratio, index % 3)
-        })
-    });
-    let layers = [(); 2].map(|()| -> Draw { Box::new(layers) });
-    stacks.chain(layers).collect()
+        });
+    }
+    all.add(layers);
+    all.add(layers);
 }
 
 /// Returns a cluster of primitives and a single primitive far from it.
@@ -379,13 +356,8 @@ fn many(rng: &mut Rng, count: usize, axis: usize, is_mirrored: bool) -> Vec<Shap
     } else {
         whole(4)
     };
-    let layout = Layout {
-        clumps: &[(0.0, 0.02, smaller), (0.6, 1.0, count - smaller)],
-        first_size: SMALL,
-        size: SMALL,
-        alignment: Alignment::Loose,
-    };
-    row(rng, &layout, axis, is_mirrored)
+    let clumps = [(0.0, 0.02, smaller), (0.6, 1.0, count - smaller)];
+    row(rng, &Layout::small(&clumps), axis, is_mirrored)
 }
 
 /// The size of primitives that are far larger than some of the spaces between them.

@@ -66,12 +66,21 @@ pub(super) struct Decoys<'a> {
 }
 
 impl Decoys<'_> {
-    /// Returns whether the slides' pseudocode gives the required answers to all rays.
-    fn are_as_required(&self, tree: &Tree, rays: &[Ray], with_decoy: &[Ray]) -> bool {
-        rays.iter().all(|ray| {
+    /// Returns a question about a tree with these decoys, unless it is unfair or the slides'
+    /// pseudocode doesn't give the required answers to all rays.
+    fn question(
+        &self,
+        rng: &mut Rng,
+        tree: &Tree,
+        rays: Vec<Ray>,
+        with_decoy: &[Ray],
+    ) -> Option<ExamQuestion> {
+        let is_as_required = |ray: &Ray| {
             let is_wrong = with_decoy.contains(ray) && self.slides == SlidesAnswer::Wrong;
-            slides_are_correct(tree, ray) != is_wrong
-        })
+            slides_are_correct(tree, ray) != is_wrong && tests_no_sphere(tree, ray)
+        };
+        let is_fair = decoy::is_fair(tree, &rays) && rays.iter().all(is_as_required);
+        is_fair.then(|| traversal_question(&tree.with_roots_at_both_ends(rng), rays))
     }
 }
 
@@ -90,9 +99,7 @@ pub(super) fn small_questions(rng: &mut Rng, decoys: Decoys) -> Vec<ExamQuestion
             let frame = Frame::new(rng, axes, 0);
             let Cell { tree, rays } = rng.attempt(300, |rng| Cell::draw(rng, &plan, &frame, 0))?;
             let with_decoy = rays.last().copied();
-            let is_fair = decoys.are_as_required(&tree, &rays, with_decoy.as_slice())
-                && rays.iter().all(|ray| tests_no_sphere(&tree, ray));
-            is_fair.then(|| traversal_question(&tree.with_roots_at_both_ends(rng), rays))
+            decoys.question(rng, &tree, rays, with_decoy.as_slice())
         })
     };
     reasons.map(question).collect()
@@ -110,7 +117,7 @@ const LINKS: [std::ops::Range<usize>; 4] = [0..9, 10..21, 22..37, 38..CHAIN];
 pub(super) fn question(rng: &mut Rng, decoys: Decoys) -> ExamQuestion {
     rng.retry(|rng| {
         let mut free_links = LINKS.map(|links| rng.shuffled(links.collect()));
-        let mut links: Vec<Option<Cell>> = (0..CHAIN).map(|_| None).collect();
+        let mut links: Vec<Option<Cell>> = vec![None; CHAIN];
         let places = rng.shuffled((0..CHAIN).collect::<Vec<usize>>());
         let axis = rng.index(3);
         let axes = [0, 1, 2].map(|next| rng.sign() * DVec3::AXES[(axis + next) % 3]);
@@ -134,10 +141,7 @@ pub(super) fn question(rng: &mut Rng, decoys: Decoys) -> ExamQuestion {
             .filter_map(|cell| cell.rays.last().copied())
             .collect();
         let tree = chain(rng, links, axes, (&places, decoys.fill));
-        let is_fair = decoy::is_fair(&tree, &rays)
-            && decoys.are_as_required(&tree, &rays, &with_decoy)
-            && rays.iter().all(|ray| tests_no_sphere(&tree, ray));
-        is_fair.then(|| traversal_question(&tree.with_roots_at_both_ends(rng), rays))
+        decoys.question(rng, &tree, rays, &with_decoy)
     })
 }
 
@@ -168,7 +172,7 @@ fn chain(
             let frame = Frame::new(rng, axes, places[link]);
             let (min, max) = (dvec3(3.0, 2.0, -0.6), dvec3(5.0, 3.0, 0.6));
             let number = first_number(link);
-            let mut shapes = vec![frame.spanning(min, max, number)];
+            let mut shapes = vec![with_number(frame.spanning(min, max), number)];
             // Spheres take up less space in an exam than triangles.
             shapes.extend((1..fill as u32).map(|next| {
                 let center = frame.point(0.5 * (min + max) + 0.3 * rng.point(1.0) * (max - min));
@@ -313,37 +317,30 @@ impl Frame {
         Ray::new(self.point(from).as_vec3(), dir.as_vec3())
     }
 
-    fn flat_triangle(&self, corners: [DVec3; 3], number: u32) -> Shape {
-        meshes::flat_triangle(corners.map(|corner| self.point(corner)), number)
+    fn flat_triangle(&self, corners: [DVec3; 3]) -> Shape {
+        meshes::flat_triangle(corners.map(|corner| self.point(corner)), 0)
     }
 
     /// Returns a triangle whose box has exactly these corners. The box may be flat.
-    fn spanning(&self, min: DVec3, max: DVec3, number: u32) -> Shape {
-        let third = if min.x < max.x {
-            dvec3(max.x, min.y, max.z)
-        } else {
-            dvec3(min.x, min.y, max.z)
-        };
-        let second = dvec3(max.x, max.y, min.z);
-        self.flat_triangle([min, second, third], number)
+    fn spanning(&self, min: DVec3, max: DVec3) -> Shape {
+        let [second, third] = [max.with_z(min.z), max.with_y(min.y)];
+        self.flat_triangle([min, second, third])
     }
 
     /// Picks a random small primitive inside a box, which may be flat.
-    fn small(&self, rng: &mut Rng, min: DVec3, max: DVec3, number: u32) -> Shape {
+    fn small(&self, rng: &mut Rng, min: DVec3, max: DVec3) -> Shape {
         const SIZE: f64 = 0.35;
         let flat = (0..3).find(|&axis| min[axis] == max[axis]);
         let middle = 0.5 * (min + max);
         let half = (0.5 * (max - min) - SIZE).max(DVec3::ZERO);
         let center = middle + half * rng.point(1.0);
-        let shape = match flat {
+        match flat {
             Some(axis) => {
                 let (u, v) = (DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]);
-                let corners = [-u - v, u - v, v].map(|corner| center + SIZE * corner);
-                self.flat_triangle(corners, 0)
+                self.flat_triangle([-u - v, u - v, v].map(|corner| center + SIZE * corner))
             }
             None => meshes::random_flat_triangle(rng, self.point(center), SIZE),
-        };
-        with_number(shape, number)
+        }
     }
 }
 
@@ -363,6 +360,7 @@ impl Cell {
     /// Generates a random cell. Returns `None` if it isn't fair.
     fn draw(rng: &mut Rng, plan: &Plan, frame: &Frame, link: usize) -> Option<Cell> {
         let mut draft = Draft {
+            rng,
             tree: Tree::default(),
             plan: *plan,
             frame: *frame,
@@ -370,9 +368,9 @@ impl Cell {
             decoy: FIRST_DECOY + link as u32,
         };
         let (ray, parallel) = if plan.reason == CellSkipReason::BeyondAfterParallel {
-            draft.add_crossing_leaves(rng)
+            draft.add_crossing_leaves()
         } else {
-            draft.add_leaves(rng)
+            draft.add_leaves()
         };
         let tree = draft.tree;
         let expected = tree.expected_hit(&Ray64::from(&ray));
@@ -414,7 +412,8 @@ struct LeafOfDecoy {
 }
 
 /// A cell under construction.
-struct Draft {
+struct Draft<'a> {
+    rng: &'a mut Rng,
     tree: Tree,
     plan: Plan,
     frame: Frame,
@@ -424,56 +423,63 @@ struct Draft {
     decoy: u32,
 }
 
-impl Draft {
-    fn next_number(&mut self) -> u32 {
+impl Draft<'_> {
+    /// Returns the shape with the next number.
+    fn numbered(&mut self, shape: Shape) -> Shape {
         self.number += 1;
-        self.number - 1
+        with_number(shape, self.number - 1)
+    }
+
+    /// Returns a triangle whose box has exactly these corners.
+    fn spanning(&mut self, min: DVec3, max: DVec3) -> Shape {
+        self.numbered(self.frame.spanning(min, max))
+    }
+
+    /// Returns a random small primitive inside a box.
+    fn small(&mut self, min: DVec3, max: DVec3) -> Shape {
+        let shape = self.frame.small(self.rng, min, max);
+        self.numbered(shape)
     }
 
     /// Adds the leaves of a cell in which no boxes cross. Returns the ray toward the decoy.
-    fn add_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
-        let (up, side) = (rng.uniform(0.45, 0.55), rng.uniform(-0.04, 0.04));
-        let start = dvec3(rng.uniform(-0.4, 0.0), 0.0, 0.0);
+    fn add_leaves(&mut self) -> (Ray, Option<Ray>) {
+        let (up, side) = (self.rng.uniform(0.45, 0.55), self.rng.uniform(-0.04, 0.04));
+        let start = dvec3(self.rng.uniform(-0.4, 0.0), 0.0, 0.0);
         let at = |x: f64| dvec3(x, up * (x - start.x), side * (x - start.x));
         let dir = dvec3(1.0, up, side).normalize();
-        let ray = self.with_range(rng, self.frame.ray(start, dir));
-        let ahead = rng.uniform(1.6, 3.2) / dir.x;
+        let ray = self.with_range(self.frame.ray(start, dir));
+        let ahead = self.rng.uniform(1.6, 3.2) / dir.x;
 
-        let hit = at(rng.uniform(5.8, 6.2));
-        let first = self.next_number();
-        let target = if self.plan.hits_nothing {
+        let hit = at(self.rng.uniform(5.8, 6.2));
+        let mut targets = vec![if self.plan.hits_nothing {
             let (min, max) = (dvec3(-1.6, -1.5, -1.0), dvec3(2.4, 1.0, 1.0));
-            self.frame.spanning(hit + min, hit + max, first)
+            self.spanning(hit + min, hit + max)
         } else {
             let near = [dvec3(-1.6, 1.0, -1.0), dvec3(-1.6, 1.0, 1.0)];
             let corners = [near[0], near[1], dvec3(2.4, -1.5, 0.0)];
-            self.frame.flat_triangle(corners.map(|it| hit + it), first)
-        };
-        let mut targets = vec![target];
+            self.numbered(self.frame.flat_triangle(corners.map(|it| hit + it)))
+        }];
         if self.plan.leaf_size > 3 {
             for _ in 0..3 {
-                let beside = dvec3(rng.uniform(-1.3, 2.1), rng.uniform(-1.2, 0.7), 0.72);
-                targets.push(self.tiny(rng, hit, beside));
+                let (x, y) = (self.rng.uniform(-1.3, 2.1), self.rng.uniform(-1.2, 0.7));
+                targets.push(self.tiny(hit, dvec3(x, y, 0.72)));
             }
         }
         if self.plan.starts_in_sibling {
-            targets.push(self.tiny(rng, start, dvec3(-0.5, -0.6, 0.72)));
+            targets.push(self.tiny(start, dvec3(-0.5, -0.6, 0.72)));
         }
-        let targets = rng.shuffled(targets);
+        let targets = self.rng.shuffled(targets);
 
-        let z = |half: f64| half * DVec3::Z;
-        let corner = |x: f64, y: f64| dvec3(x, y, 0.0);
+        let corners =
+            |x: [f64; 2], y: [f64; 2], z: f64| [dvec3(x[0], y[0], -z), dvec3(x[1], y[1], z)];
         let (low, high) = (at(7.2).y, at(8.5).y);
-        let any = rng.index(3);
+        let any = self.rng.index(3);
         let (own, sibling, flat) = match self.plan.reason {
-            CellSkipReason::Missed => {
-                let above = [corner(2.5, 3.9) - z(0.6), corner(5.0, 5.1) + z(0.6)];
-                (above, None, any)
-            }
+            CellSkipReason::Missed => (corners([2.5, 5.0], [3.9, 5.1], 0.6), None, any),
             CellSkipReason::MissedWithSibling => {
-                let above = [corner(2.5, 3.7) - z(0.6), corner(4.5, 4.7) + z(0.6)];
-                let below = [corner(2.5, -1.4) - z(0.6), corner(4.5, -0.4) + z(0.6)];
-                if rng.coin() {
+                let above = corners([2.5, 4.5], [3.7, 4.7], 0.6);
+                let below = corners([2.5, 4.5], [-1.4, -0.4], 0.6);
+                if self.rng.coin() {
                     (above, Some(below), any)
                 } else {
                     (below, Some(above), any)
@@ -482,13 +488,12 @@ impl Draft {
             CellSkipReason::Beyond
             | CellSkipReason::BeyondAfterFarther
             | CellSkipReason::BeyondAfterParallel => {
-                let behind = [corner(7.2, low - 1.2), corner(9.0, low + 2.0)];
-                ([behind[0] - z(1.0), behind[1] + z(1.0)], None, 0)
+                let behind = corners([7.2, 9.0], [low - 1.2, low + 2.0], 1.0);
+                (behind, None, 0)
             }
             CellSkipReason::NearerOfTwoBeyond | CellSkipReason::FartherOfTwoBeyond => {
-                let nearer = [corner(5.2, low) - z(1.0), corner(9.0, low + 2.0) + z(1.0)];
-                let [min, max] = [corner(8.5, low - 1.2), corner(10.0, high + 2.0)];
-                let farther = [min - z(1.0), max + z(1.0)];
+                let nearer = corners([5.2, 9.0], [low, low + 2.0], 1.0);
+                let farther = corners([8.5, 10.0], [low - 1.2, high + 2.0], 1.0);
                 if self.plan.reason == CellSkipReason::NearerOfTwoBeyond {
                     (nearer, Some(farther), 1)
                 } else {
@@ -502,39 +507,37 @@ impl Draft {
             ahead,
         };
         if self.plan.reason == CellSkipReason::BeyondAfterFarther {
-            let (entry, end) = (at(rng.uniform(0.8, 1.2)), at(rng.uniform(9.2, 9.6)));
-            let number = self.next_number();
-            let farther = decoy::triangle_across(rng, &ray, (end - start).length(), 0.25, number);
-            let early = vec![self.tiny(rng, entry, 0.72 * DVec3::Z), farther];
-            let early = rng.shuffled(early);
+            let entry = at(self.rng.uniform(0.8, 1.2));
+            let end = at(self.rng.uniform(9.2, 9.6));
+            let distance = (end - start).length();
+            let farther = decoy::triangle_across(self.rng, &ray, distance, 0.25, 0);
+            let farther = self.numbered(farther);
+            let early = vec![self.tiny(entry, 0.72 * DVec3::Z), farther];
+            let early = self.rng.shuffled(early);
             let (early, target) = (self.tree.add_leaf(early), self.tree.add_leaf(targets));
-            let is_left = rng.coin();
+            let is_left = self.rng.coin();
             let both = self.add_interior(early, target, is_left);
-            let leaf = self.add_leaf_of_decoy(rng, &decoy, &ray);
+            let leaf = self.add_leaf_of_decoy(&decoy, &ray);
             self.add_interior(leaf, both, self.plan.is_left);
             return (ray, None);
         }
         let Some([min, max]) = sibling else {
-            self.add_siblings(rng, &decoy, &ray, targets, self.plan.is_left);
+            self.add_siblings(&decoy, &ray, targets, self.plan.is_left);
             return (ray, None);
         };
-        let number = self.next_number();
-        let mut others = vec![self.frame.spanning(min, max, number)];
+        let mut others = vec![self.spanning(min, max)];
         if self.plan.leaf_size > 3 {
-            for _ in 0..3 {
-                let number = self.next_number();
-                others.push(self.frame.small(rng, min, max, number));
-            }
+            others.extend([(); 3].map(|()| self.small(min, max)));
         }
         let is_missed = self.plan.reason == CellSkipReason::MissedWithSibling;
         let is_left = if is_missed {
             self.plan.is_left
         } else {
-            rng.coin()
+            self.rng.coin()
         };
-        let both = self.add_siblings(rng, &decoy, &ray, others, is_left);
+        let both = self.add_siblings(&decoy, &ray, others, is_left);
         let target = self.tree.add_leaf(targets);
-        let is_left = rng.coin();
+        let is_left = self.rng.coin();
         self.add_interior(both, target, is_left);
         (ray, None)
     }
@@ -542,45 +545,44 @@ impl Draft {
     /// Adds the decoy's leaf and its sibling, starting with the left child, and then their parent.
     fn add_siblings(
         &mut self,
-        rng: &mut Rng,
         decoy: &LeafOfDecoy,
         ray: &Ray,
         others: Vec<Shape>,
         is_left: bool,
     ) -> usize {
         if is_left {
-            let leaf = self.add_leaf_of_decoy(rng, decoy, ray);
+            let leaf = self.add_leaf_of_decoy(decoy, ray);
             let other = self.tree.add_leaf(others);
             return self.add_interior(leaf, other, true);
         }
         let other = self.tree.add_leaf(others);
-        let leaf = self.add_leaf_of_decoy(rng, decoy, ray);
+        let leaf = self.add_leaf_of_decoy(decoy, ray);
         self.add_interior(leaf, other, false)
     }
 
     /// Returns a tiny triangle beside a point, on a random side of the ray's plane.
-    fn tiny(&mut self, rng: &mut Rng, point: DVec3, beside: DVec3) -> Shape {
+    fn tiny(&mut self, point: DVec3, beside: DVec3) -> Shape {
         const SIZE: f64 = 0.25;
-        let beside = beside * dvec3(1.0, 1.0, rng.sign());
-        let shape = meshes::random_flat_triangle(rng, self.frame.point(point + beside), SIZE);
-        with_number(shape, self.next_number())
+        let beside = beside * dvec3(1.0, 1.0, self.rng.sign());
+        let center = self.frame.point(point + beside);
+        let shape = meshes::random_flat_triangle(self.rng, center, SIZE);
+        self.numbered(shape)
     }
 
     /// Adds two leaves whose boxes form a cross. Returns the ray toward the decoy and a parallel
     /// ray that enters the boxes in the opposite order.
-    fn add_crossing_leaves(&mut self, rng: &mut Rng) -> (Ray, Option<Ray>) {
-        let dir = dvec3(1.0, -1.0, rng.uniform(-0.03, 0.03)).normalize();
+    fn add_crossing_leaves(&mut self) -> (Ray, Option<Ray>) {
+        let dir = dvec3(1.0, -1.0, self.rng.uniform(-0.03, 0.03)).normalize();
         let shift = dvec3(3.0, 0.0, 0.0);
-        let mut jitter = || rng.uniform(-0.1, 0.1);
+        let mut jitter = || self.rng.uniform(-0.1, 0.1);
         let start = shift + dvec3(-0.8 + jitter(), 4.0 + jitter(), 0.1);
         let before = shift + dvec3(-2.5 + jitter(), 0.6 + jitter(), 0.1);
-        let ray = self.with_range(rng, self.frame.ray(start, dir));
+        let ray = self.with_range(self.frame.ray(start, dir));
 
         let (min, max) = (dvec3(0.0, -3.0, -1.0), dvec3(1.0, 3.0, 1.0));
-        let number = self.next_number();
-        let wall = self.frame.spanning(shift + min, shift + max, number);
-        let number = self.next_number();
-        let hit = decoy::triangle_across(rng, &ray, 2.0, 0.15, number);
+        let wall = self.spanning(shift + min, shift + max);
+        let hit = decoy::triangle_across(self.rng, &ray, 2.0, 0.15, 0);
+        let hit = self.numbered(hit);
         let target = self.tree.add_leaf(vec![wall, hit]);
         let crossing = [dvec3(-2.5, -3.0, -1.0), dvec3(5.0, -1.0, 1.0)];
         let crossing = if self.plan.is_flat {
@@ -588,23 +590,23 @@ impl Draft {
         } else {
             crossing
         };
-        let ahead = rng.uniform(0.7, 1.1);
+        let ahead = self.rng.uniform(0.7, 1.1);
         let decoy = LeafOfDecoy {
             corners: crossing.map(|corner| shift + corner),
             flat: 1,
             ahead,
         };
-        let leaf = self.add_leaf_of_decoy(rng, &decoy, &ray);
+        let leaf = self.add_leaf_of_decoy(&decoy, &ray);
         self.add_interior(leaf, target, self.plan.is_left);
         (ray, Some(self.frame.ray(before, dir)))
     }
 
     /// Returns the ray with the planned range. The range begins before the decoy and ends beyond
     /// all boxes.
-    fn with_range(&self, rng: &mut Rng, ray: Ray) -> Ray {
-        let later = rng.uniform(0.05, 0.3) as f32;
-        let end = rng.uniform(14.0, 25.0) as f32;
-        let far_end = rng.log_uniform(1e18, 1e30) as f32;
+    fn with_range(&mut self, ray: Ray) -> Ray {
+        let later = self.rng.uniform(0.05, 0.3) as f32;
+        let end = self.rng.uniform(14.0, 25.0) as f32;
+        let far_end = self.rng.log_uniform(1e18, 1e30) as f32;
         let (min, max) = match self.plan.range {
             0 => (0.0, f32::INFINITY),
             1 => (0.0, end),
@@ -618,7 +620,7 @@ impl Draft {
 
     /// Adds the leaf with the decoy. The decoy is on the ray. A flat box is flattened along `flat`,
     /// onto the face where the ray enters.
-    fn add_leaf_of_decoy(&mut self, rng: &mut Rng, decoy: &LeafOfDecoy, ray: &Ray) -> usize {
+    fn add_leaf_of_decoy(&mut self, decoy: &LeafOfDecoy, ray: &Ray) -> usize {
         let LeafOfDecoy {
             corners: [min, mut max],
             flat,
@@ -626,30 +628,28 @@ impl Draft {
         } = *decoy;
         if self.plan.is_line {
             // If this isn't one of the three axes, the box is a point.
-            let along = rng.index(4);
+            let along = self.rng.index(4);
             for axis in (0..3).filter(|&axis| axis != along) {
                 max[axis] = min[axis];
             }
         } else if self.plan.is_flat {
             max[flat] = min[flat];
         }
-        let number = self.next_number();
-        let mut others = vec![self.frame.spanning(min, max, number)];
+        let mut others = vec![self.spanning(min, max)];
         for _ in 2..self.plan.leaf_size {
-            let number = self.next_number();
             others.push(if self.plan.is_line {
-                let end = min.lerp(max, rng.uniform(0.1, 0.9));
-                self.frame.spanning(min, end, number)
+                let end = min.lerp(max, self.rng.uniform(0.1, 0.9));
+                self.spanning(min, end)
             } else {
-                self.frame.small(rng, min, max, number)
+                self.small(min, max)
             });
         }
-        let others = rng.shuffled(others);
+        let others = self.rng.shuffled(others);
         let decoy = if self.plan.is_sphere {
             let middle = ray.origin.as_dvec3() + ahead * ray.dir.as_dvec3();
             with_number(meshes::sphere(middle, 0.25), self.decoy)
         } else {
-            decoy::triangle_across(rng, ray, ahead, 0.25, self.decoy)
+            decoy::triangle_across(self.rng, ray, ahead, 0.25, self.decoy)
         };
         let leaf = self.tree.add_leaf(others);
         let start = self.tree.primitives(leaf).start;

@@ -3,6 +3,7 @@
 
 mod captions;
 
+use std::mem::discriminant;
 use std::sync::LazyLock;
 
 use glam::{Vec2, Vec3};
@@ -16,7 +17,7 @@ use protocol::{
 use roxmltree::Document;
 
 use super::{Drawing, draw};
-use crate::handed_out::{HandedOut, LIGHT, RAYS};
+use crate::handed_out::{LIGHT, RAYS};
 use crate::inputs::exam_source::ExamSource;
 
 /// An answer that doesn't fit any question that has a drawing.
@@ -27,19 +28,12 @@ const MAX_BYTES: usize = 130_000;
 
 /// The first question of each item in both practice exams.
 static QUESTIONS: LazyLock<Vec<ExamQuestion>> = LazyLock::new(|| {
-    [&RAYS, &LIGHT]
-        .into_iter()
-        .flat_map(first_questions)
-        .collect()
+    let exams = [&RAYS, &LIGHT].map(|handed_out| ExamSource::Practice.load(handed_out));
+    let exams = exams.map(|exam| exam.expect("the practice exam is embedded").exam);
+    let items = exams.into_iter().flat_map(|exam| exam.items);
+    let first = items.filter_map(|item| item.questions.into_iter().next());
+    first.collect()
 });
-
-fn first_questions(handed_out: &HandedOut) -> impl Iterator<Item = ExamQuestion> + use<> {
-    let exam = ExamSource::Practice.load(handed_out);
-    let items = exam.expect("the practice exam is embedded").exam.items;
-    items
-        .into_iter()
-        .filter_map(|item| item.questions.into_iter().next())
-}
 
 /// Generates numbers that a submission's answer may contain, including extreme values.
 fn number() -> impl Strategy<Value = f32> {
@@ -129,65 +123,43 @@ fn any_answer() -> impl Strategy<Value = (usize, usize, Answer)> {
         outcome(tree()),
         outcome(scattered()),
     );
-    (0..QUESTIONS.len(), any::<prop::sample::Index>(), answers).prop_map(
-        |(index, element, (ray, hit, span, tree, scattered))| {
-            let count = QUESTIONS[index].question.count();
-            let answer =
-                match QUESTIONS[index].key.answer() {
-                    Some(Answer::Rays(_)) => Answer::Rays(vec![ray; count]),
-                    Some(Answer::Hits(_)) => Answer::Hits(vec![hit; count]),
-                    Some(Answer::Spans(_)) => Answer::Spans(vec![span; count]),
-                    Some(Answer::Picture(_)) => NO_PICTURE,
-                    Some(Answer::Directions(_)) => {
-                        Answer::Directions(vec![
-                            scattered.map(|one| LocalDirection {
-                                direction: one.direction
-                            });
-                            count
-                        ])
-                    }
-                    Some(Answer::OptionalDirections(_)) => Answer::OptionalDirections(vec![
-                    scattered.map(|one| {
-                        one.pdf.map(|_| LocalDirection { direction: one.direction })
-                    });
-                    count
-                ]),
-                    Some(Answer::Scattered(_)) => Answer::Scattered(vec![scattered; count]),
-                    Some(Answer::Colors(_)) => Answer::Colors(vec![
-                        scattered.map(|one| Color {
-                            value: one.attenuation
-                        });
-                        count
-                    ]),
-                    Some(Answer::Densities(_)) => {
-                        Answer::Densities(vec![
-                            scattered.map(|one| Density {
-                                pdf: one.attenuation.x
-                            });
-                            count
-                        ])
-                    }
-                    Some(Answer::Fractions(_)) => {
-                        Answer::Fractions(vec![
-                            scattered.map(|one| Fraction {
-                                fraction: one.attenuation.x
-                            });
-                            count
-                        ])
-                    }
-                    None if matches!(QUESTIONS[index].question, Question::Light(_)) => {
-                        Answer::Directions(vec![
-                            scattered.map(|one| LocalDirection {
-                                direction: one.direction
-                            });
-                            count
-                        ])
-                    }
-                    Some(Answer::Tree(_)) | None => Answer::Tree(tree),
-                };
-            (index, element.index(count.max(1)), answer)
-        },
-    )
+    let indices = (0..QUESTIONS.len(), any::<prop::sample::Index>());
+    (indices, answers).prop_map(|((index, element), (ray, hit, span, tree, scattered))| {
+        let ExamQuestion { question, key, .. } = &QUESTIONS[index];
+        let count = question.count();
+        let direction = |one: &Scattered| LocalDirection {
+            direction: one.direction,
+        };
+        let optional_direction = |one: &Scattered| one.pdf.map(|_| direction(one));
+        let value = |one: &Scattered| one.attenuation;
+        let color = |one| Color { value: value(one) };
+        let density = |one| Density { pdf: value(one).x };
+        let fraction = |one| Fraction {
+            fraction: value(one).x,
+        };
+        let of_each_kind = [
+            Answer::Rays(vec![ray; count]),
+            Answer::Hits(vec![hit; count]),
+            Answer::Spans(vec![span; count]),
+            Answer::Directions(vec![scattered.map(direction); count]),
+            Answer::OptionalDirections(vec![scattered.map(optional_direction); count]),
+            Answer::Colors(vec![scattered.map(color); count]),
+            Answer::Densities(vec![scattered.map(density); count]),
+            Answer::Fractions(vec![scattered.map(fraction); count]),
+            Answer::Scattered(vec![scattered; count]),
+            Answer::Tree(tree),
+            NO_PICTURE,
+        ];
+        let expected = match (key.answer(), question) {
+            (Some(answer), _) => answer,
+            (None, Question::Light(_)) => Answer::Directions(Vec::new()),
+            (None, _) => Answer::Tree(ElementOutcome::Skipped),
+        };
+        let is_of_kind = |answer: &Answer| discriminant(answer) == discriminant(&expected);
+        let answer = of_each_kind.into_iter().find(is_of_kind);
+        let answer = answer.expect("every kind is in the list");
+        (index, element.index(count.max(1)), answer)
+    })
 }
 
 fn assert_well_formed(drawing: &Drawing) {
@@ -198,13 +170,10 @@ fn assert_well_formed(drawing: &Drawing) {
     assert_eq!(root.tag_name().name(), "svg");
     assert_eq!(root.attribute("role"), Some("img"));
     for name in ["title", "desc"] {
-        let found = root
-            .children()
-            .find(|child| child.tag_name().name() == name);
-        assert!(
-            found.is_some_and(|found| found.text().is_some()),
-            "no {name}"
-        );
+        let mut children = root.children();
+        let found = children.find(|child| child.tag_name().name() == name);
+        let text = found.and_then(|found| found.text());
+        assert!(text.is_some(), "no {name}");
     }
     for element in root.descendants().filter(|node| node.is_element()) {
         let name = element.tag_name().name();

@@ -5,10 +5,10 @@ use judging::exam::{ExamQuestion, ExpectedRows, Key};
 use protocol::light::LightQuestion;
 use protocol::light::environment::{MapImage, RandomPair};
 use protocol::light::lambertian::{DirectionPair, Matte};
-use protocol::light::specular::Medium;
-use protocol::{Answer, Density, ElementOutcome, LocalDirection, Rows, Scattered, Table};
+use protocol::light::specular::{GlassSample, Medium};
+use protocol::{Answer, Density, ElementOutcome, LocalDirection, Scattered, Table};
 
-use super::{caption, captions};
+use super::{caption, captions, table};
 
 const OUT: LocalDirection = LocalDirection {
     direction: vec3(0.6, 0.0, 0.8),
@@ -21,20 +21,17 @@ fn value<T>(value: T) -> Vec<ElementOutcome<T>> {
 
 /// Returns the captions for directions. Some of the directions shouldn't exist.
 pub(super) fn directions() -> String {
+    let optional =
+        |direction: Option<Vec3>| direction.map(|direction| LocalDirection { direction });
     let exam_question = |wanted: Option<Vec3>| {
-        let table = Table::of_list(Medium { ior: 1.0 }, vec![OUT]);
-        let wanted = wanted.map(|direction| LocalDirection { direction });
-        ExamQuestion::new(
-            LightQuestion::Refract(table).into(),
-            Key::table(
-                &["direction", "unit_direction"],
-                ExpectedRows::OptionalDirections(vec![wanted]),
-            ),
+        let rows = Table::of_list(Medium { ior: 1.0 }, vec![OUT]);
+        table(
+            LightQuestion::Refract(rows),
+            &["direction", "unit_direction"],
+            ExpectedRows::OptionalDirections(vec![optional(wanted)]),
         )
     };
-    let answer = |got: Option<Vec3>| {
-        Answer::OptionalDirections(value(got.map(|direction| LocalDirection { direction })))
-    };
+    let answer = |got: Option<Vec3>| Answer::OptionalDirections(value(optional(got)));
     let directions = [
         None,
         Some(-REFRACTED),
@@ -59,28 +56,24 @@ pub(super) fn values() -> String {
         incoming: OUT.direction,
     };
     let matte = Matte { albedo: Vec3::ONE };
-    let density = ExamQuestion::new(
-        LightQuestion::LambertianPdf(Table::of_list(matte, vec![pair])).into(),
-        Key::table(
-            &["pdf"],
-            ExpectedRows::Densities(vec![Density { pdf: 0.25 }]),
-        ),
+    let density = table(
+        LightQuestion::LambertianPdf(Table::of_list(matte, vec![pair])),
+        &["pdf"],
+        ExpectedRows::Densities(vec![Density { pdf: 0.25 }]),
     );
     let scattered = Scattered {
         direction: REFRACTED,
         attenuation: Vec3::ONE,
         pdf: None,
     };
-    let sample = protocol::light::specular::GlassSample {
+    let sample = GlassSample {
         out: OUT.direction,
         random: 0.5,
     };
-    let glass = ExamQuestion::new(
-        LightQuestion::GlassScatter(Table::of_list(Medium { ior: 1.0 }, vec![sample])).into(),
-        Key::table(
-            &["direction", "attenuation", "pdf"],
-            ExpectedRows::Scattered(vec![scattered]),
-        ),
+    let glass = table(
+        LightQuestion::GlassScatter(Table::of_list(Medium { ior: 1.0 }, vec![sample])),
+        &["direction", "attenuation", "pdf"],
+        ExpectedRows::Scattered(vec![scattered]),
     );
     let wrong = [
         Scattered {
@@ -101,12 +94,8 @@ pub(super) fn values() -> String {
 
 /// Returns the captions for directions on the whole sphere.
 pub(super) fn spheres() -> String {
-    let pairs = vec![
-        RandomPair {
-            random: vec2(0.5, 0.5)
-        };
-        128
-    ];
+    let random = vec2(0.5, 0.5);
+    let pairs = vec![RandomPair { random }; 128];
     let even = ExamQuestion::new(
         LightQuestion::UniformSphere(Table::of_list((), pairs)).into(),
         Key::SpreadEvenly {
@@ -117,22 +106,14 @@ pub(super) fn spheres() -> String {
         size: UVec2::new(2, 1),
         pixels: vec![Vec3::ONE, Vec3::ZERO],
     };
-    let table = Table {
-        subject: map,
-        rows: Rows::List(vec![OUT]),
-    };
-    let density = ExamQuestion::new(
-        LightQuestion::EnvironmentPdf(table).into(),
-        Key::table(
-            &["pdf"],
-            ExpectedRows::Densities(vec![Density { pdf: 0.0 }]),
-        ),
+    let density = table(
+        LightQuestion::EnvironmentPdf(Table::of_list(map, vec![OUT])),
+        &["pdf"],
+        ExpectedRows::Densities(vec![Density { pdf: 0.0 }]),
     );
     let all = |direction| {
-        Answer::Directions(vec![
-            ElementOutcome::Value(LocalDirection { direction });
-            128
-        ])
+        let direction = ElementOutcome::Value(LocalDirection { direction });
+        Answer::Directions(vec![direction; 128])
     };
     let lines = [
         captions(&even, [Vec3::Y, 0.5 * Vec3::Y, Vec3::NAN].map(all)),

@@ -5,22 +5,16 @@ mod rays;
 mod trees;
 
 use glam::{Vec3, vec2, vec3};
-use judging::exam::ExamQuestion;
-use protocol::{Answer, ElementOutcome, Ray, Shape, Trace};
+use judging::exam::{ExamQuestion, ExpectedRows, Key};
+use protocol::{Answer, ElementOutcome, Question, Ray, Shape, Trace};
 
 use crate::drawing::draw;
 
 #[test]
 fn captions_name_the_mistake() {
     let all = [
-        (
-            "missing or misplaced hits",
-            rays::missing_or_misplaced_hits(),
-        ),
-        (
-            "hits with another wrong field",
-            rays::hits_with_another_wrong_field(),
-        ),
+        ("missing or misplaced hits", rays::misplaced_hits()),
+        ("hits with another wrong field", rays::wrong_fields()),
         ("box intervals", rays::box_intervals()),
         ("camera rays", rays::camera_rays()),
         ("built trees", trees::built_trees()),
@@ -31,6 +25,11 @@ fn captions_name_the_mistake() {
     ];
     let sections = all.map(|(title, captions)| format!("{title}:\n{captions}"));
     insta::assert_snapshot!(sections.join("\n\n"));
+}
+
+/// Returns a question about a table that judges these quantities.
+fn table(question: impl Into<Question>, judged: &[&str], rows: ExpectedRows) -> ExamQuestion {
+    ExamQuestion::new(question.into(), Key::table(judged, rows))
 }
 
 fn caption(question: &ExamQuestion, answer: Answer) -> String {

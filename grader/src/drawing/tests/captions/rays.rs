@@ -8,19 +8,16 @@ use protocol::{
     Sample, Table, Trace,
 };
 
-use super::{ahead, ball, caption, captions, hits, trace};
+use super::{ahead, ball, caption, captions, hits, table, trace};
 
 fn sphere(ray: Ray, judged: &str, hit: Option<Trace>) -> ExamQuestion {
     let shapes = vec![ball(0.0, 7)];
     let question = Question::hits(Geometry::List { shapes }, vec![ray]);
-    ExamQuestion::new(
-        question,
-        Key::table(&[judged], ExpectedRows::Hits(vec![hit])),
-    )
+    table(question, &[judged], ExpectedRows::Hits(vec![hit]))
 }
 
 /// Returns the captions for missing or misplaced hits.
-pub(super) fn missing_or_misplaced_hits() -> String {
+pub(super) fn misplaced_hits() -> String {
     let near = sphere(ahead(0.0, f32::INFINITY), "distance", Some(trace(4.0)));
     let far = sphere(ahead(4.5, 9.0), "distance", Some(trace(6.0)));
     let none = sphere(ahead(0.0, 3.0), "distance", None);
@@ -40,7 +37,7 @@ pub(super) fn missing_or_misplaced_hits() -> String {
 }
 
 /// Returns the captions for hits in which another field is wrong.
-pub(super) fn hits_with_another_wrong_field() -> String {
+pub(super) fn wrong_fields() -> String {
     let ray = ahead(0.0, f32::INFINITY);
     type Change = fn(&mut Trace);
     let cases: [(&str, Change); 8] = [
@@ -101,12 +98,10 @@ pub(super) fn camera_rays() -> String {
         pixel: UVec2::new(2, 2),
         offset: Vec2::ZERO,
     };
-    let exam_question = ExamQuestion::new(
+    let exam_question = table(
         Question::SampleRay(Table::of_list(camera, vec![sample])),
-        Key::table(
-            &["direction", "unit_direction"],
-            ExpectedRows::Rays(vec![Vec3::NEG_Z]),
-        ),
+        &["direction", "unit_direction"],
+        ExpectedRows::Rays(vec![Vec3::NEG_Z]),
     );
     let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
     let dir = |dir| Ray { dir, ..ray };

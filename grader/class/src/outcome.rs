@@ -214,6 +214,12 @@ impl ScoreSummary {
         tasks.chain(items).chain([self.points, self.max_points])
     }
 
+    /// Returns the tasks in the form that the policy uses, without manual points.
+    pub fn for_policy(&self) -> Vec<TaskPoints<'_>> {
+        let tasks = self.tasks.iter();
+        tasks.map(|task| task.for_policy(0)).collect()
+    }
+
     /// Returns the items of all tasks.
     pub fn items(&self) -> impl Iterator<Item = &ItemScore> {
         self.tasks.iter().flat_map(|task| &task.items)

@@ -136,7 +136,11 @@ fn write_results(
         let names = (names != *id).then_some(names);
         let texts = [row.counted_texts(), row.texts_for_everyone()];
         let texts = texts.map(|texts| names.iter().cloned().chain(texts).collect());
-        store.write_counted(id, &texts)?;
+        let failing = row.result.score().map(|score| {
+            let tasks = score.for_policy();
+            policy.points.failing_items(&tasks)
+        });
+        store.write_counted(id, &texts, &failing.unwrap_or_default())?;
     }
     store.write("class.json", json(&summary))?;
     let page = page::render_page(class, &summary, changes, similar);

@@ -1,7 +1,7 @@
 //! A page for students, which doesn't contain the exam.
 
 use crate::format::{FormatContext, FormatSpec, StudentView};
-use crate::report::html::{feedback, with_counted};
+use crate::report::html::{feedback, with_counted, with_next_step};
 
 /// The format.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -13,5 +13,6 @@ pub static FORMAT: FormatSpec = FormatSpec {
 
 /// Renders the page.
 pub fn render(view: &StudentView, _: &FormatContext) -> String {
-    with_counted(&feedback(&view.visible), view.counted_text().as_slice())
+    let page = with_next_step(&feedback(&view.visible), &view.failing);
+    with_counted(&page, view.counted_text().as_slice())
 }

@@ -1,6 +1,8 @@
 //! The part of a score that students may see, with sanitized text. All formats are rendered from
 //! it.
 
+use std::collections::BTreeSet;
+
 use crate::format::item_view::{ItemView, shows_everything};
 use crate::format::redact::{redact, visible_score};
 use crate::policy::{FinalPoints, ItemPoints, Lateness, Policy, TaskPoints, Visibility};
@@ -16,6 +18,8 @@ pub struct StudentView {
     pub all_items: Vec<ItemView>,
     /// The final points in the course.
     pub counted: FinalPoints,
+    /// The ids of the items that cost final points, including those that students may not see.
+    pub failing: BTreeSet<String>,
 }
 
 impl StudentView {
@@ -37,10 +41,12 @@ impl StudentView {
                 }
             }));
         }
+        let tasks = task_points(score);
         StudentView {
             visible: visible_score(score, &all_items),
             all_items,
-            counted: policy.count(&task_points(score), lateness),
+            counted: policy.count(&tasks, lateness),
+            failing: policy.points.failing_items(&tasks),
         }
     }
 

@@ -87,7 +87,7 @@ pub fn grade_prepared(prepared: &mut PreparedSubmission) -> Result<GradedSubmiss
     })?;
     let student_view = grader.student_view(&score);
     if let Some(files) = &files {
-        files.write_counted(student_view.counted_text().as_slice())?;
+        files.write_counted(&student_view)?;
     }
     score.timings.stages.prepare = preparation;
     score.timings.stages.report = writing;

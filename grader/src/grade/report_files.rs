@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use judging::exam::Exam;
 
 use crate::error::Error;
+use crate::format::StudentView;
 use crate::format::outputs::Outputs;
 use crate::report::answers::ReportAnswers;
 use crate::report::atomic_write;
@@ -92,10 +93,12 @@ impl ReportFiles {
         Ok(())
     }
 
-    /// Inserts sentences about the final points into the finished page. The page is rendered
-    /// without them, because a policy never changes a score.
-    pub fn write_counted(&self, texts: &[String]) -> Result<(), Error> {
-        Ok(html::write_counted(&self.page, texts)?)
+    /// Inserts sentences about the final points into the finished page and chooses its next step.
+    /// The page is rendered without them, because a policy never changes a score.
+    pub fn write_counted(&self, view: &StudentView) -> Result<(), Error> {
+        let texts = view.counted_text();
+        let written = html::write_counted(&self.page, texts.as_slice(), &view.failing);
+        Ok(written?)
     }
 }
 

@@ -123,6 +123,15 @@ impl PointsPolicy {
         all.map(str::to_owned).collect()
     }
 
+    /// Returns the ids of the items that cost this submission final points.
+    pub fn failing_items(&self, tasks: &[TaskPoints]) -> BTreeSet<String> {
+        let ignored = self.ignored_items(tasks);
+        let items = tasks.iter().flat_map(|task| &task.items);
+        let failing = items.filter(|item| item.points < item.max_points);
+        let failing = failing.map(|item| item.id.to_owned());
+        failing.filter(|id| !ignored.contains(id)).collect()
+    }
+
     /// Returns whether the policy removes this item.
     pub fn is_void(&self, item: &str) -> bool {
         self.void.iter().any(|void| void == item)

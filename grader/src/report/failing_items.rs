@@ -62,6 +62,19 @@ pub(super) fn first_to_fix(
     Some(nearest.and_then(with_item).unwrap_or(first))
 }
 
+/// Returns all failing items in the order in which to fix them. The first is the [item to fix
+/// first](first_to_fix). Items that are blocked by other tasks come last.
+pub(super) fn in_order_to_fix(score: &Score) -> Vec<&ItemScore> {
+    let first = first_to_fix(score, |_| true).map(|(_, item)| &item.id);
+    let failing = score.tasks.iter().flat_map(most_informative_first);
+    let mut failing: Vec<&ItemScore> = failing.collect();
+    failing.sort_by_key(|item| {
+        let is_blocked = item.verdict.kind() == VerdictKind::Blocked;
+        (Some(&item.id) != first, is_blocked)
+    });
+    failing
+}
+
 /// Returns a task's file and, if it is known, the line of its method.
 fn file_and_line(task: &TaskScore) -> (&str, Option<u32>) {
     match task.method.split_once(':') {

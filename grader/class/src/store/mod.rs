@@ -1,6 +1,7 @@
 //! Stores the results of a class in the output folder. Files are written atomically, and an entry's
 //! stamp is written last, so a killed run never leaves an incomplete entry that looks complete.
 
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::io::{Cursor, ErrorKind};
 use std::path::{self, Path, PathBuf};
@@ -186,11 +187,17 @@ impl Store {
     }
 
     /// Adds sentences to the entry's pages, first for staff and then for students. They explain how
-    /// the score contributes to the grade.
-    pub fn write_counted(&self, id: &str, texts: &[Vec<String>; 2]) -> Result<(), Error> {
+    /// the score contributes to the grade. `failing` contains the items that cost final points, one of
+    /// which is the pages' next step.
+    pub fn write_counted(
+        &self,
+        id: &str,
+        texts: &[Vec<String>; 2],
+        failing: &BTreeSet<String>,
+    ) -> Result<(), Error> {
         for (page, texts) in [REPORT, FEEDBACK].into_iter().zip(texts) {
             // Older results from a shard may lack a page.
-            write_counted(&self.entry_folder(id).join(page), texts)?;
+            write_counted(&self.entry_folder(id).join(page), texts, failing)?;
         }
         Ok(())
     }

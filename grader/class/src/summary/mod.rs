@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::iter;
 
-use grader::policy::{Policy, TaskPoints};
+use grader::policy::Policy;
 use indexmap::{IndexMap, IndexSet};
 use serde::Serialize;
 
@@ -172,9 +172,7 @@ fn without_ignored_items(class: &GradedClass, policy: &Policy) -> GradedClass {
         let EntryOutcome::Graded(score) = &mut row.result.outcome else {
             continue;
         };
-        let tasks = score.tasks.iter().map(|task| task.for_policy(0));
-        let tasks: Vec<TaskPoints> = tasks.collect();
-        let ignored = policy.points.ignored_items(&tasks);
+        let ignored = policy.points.ignored_items(&score.for_policy());
         for task in &mut score.tasks {
             task.items.retain(|item| !ignored.contains(&item.id));
             task.points = task.items.iter().map(|item| item.points).sum();

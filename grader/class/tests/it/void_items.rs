@@ -64,14 +64,50 @@ fn final_grades_follow_the_policy_and_each_change_is_listed_with_its_cause() {
     insta::assert_snapshot!(texts.join("\n"));
 }
 
-/// Hank lost points for `camera.offset` and the sphere. Staff give him points for the camera, which
-/// must not make up for the sphere. The root causes and failure rates only cover what counts.
-#[test]
-fn what_does_not_count_has_no_effect_on_points_by_hand_or_root_causes() {
+/// Returns a class where Hank's camera and sphere are both wrong.
+fn two_mistakes() -> (TestClass, String) {
     let class = TestClass::named("class")
         .with_offset_mistake("hank")
         .with_replaced("hank/sphere.rs", "self.radius * self.radius", "self.radius");
     let exam = class.small_exam(&ITEMS);
+    (class, exam)
+}
+
+/// Returns the id of the item that a page says to fix first. It is empty if there is none.
+fn next_step(class: &TestClass, page: &str) -> String {
+    let page = class.read(&format!("students/hank/{page}"));
+    let steps = page.split("<div data-step=\"").skip(1);
+    let shown = steps.filter_map(|step| Some(step.split_once("\">")?.0));
+    let shown: Vec<&str> = shown.filter(|step| !step.contains('"')).collect();
+    let [only] = shown.as_slice() else {
+        panic!("{shown:?}")
+    };
+    assert!(only.is_empty() || page.contains(&format!("id=\"{only}\"")));
+    (*only).to_owned()
+}
+
+#[test]
+fn the_next_step_on_a_page_is_never_about_an_item_that_does_not_count() {
+    let (class, exam) = two_mistakes();
+    for (points, expected) in [
+        ("void = []", "camera.offset"),
+        ("void = [\"camera.offset\"]", "sphere.radius"),
+        ("tasks = { camera = 0 }", "sphere.radius"),
+        ("void = [\"camera.offset\", \"sphere.radius\"]", ""),
+        ("void = [\"sphere.radius\"]", "camera.offset"),
+    ] {
+        let policy = class.write_beside("policy.toml", &format!("[points]\n{points}\n"));
+        class.graded(&exam, &["--policy", &policy, "--hand-back"]);
+        for page in ["report.html", "feedback.html"] {
+            assert_eq!(next_step(&class, page), expected, "{points}: {page}");
+        }
+    }
+}
+
+/// Staff give Hank points for the camera, which must not make up for the sphere. The root causes and failure rates only cover what counts.
+#[test]
+fn what_does_not_count_has_no_effect_on_points_by_hand_or_root_causes() {
+    let (class, exam) = two_mistakes();
     let manual = "student,task,delta,comment,author\nhank,camera,2,nearly,Tess\n";
     class.graded_with(&exam, &[("manual-points", manual)], &[]);
     let lines = [

@@ -1,11 +1,13 @@
 //! Inserts a score's final points into a page. A course's policy can change after grading, so the
 //! points are inserted into the finished page at a placeholder.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use maud::{Markup, PreEscaped, html};
 
 use super::elements::plain_text;
+use super::steps::with_next_step;
 use crate::machine::files::{self, PathError};
 use crate::report::atomic_write;
 
@@ -57,12 +59,17 @@ pub fn without_file_notes(page: &str) -> String {
     })
 }
 
-/// Inserts the sentences into the finished page at this path, if the page exists.
-pub fn write_counted(path: &Path, texts: &[String]) -> Result<(), PathError> {
+/// Inserts the sentences into the finished page at this path, if the page exists, and [chooses its
+/// next step](with_next_step).
+pub fn write_counted(
+    path: &Path,
+    texts: &[String],
+    failing: &BTreeSet<String>,
+) -> Result<(), PathError> {
     let Some(page) = files::read_if_exists(path)? else {
         return Ok(());
     };
-    let updated = with_counted(&page, texts);
+    let updated = with_next_step(&with_counted(&page, texts), failing);
     if updated == page {
         return Ok(());
     }
@@ -72,6 +79,10 @@ pub fn write_counted(path: &Path, texts: &[String]) -> Result<(), PathError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn write(path: &Path, texts: &[String]) {
+        write_counted(path, texts, &BTreeSet::new()).unwrap();
+    }
 
     #[test]
     fn a_text_replaces_the_one_before_and_is_escaped() {
@@ -94,12 +105,12 @@ mod tests {
         let page = format!("<h1>ann</h1>{}<p>", marks().into_string());
         std::fs::write(&path, &page).unwrap();
         let text = ["45 of 50".to_owned()];
-        write_counted(&path, &text).unwrap();
+        write(&path, &text);
         let read = || std::fs::read_to_string(&path).unwrap();
         assert_eq!(read(), with_counted(&page, &text));
         assert_ne!(read(), page);
         // Repeating the call must not change the page again.
-        write_counted(&path, &text).unwrap();
+        write(&path, &text);
         assert_eq!(read(), with_counted(&page, &text));
     }
 
@@ -107,13 +118,13 @@ mod tests {
     fn a_page_is_neither_created_nor_written_without_need() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("feedback.html");
-        write_counted(&path, &["45 of 50".to_owned()]).unwrap();
+        write(&path, &["45 of 50".to_owned()]);
         assert!(!path.exists());
         std::fs::write(&path, "no marks").unwrap();
         // Writing the page would replace the link with a file.
         let link = folder.path().join("link.html");
         std::fs::hard_link(&path, &link).unwrap();
-        write_counted(&path, &["45 of 50".to_owned()]).unwrap();
+        write(&path, &["45 of 50".to_owned()]);
         std::fs::write(&link, "the same file").unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "the same file");
     }

@@ -9,6 +9,7 @@ mod counted;
 mod elements;
 mod mask;
 mod pictures;
+mod steps;
 mod summary;
 mod task;
 
@@ -25,6 +26,7 @@ use judging::exam::Exam;
 
 pub use counted::{with_counted, with_name, without_file_notes, write_counted};
 pub use elements::prose;
+pub use steps::with_next_step;
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");

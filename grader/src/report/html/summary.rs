@@ -6,8 +6,9 @@ use super::Page;
 use super::counted;
 use super::elements::{command, plain_text, prose};
 use super::pictures;
+use super::steps::step;
 use crate::inputs::exam_source::PRACTICE_ID;
-use crate::report::failing_items::first_to_fix;
+use crate::report::failing_items::in_order_to_fix;
 use crate::sandbox::Isolation;
 use crate::score::rerun_command::RerunCommand;
 use crate::score::{ItemScore, Score, TaskScore, Verdict, VerdictKind};
@@ -80,17 +81,23 @@ fn bar(task: &TaskScore) -> Markup {
     }
 }
 
-/// Renders the next step, which is to fix the first failing item in lecture order.
+/// Renders the next step, which is to fix the first failing item in lecture order. The steps for the
+/// other failing items are hidden. If the first item is removed from the exam after grading, the
+/// finished page can show one of them instead.
 pub(super) fn next_step(page: &Page) -> Markup {
+    let failing = in_order_to_fix(page.score);
     html! {
         section aria-labelledby="next" {
             h2 #next { "What to do next" }
-            @match first_to_fix(page.score, |_| true) {
-                None => {
-                    (all_passed(page.score))
-                    (pictures::beside_the_references(page.exam, page.answers))
-                }
-                Some((_, item)) => (first_failure(item, page.rerun)),
+            @for (index, item) in failing.iter().enumerate() {
+                (step(&item.id, index == 0, &first_failure(item, page.rerun)))
+            }
+            @if failing.is_empty() {
+                (all_passed(page.score))
+                (pictures::beside_the_references(page.exam, page.answers))
+            } @else {
+                @let done = html! { p { "Nothing: your code passes everything that counts." } };
+                (step("", false, &done))
             }
         }
     }

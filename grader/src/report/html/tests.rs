@@ -145,7 +145,8 @@ fn explains_missing_evidence_in_the_same_three_rows() {
 fn suggests_the_first_failing_item() {
     let page = page_of("sphere.far_root", |item| item.verdict = Verdict::Wrong);
     let next = page.split("What to do next").nth(1).unwrap();
-    assert!(next.starts_with("</h2><p><a href=\"#sphere.far_root\">"));
+    let shown = "</h2><div data-step=\"sphere.far_root\"><p><a href=\"#sphere.far_root\">";
+    assert!(next.starts_with(shown));
     assert!(next.contains("cargo grade --task sphere"));
 }
 

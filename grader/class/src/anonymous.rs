@@ -7,7 +7,7 @@ use std::hash::{BuildHasher, RandomState};
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradeProblem, GradedClass};
-use crate::manual_points::PSEUDONYM_PREFIX;
+use crate::identity::PSEUDONYM_PREFIX;
 use crate::outcome::EntryOutcome;
 use crate::store::{Store, json};
 

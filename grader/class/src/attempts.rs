@@ -6,28 +6,33 @@ use std::collections::BTreeSet;
 use grader::policy::{AttemptRule, Policy, are_far_apart};
 
 use crate::error::Error;
-use crate::graded_class::ClassRow;
 use crate::graded_class::GradeProblem::{self, OtherAttempt, SeveralAttempts};
+use crate::graded_class::{Adjustments, ClassRow};
 use crate::identity::{Attempt, attempts_by_person};
-use crate::late::submission_time;
+use crate::late::{policy_extensions, submission_time};
 use crate::manual_points::ManualPointsList;
 use crate::outcome::{EntryOutcome, EntryResult, TaskScore};
 
 /// Applies the policy and the manual points to all results. `exam` contains the exam's tasks with 0
 /// points each.
 pub fn count_points(
-    results: impl Iterator<Item = EntryResult>,
+    results: Vec<EntryResult>,
     policy: &Policy,
     manual: &ManualPointsList,
     exam: &[TaskScore],
 ) -> Vec<ClassRow> {
-    let row = |result: EntryResult| {
-        let people = 0..result.info.people.len();
-        let own = people.map(|person| manual.of(&result.id, person).to_owned());
+    let infos = results.iter();
+    let infos = infos.map(|result| (result.id.as_str(), &result.info));
+    let mut extensions = policy_extensions(policy, &Vec::from_iter(infos));
+    let mut rows = Vec::new();
+    for (row, result) in results.into_iter().enumerate() {
+        let own = (0..result.info.people.len()).map(|person| Adjustments {
+            manual: manual.of(&result.id, person).to_owned(),
+            extensions: extensions.remove(&(row, person)).unwrap_or_default(),
+        });
         let own = own.collect();
-        ClassRow::new(result, policy, own, exam)
-    };
-    let mut rows = Vec::from_iter(results.map(row));
+        rows.push(ClassRow::new(result, policy, own, exam));
+    }
     apply_rule(policy, &mut rows);
     rows
 }
@@ -198,7 +203,7 @@ mod tests {
         let row = |(id, outcome, time): &(&str, EntryOutcome, Option<&str>)| {
             let mut result = result(id, &["Ann"], outcome.clone());
             result.info.submitted = time.map(str::to_owned);
-            ClassRow::new(result, policy, vec![Vec::new()], &[])
+            ClassRow::new(result, policy, vec![Adjustments::default()], &[])
         };
         submissions.iter().map(row).collect()
     }
@@ -269,7 +274,7 @@ mod tests {
                 let mut result = result(id, &["Ann"], graded(80));
                 result.info.submitted = own.map(str::to_owned);
                 result.info.listed = Some(listed.clone());
-                ClassRow::new(result, &policy, vec![Vec::new()], &[])
+                ClassRow::new(result, &policy, vec![Adjustments::default()], &[])
             };
             let mut rows = [("a", own), ("b", None)].map(row);
             apply_rule(&policy, &mut rows);

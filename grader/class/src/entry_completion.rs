@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use grader::handed_out::HandedOut;
-use grader::policy::Policy;
 use grader::submission::copied_names;
 use judging::sanitize::sanitize_line;
 
@@ -11,7 +10,6 @@ use crate::cli::Lists;
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::groups;
-use crate::late::warn_about_extensions;
 use crate::list_kind::ListKind;
 use crate::manual_points::ManualPointsList;
 use crate::names::{are_equal, fold_name, joined};
@@ -29,8 +27,6 @@ pub struct ListFindings {
     pub warnings: Vec<String>,
     /// The manual points.
     pub manual: ManualPointsList,
-    /// The people of all entries.
-    people: Vec<Person>,
     /// The number of entries.
     entries: usize,
     /// The names of the entries whose people aren't on any list. Entries whose people are unclear
@@ -89,19 +85,12 @@ pub fn complete_entries(
         missing,
         warnings: warnings.collect(),
         manual,
-        people: people.into_iter().cloned().collect(),
         entries: entries.len(),
         unlisted: unlisted.map(|info| info.display_names()).collect(),
     })
 }
 
 impl ListFindings {
-    /// Prints a warning for each extension in the policy that doesn't belong to exactly one person.
-    pub fn warn_about_extensions(&self, policy: &Policy) {
-        let people = self.people.iter().chain(&self.missing);
-        warn_about_extensions(policy, &people.collect::<Vec<_>>());
-    }
-
     /// Rejects a class if more than half of its entries match nobody on the lists. In that case,
     /// the lists may belong to another class, or the names may have been misread.
     pub fn check(&self, lists: &Lists) -> Result<(), Error> {

@@ -10,6 +10,9 @@ use crate::names::{are_equal, are_same_name, fold, joined};
 /// The text in [`EntryInfo::from`] before the path of the corrected files.
 pub const CORRECTED: &str = " (corrected: ";
 
+/// The prefix of every pseudonym.
+pub const PSEUDONYM_PREFIX: &str = "anon-";
+
 /// One person's part in a submission: the index of the row, and the person's index in that row.
 pub type Attempt = (usize, usize);
 
@@ -31,6 +34,7 @@ pub fn attempts_by_person<'a>(rows: impl Iterator<Item = &'a [Person]>) -> Vec<V
 /// Returns the index of the submission with this id, pseudonym, file or folder. `all` contains each
 /// submission's id and information.
 pub fn submission_called(who: &str, all: &[(&str, &EntryInfo)]) -> Option<usize> {
+    let (who, _) = split_pseudonym(who);
     let by_id = all.iter().position(|(id, _)| are_equal(id, who));
     let is_named = |(_, info): &(&str, &EntryInfo)| {
         let (original, _) = info.from.split_once(CORRECTED).unwrap_or((&info.from, ""));
@@ -39,11 +43,20 @@ pub fn submission_called(who: &str, all: &[(&str, &EntryInfo)]) -> Option<usize>
     by_id.or_else(|| all.iter().position(is_named).filter(|_| !who.is_empty()))
 }
 
+/// Splits `anon-1, member 2`, as shown in the graders' tables, into the pseudonym and the number.
+fn split_pseudonym(who: &str) -> (&str, Option<usize>) {
+    let parts = who.split_once(", member ");
+    let parts = parts.filter(|(own, _)| own.starts_with(PSEUDONYM_PREFIX));
+    let member = parts.and_then(|(own, number)| Some((own, number.parse().ok()?)));
+    member.map_or((who, None), |(own, number)| (own, Some(number)))
+}
+
 /// Returns each part in a submission of the people that `who` could refer to: the people with this
 /// identifier or, if there are none, everybody who handed in the [submission called](submission_called)
 /// `who`, the people with a similar name or whose submission has one, the members of a group, or the
 /// person whose name is shown as `who`.
 pub fn matching_people(who: &str, all: &[(&str, &EntryInfo)]) -> Vec<Attempt> {
+    let (who, member) = split_pseudonym(who);
     let parts = all.iter().enumerate().flat_map(|(row, (_, info))| {
         let people = 0..info.people.len();
         people.map(move |index| (row, index))
@@ -64,7 +77,10 @@ pub fn matching_people(who: &str, all: &[(&str, &EntryInfo)]) -> Vec<Attempt> {
     ];
     let found = tests.iter().map(|test| parts.iter().filter(test));
     let mut found = found.map(|found| Vec::from_iter(found.copied()));
-    found.find(|found| !found.is_empty()).unwrap_or_default()
+    let found = found.find(|found| !found.is_empty()).unwrap_or_default();
+    let found = (1..).zip(found);
+    let found = found.filter(|(number, _)| member.is_none_or(|own| own == *number));
+    found.map(|(_, part)| part).collect()
 }
 
 /// Returns the indices of the submissions that `who` could refer to: the [submission

@@ -1,7 +1,7 @@
 //! Computes the lateness of submissions, according to the platform's information, the policy and
 //! the person's extension.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use grader::policy::{
     AttemptRule, Extension, Lateness, Policy, TimeError, are_far_apart, read_time,
@@ -11,9 +11,9 @@ use jiff::Timestamp;
 use judging::sanitize::sanitize;
 
 use crate::entry::{EntryInfo, Person};
-use crate::identity::person_ids;
+use crate::identity::{Attempt, attempts_by_person, matching_people};
 use crate::moodle_status::MoodleStatus;
-use crate::names::are_equal;
+use crate::names::{are_equal, are_same_name};
 
 /// The reason it is unclear how late a submission is. Points must not depend on a guess, so the
 /// submission doesn't get final points until a person corrects the time.
@@ -33,7 +33,7 @@ pub const ONLY_A_FLAG: &str = "the platform marks the submission as late, but th
     the roster and `due` to the policy";
 
 const NOT_IN_CLASS: &str = "which doesn't match any person or group in this class: use a name, \
-    email address, account or student id from grades.csv, or a group's name";
+    email address, account or student id from grades.csv, or the name of a group or submission";
 const SHARED_NAME: &str = "but several people have this name, so all of them get the extension: \
     use an email address or a student number instead";
 
@@ -56,13 +56,15 @@ impl UnclearTime {
 
 /// Returns the lateness of a submission for one of the people who handed it in. If its submission
 /// time is known and the policy sets a due time, the lateness depends on these two times.
-/// Otherwise, it depends on the platform's late flag.
+/// Otherwise, it depends on the platform's late flag. `granted` are the person's [extensions in the
+/// policy](policy_extensions).
 pub fn lateness(
     policy: &Policy,
     info: &EntryInfo,
     person: &Person,
+    granted: &[Extension],
 ) -> Result<Lateness, UnclearTime> {
-    let extensions = extensions(policy, info, person)?;
+    let extensions = extensions(policy, info, person, granted)?;
     let due = policy.extended_due(&extensions);
     let exact = match (due, submission_time(policy, info)?) {
         (Some(due), Some(time)) => {
@@ -134,11 +136,13 @@ pub fn submission_time(
     needed.map(read).transpose()
 }
 
-/// Returns the extensions of a person from the policy, the roster and Moodle's worksheet.
+/// Returns the extensions of a person: those that the policy has `granted`, and those from the roster
+/// and Moodle's worksheet.
 fn extensions(
     policy: &Policy,
     info: &EntryInfo,
     person: &Person,
+    granted: &[Extension],
 ) -> Result<Vec<Extension>, UnclearTime> {
     let status = MoodleStatus::parse(&person.status);
     if let Some(unknown) = status.unknown {
@@ -156,8 +160,7 @@ fn extensions(
         let is_draft = true;
         return Err(UnclearTime { why, is_draft });
     }
-    let names = person.identifiers().chain([person.group.as_str()]);
-    let mut extensions: Vec<Extension> = policy.extensions_of(names).collect();
+    let mut extensions = granted.to_vec();
     let due = policy.late.due;
     let needed = |_: &&str| due.is_some() || info.is_late();
     let by_moodle = status.extension.filter(needed).unwrap_or_default();
@@ -176,10 +179,49 @@ fn extensions(
     Ok(extensions)
 }
 
-/// Prints a warning for each of the policy's extensions that doesn't belong to any of these people,
-/// or that belongs to several people with the same name.
-pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
-    for (name, problem) in extension_problems(policy, people) {
+/// Returns the policy's extensions for each person's part in a submission. An extension applies to
+/// every submission of the people it is for. `all` contains each submission's id and information.
+pub fn policy_extensions(
+    policy: &Policy,
+    all: &[(&str, &EntryInfo)],
+) -> BTreeMap<Attempt, Vec<Extension>> {
+    let known = attempts_by_person(all.iter().map(|(_, info)| info.people.as_slice()));
+    let mut granted: BTreeMap<Attempt, Vec<Extension>> = BTreeMap::new();
+    for (name, extension) in &policy.late.extensions {
+        let meant = people_meant(name, all);
+        let is_meant = |own: &&Vec<Attempt>| own.iter().any(|part| meant.contains(part));
+        for part in known.iter().filter(is_meant).flatten() {
+            granted.entry(*part).or_default().push(*extension);
+        }
+    }
+    granted
+}
+
+/// Returns the people that an extension is for: everybody with this identifier or in this group or,
+/// if there is nobody, the [people called](matching_people) `name` in any other way.
+fn people_meant(name: &str, all: &[(&str, &EntryInfo)]) -> BTreeSet<Attempt> {
+    let parts = all.iter().enumerate().flat_map(|(row, (_, info))| {
+        let people = info.people.iter().enumerate();
+        people.map(move |(index, person)| ((row, index), person))
+    });
+    let named = parts.filter(|(_, person)| has_identifier_or_group(person, name));
+    let named: BTreeSet<Attempt> = named.map(|(part, _)| part).collect();
+    if named.is_empty() {
+        BTreeSet::from_iter(matching_people(name, all))
+    } else {
+        named
+    }
+}
+
+fn has_identifier_or_group(person: &Person, name: &str) -> bool {
+    let mut names = person.identifiers().chain([person.group.as_str()]);
+    names.any(|own| are_equal(own, name))
+}
+
+/// Prints a warning for each of the policy's extensions that is for nobody in these submissions and
+/// none of the people who are `missing`, or that is for several people with the same name.
+pub fn warn_about_extensions(policy: &Policy, all: &[(&str, &EntryInfo)], missing: &[Person]) {
+    for (name, problem) in extension_problems(policy, all, missing) {
         let name = sanitize(name, 200);
         print_error_line(format_args!(
             "the policy has an extension for {name:?}, {problem}"
@@ -187,25 +229,29 @@ pub fn warn_about_extensions(policy: &Policy, people: &[&Person]) {
     }
 }
 
-/// Returns each name in the policy's extensions that belongs to none of these people or to several
-/// of them, together with a description of the problem.
-fn extension_problems<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<(&'a str, &'static str)> {
-    let ids = person_ids(people);
-    let problem = |key: &'a String| {
-        let own = |person: &&Person| {
-            let mut names = person.identifiers().chain([person.group.as_str()]);
-            names.any(|name| are_equal(name, key))
-        };
+/// Returns each name in the policy's extensions that stands for nobody or for several people,
+/// together with a description of the problem.
+fn extension_problems<'a>(
+    policy: &'a Policy,
+    all: &[(&str, &EntryInfo)],
+    missing: &[Person],
+) -> Vec<(&'a str, &'static str)> {
+    let known = attempts_by_person(all.iter().map(|(_, info)| info.people.as_slice()));
+    let problem = |name: &'a String| {
+        let meant = people_meant(name, all);
+        let absent = missing.iter();
+        let absent = absent.filter(|person| has_identifier_or_group(person, name));
         // A group's name applies to everybody in the group.
-        let is_named =
-            |person: &Person| are_equal(&person.name, key) && !are_equal(&person.group, key);
-        let named = people.iter().zip(&ids);
-        let named = named.filter(|(person, _)| is_named(person));
-        let named: BTreeSet<usize> = named.map(|(_, id)| *id).collect();
-        if !people.iter().any(own) {
-            Some((key.as_str(), NOT_IN_CLASS))
+        let is_namesake =
+            |person: &Person| are_same_name(&person.name, name) && !are_equal(&person.group, name);
+        let is_meant =
+            |part: &Attempt| meant.contains(part) && is_namesake(&all[part.0].1.people[part.1]);
+        let namesakes = known.iter().filter(|own| own.iter().any(is_meant)).count()
+            + absent.clone().filter(|person| is_namesake(person)).count();
+        if meant.is_empty() && absent.count() == 0 {
+            Some((name.as_str(), NOT_IN_CLASS))
         } else {
-            (named.len() > 1).then_some((key.as_str(), SHARED_NAME))
+            (namesakes > 1).then_some((name.as_str(), SHARED_NAME))
         }
     };
     policy.late.extensions.keys().filter_map(problem).collect()
@@ -225,18 +271,29 @@ mod tests {
         }
     }
 
+    /// Returns the problems with extensions in a class where each person has a submission.
+    fn problems<'a>(policy: &'a Policy, people: &[&Person]) -> Vec<(&'a str, &'static str)> {
+        let info = |person: &&Person| EntryInfo {
+            people: vec![(*person).clone()],
+            ..EntryInfo::default()
+        };
+        let infos = Vec::from_iter(people.iter().map(info));
+        let all = Vec::from_iter(infos.iter().map(|info| ("", info)));
+        extension_problems(policy, &all, &[])
+    }
+
     #[test]
     fn a_late_flag_without_a_time_counts_as_the_first_second_after_the_grace_period() {
         let mut policy = policy("[late]\npercent_per_day = 10\ngrace_minutes = 5");
         let nobody = Person::default();
-        let late = lateness(&policy, &late_flag(), &nobody).unwrap();
+        let late = lateness(&policy, &late_flag(), &nobody, &[]).unwrap();
         let assumed = |seconds| Lateness::of_seconds(seconds).assumed(true);
         assert_eq!(late, assumed(301));
         assert_eq!(policy.final_points(80, 100, late).points, 72);
-        let on_time = lateness(&policy, &EntryInfo::default(), &nobody);
+        let on_time = lateness(&policy, &EntryInfo::default(), &nobody, &[]);
         assert_eq!(on_time, Ok(Lateness::NONE));
         policy.late.due = "2026-11-20T23:59:59Z".parse().ok();
-        let on_time = lateness(&policy, &EntryInfo::default(), &nobody);
+        let on_time = lateness(&policy, &EntryInfo::default(), &nobody, &[]);
         assert_eq!(on_time, Ok(assumed(0)));
     }
 
@@ -244,20 +301,19 @@ mod tests {
     fn an_extension_cannot_be_applied_to_a_late_flag() {
         let policy = policy("[late]\ndue = 2026-11-20T23:59:59Z\n[late.extensions]\nann = 2");
         let ann = Person::named("Ann");
-        let unclear = lateness(&policy, &late_flag(), &ann);
+        let granted = [Extension::Days(2)];
+        let unclear = lateness(&policy, &late_flag(), &ann, &granted);
         assert_eq!(unclear, Err(UnclearTime::new(ONLY_A_FLAG)));
-        assert!(lateness(&policy, &late_flag(), &Person::named("Bob")).is_ok());
-        assert!(extension_problems(&policy, &[&ann]).is_empty());
-        let problems = extension_problems(&policy, &[]);
-        assert_eq!(problems, [("ann", NOT_IN_CLASS)]);
+        assert!(lateness(&policy, &late_flag(), &Person::named("Bob"), &[]).is_ok());
+        assert!(problems(&policy, &[&ann]).is_empty());
+        assert_eq!(problems(&policy, &[]), [("ann", NOT_IN_CLASS)]);
     }
 
     #[test]
     fn an_extension_for_a_group_or_in_other_letters_belongs_to_somebody() {
         let policy = policy("[late.extensions]\n'Ann LEE' = 2\n'Team A' = 1\n'Team B' = 1");
         let ann = person(json!({ "name": "ann lee", "group": "team a" }));
-        let problems = extension_problems(&policy, &[&ann]);
-        assert_eq!(problems, [("Team B", NOT_IN_CLASS)]);
+        assert_eq!(problems(&policy, &[&ann]), [("Team B", NOT_IN_CLASS)]);
     }
 
     #[test]
@@ -267,7 +323,7 @@ mod tests {
             person(json!({ "name": "Ann Lee", "sid": sid, "group": group }))
         };
         let shared = |people: &[&Person]| {
-            let mut problems = extension_problems(&policy, people);
+            let mut problems = problems(&policy, people);
             problems.retain(|(_, problem)| *problem == SHARED_NAME);
             Vec::from_iter(problems.into_iter().map(|(name, _)| name))
         };
@@ -291,7 +347,7 @@ mod tests {
         let policy = policy("[late]\ndue = 2026-11-20T12:00:00Z");
         let nobody = Person::default();
         let seconds = |time: &str, late| {
-            let late = lateness(&policy, &submitted(time, late), &nobody);
+            let late = lateness(&policy, &submitted(time, late), &nobody, &[]);
             late.map(|late| late.seconds)
         };
         assert_eq!(seconds("2026-11-20T11:00:00Z", true), Ok(0));
@@ -304,7 +360,7 @@ mod tests {
     fn a_time_that_decides_nothing_is_not_read() {
         let info = submitted("yesterday", true);
         assert_eq!(submission_time(&Policy::default(), &info), Ok(None));
-        let late = lateness(&Policy::default(), &info, &Person::default());
+        let late = lateness(&Policy::default(), &info, &Person::default(), &[]);
         assert_eq!(late.unwrap().seconds, 1);
         // The latest attempt is chosen by its time, even without a due time.
         let latest = policy("[attempts]\ncounts = 'latest'");
@@ -319,10 +375,13 @@ mod tests {
     #[test]
     fn the_extension_in_the_roster_counts_like_one_in_the_policy() {
         let policy = policy("[late]\ndue = 2026-11-20T12:00:00Z\n[late.extensions]\n'team a' = 1");
-        let info = submitted("2026-11-22T12:00:00Z", false);
         let hours = |group: &str, extension: &str| {
             let person = person(json!({ "name": "Ann", "group": group, "extension": extension }));
-            let late = lateness(&policy, &info, &person);
+            let mut info = submitted("2026-11-22T12:00:00Z", false);
+            info.people.push(person.clone());
+            let granted = policy_extensions(&policy, &[("a", &info)]);
+            let granted = granted.get(&(0, 0)).map_or(&[][..], Vec::as_slice);
+            let late = lateness(&policy, &info, &person, granted);
             late.map(|late| late.seconds / 3600)
         };
         assert_eq!(hours("", ""), Ok(48));

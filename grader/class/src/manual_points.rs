@@ -14,7 +14,8 @@ use serde::Serialize;
 use crate::entry::{EntryInfo, Person};
 use crate::error::Error;
 use crate::identity::{
-    Attempt, attempts_by_person, distinct_name, matching_people, submission_called,
+    Attempt, PSEUDONYM_PREFIX, attempts_by_person, distinct_name, matching_people,
+    submission_called,
 };
 use crate::names::{are_equal, are_same_name, joined, with_detail};
 use crate::outcome::{EntryOutcome, TaskScore};
@@ -22,8 +23,6 @@ use crate::table::Table;
 
 /// The required columns. A `date` column is optional.
 const COLUMNS: [&str; 5] = ["student", "task", "delta", "comment", "author"];
-/// The prefix of every pseudonym.
-pub const PSEUDONYM_PREFIX: &str = "anon-";
 const REMEDY: &str = "manual points need the columns student, task, delta, comment and author";
 
 /// Points that staff gave somebody for a task, and the reason.
@@ -97,16 +96,13 @@ impl ManualPointsList {
         for mut points in mem::take(&mut self.rows) {
             let (row, student) = (points.row, &points.student);
             let refused = |list: &Self, problem: String| Err(list.error(row, problem));
-            let (name, member) = split_pseudonym(student);
-            let found = (1..).zip(matching_people(name, entries));
-            let found = found.filter(|(number, _)| member.is_none_or(|own| own == *number));
-            let found = Vec::from_iter(found.map(|(_, part)| part));
+            let found = matching_people(student, entries);
             let Some(first) = found.first() else {
                 return refused(self, unknown_name(student, people.flatten(), missing));
             };
             let mut names = person(first).identifiers();
             let is_exact = names.any(|name| are_equal(name, student));
-            let submission = submission_called(name, entries).filter(|_| !is_exact);
+            let submission = submission_called(student, entries).filter(|_| !is_exact);
             let group = &person(first).group;
             let is_team = |own: &Attempt| {
                 own.0 == first.0 || (!group.is_empty() && are_equal(group, &person(own).group))
@@ -196,14 +192,6 @@ impl ManualPointsList {
     fn error(&self, row: usize, problem: impl Display) -> Error {
         Error::user(format!("{}, row {row}: {problem}", self.path.display()))
     }
-}
-
-/// Splits `anon-1, member 2`, as shown in the graders' tables, into the pseudonym and the number.
-fn split_pseudonym(student: &str) -> (&str, Option<usize>) {
-    let parts = student.split_once(", member ");
-    let parts = parts.filter(|(own, _)| own.starts_with(PSEUDONYM_PREFIX));
-    let member = parts.and_then(|(own, number)| Some((own, number.parse().ok()?)));
-    member.map_or((student, None), |(own, number)| (own, Some(number)))
 }
 
 /// Returns the problem with a name that stands for none of these people.

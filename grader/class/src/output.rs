@@ -66,7 +66,7 @@ impl ClassContext<'_> {
         let regrade = find_regrade_changes(store, run, &results)?;
         let mut resubmitted = find_score_changes(store, &results, REPLACED)?;
         let (manual, tasks) = (&self.findings.manual, exam_tasks(&run.items));
-        let rows = count_points(results.into_iter(), self.policy, manual, &tasks);
+        let rows = count_points(results, self.policy, manual, &tasks);
         check_manual_points(&rows, manual, &tasks)?;
         let class = &GradedClass {
             settings: run.settings.clone(),
@@ -90,7 +90,7 @@ impl ClassContext<'_> {
             removed,
             grades: history.changes(|policy| {
                 let results = class.rows.iter().map(|row| row.result.clone());
-                count_points(results, policy, manual, &tasks)
+                count_points(results.collect(), policy, manual, &tasks)
             }),
         };
         let messages = write_messages(class, store, self.handed_out)?;

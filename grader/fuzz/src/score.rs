@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use class::entry::EntryInfo;
-use class::graded_class::{ClassRow, GradedClass};
+use class::graded_class::{Adjustments, ClassRow, GradedClass};
 use class::outcome::{EntryOutcome, EntryResult, ScoreSummary, Stamp};
 use class::regrade_diff::Changes;
 use class::report::{grades, page, text};
@@ -35,7 +35,10 @@ pub fn read(bytes: &[u8]) {
     let class = GradedClass {
         settings: Settings::default(),
         rows: ["alice", "bob"]
-            .map(|id| ClassRow::new(row(id), &policy, vec![Vec::new(); info.people.len()], &[]))
+            .map(|id| {
+                let own = vec![Adjustments::default(); info.people.len()];
+                ClassRow::new(row(id), &policy, own, &[])
+            })
             .into(),
         missing: Vec::new(),
     };

@@ -19,6 +19,7 @@ use crate::entry_grader::EntryGrader;
 use crate::error::Error;
 use crate::final_grades::{self, GradeHistory};
 use crate::input::Input;
+use crate::late::warn_about_extensions;
 use crate::list_memory::UsedLists;
 use crate::outcome::EntryResult;
 use crate::output::{ClassContext, check_lists};
@@ -133,7 +134,9 @@ pub fn grade_class_with(
 
     findings.check(given)?;
     let grader = prepare(&options)?;
-    findings.warn_about_extensions(grader.policy());
+    let infos = recognised.entries.iter();
+    let infos = infos.map(|entry| (entry.id.as_str(), &entry.info));
+    warn_about_extensions(grader.policy(), &Vec::from_iter(infos), &findings.missing);
     let store = Store::new(out);
     check_out(&store, path, arguments.shard)?;
     let settings = grader.settings()?;

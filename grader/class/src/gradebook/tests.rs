@@ -4,7 +4,7 @@ use grader::policy::Policy;
 use serde_json::json;
 
 use super::*;
-use crate::graded_class::{GradeProblem, tests};
+use crate::graded_class::{Adjustments, GradeProblem, tests};
 use crate::outcome::EntryOutcome;
 
 fn person(name: &str, email: &str, sid: &str, number: &str) -> Person {
@@ -16,7 +16,12 @@ fn class(people: &[(&str, Person)]) -> GradedClass {
     let class_row = |(id, person): &(&str, Person)| {
         let mut result = tests::result(id, &[], tests::graded(80));
         result.info.people.push(person.clone());
-        ClassRow::new(result, &Policy::default(), vec![Vec::new()], &[])
+        ClassRow::new(
+            result,
+            &Policy::default(),
+            vec![Adjustments::default()],
+            &[],
+        )
     };
     GradedClass {
         rows: people.iter().map(class_row).collect(),

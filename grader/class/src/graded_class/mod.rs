@@ -2,7 +2,7 @@
 
 use std::iter;
 
-use grader::policy::{FinalPoints, Policy, TaskPoints};
+use grader::policy::{Extension, FinalPoints, Policy, TaskPoints};
 use judging::sanitize::safe_folder_name;
 
 use crate::entry::Person;
@@ -42,6 +42,15 @@ pub struct PersonGrade {
     pub problem: Option<GradeProblem>,
     /// The manual points that staff gave.
     pub manual: Vec<ManualPoints>,
+}
+
+/// The points and extensions that staff gave one person.
+#[derive(Clone, Debug, Default)]
+pub struct Adjustments {
+    /// The manual points.
+    pub manual: Vec<ManualPoints>,
+    /// The extensions in the policy.
+    pub extensions: Vec<Extension>,
 }
 
 /// The reason there are no final points.
@@ -106,15 +115,16 @@ impl GradedClass {
 }
 
 impl ClassRow {
-    /// Creates the row for a result and applies the policy to its points. `manual` lists the manual
-    /// points of each person. `exam` contains the exam's tasks with their maximum points.
+    /// Creates the row for a result and applies the policy to its points. `adjustments` are those of
+    /// each person. `exam` contains the exam's tasks with their maximum points.
     pub fn new(
         result: EntryResult,
         policy: &Policy,
-        manual: Vec<Vec<ManualPoints>>,
+        adjustments: Vec<Adjustments>,
         exam: &[TaskScore],
     ) -> Self {
-        let grade = |(person, manual): (&Person, Vec<ManualPoints>)| {
+        let grade = |(person, own): (&Person, Adjustments)| {
+            let Adjustments { manual, extensions } = own;
             let earned = match &result.outcome {
                 EntryOutcome::Graded(score) => Some(score.tasks.as_slice()),
                 // Staff have looked at the submission, so the points that they gave count even
@@ -125,7 +135,7 @@ impl ClassRow {
                 EntryOutcome::NothingToGrade(_) | EntryOutcome::Fault(_) => None,
             };
             let counted = earned.map(|tasks| {
-                let lateness = lateness(policy, &result.info, person)?;
+                let lateness = lateness(policy, &result.info, person, &extensions)?;
                 let tasks = tasks.iter().map(|task| {
                     let own = manual.iter().filter(|points| points.task == task.id);
                     task.for_policy(own.map(|points| points.delta).sum())
@@ -143,7 +153,8 @@ impl ClassRow {
                 manual,
             }
         };
-        let grades = result.info.people.iter().zip(manual).map(grade).collect();
+        let people = result.info.people.iter();
+        let grades = people.zip(adjustments).map(grade).collect();
         ClassRow { result, grades }
     }
 

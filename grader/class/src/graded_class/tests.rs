@@ -91,12 +91,14 @@ fn points_by_hand(delta: i32) -> ManualPoints {
 /// Returns the row for a submission by these people, who also have manual points.
 fn row(outcome: EntryOutcome, policy_text: &str, people: &[(&str, &[i32])]) -> ClassRow {
     let names: Vec<&str> = people.iter().map(|(name, _)| *name).collect();
-    let by_hand = |deltas: &&[i32]| deltas.iter().copied().map(points_by_hand).collect();
-    let manual = people.iter().map(|(_, deltas)| by_hand(deltas)).collect();
+    let adjustments = |(_, deltas): &(&str, &[i32])| Adjustments {
+        manual: deltas.iter().copied().map(points_by_hand).collect(),
+        ..Adjustments::default()
+    };
     ClassRow::new(
         result("a", &names, outcome),
         &policy(policy_text),
-        manual,
+        people.iter().map(adjustments).collect(),
         &exam(100),
     )
 }
@@ -169,7 +171,7 @@ fn other_points_are_explained_to_students_and_only_late_or_manual_ones_to_staff(
 
     let mut late = result("a", &["Ann"], graded(80));
     late.info.late = true;
-    let late = ClassRow::new(late, &Policy::default(), vec![Vec::new()], &[]);
+    let late = ClassRow::new(late, &Policy::default(), vec![Adjustments::default()], &[]);
     let texts = [
         "80 of 100 points count towards the grade: 80 of 100 points earned, handed in late \
          (counted as 1 day, because the submission time is unknown), with no deduction.",
@@ -278,7 +280,7 @@ fn a_submission_without_a_time_counts_as_on_time_and_is_marked() {
             people: result.info.people,
             ..info
         };
-        ClassRow::new(result, &policy(due), vec![Vec::new()], &[])
+        ClassRow::new(result, &policy(due), vec![Adjustments::default()], &[])
             .grades
             .remove(0)
     };

@@ -13,6 +13,7 @@ use crate::cli::{Lists, MergeArguments};
 use crate::entry::EntryInfo;
 use crate::entry_completion;
 use crate::error::Error;
+use crate::late::warn_about_extensions;
 use crate::list_memory::{FolderCopies, UsedLists};
 use crate::names::joined;
 use crate::output::{ClassContext, Completion};
@@ -111,7 +112,8 @@ pub fn merge_shards(
     for warning in &findings.warnings {
         print(format!("  {}\n", sanitize_line(warning, 400)));
     }
-    findings.warn_about_extensions(&policy);
+    let infos = rows.iter().map(|row| (row.id.as_str(), &row.info));
+    warn_about_extensions(&policy, &Vec::from_iter(infos), &findings.missing);
     let ids: Vec<&str> = sources.keys().map(String::as_str).collect();
     let stores = shards.iter().map(|(shard, _)| shard);
     let stores: Vec<&Store> = [&out].into_iter().chain(stores).collect();

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use class::entry::{Entry, EntryInfo, ListedTime, Person, Source};
 use class::final_grades::GradeChanges;
 use class::gradebook::{CellChange, FilledGradebook};
-use class::graded_class::{ClassRow, GradedClass};
+use class::graded_class::{Adjustments, ClassRow, GradedClass};
 use class::hand_back::HandBack;
 use class::hand_in_again;
 use class::layout::{Layout, RecognisedClass, UnmatchedPath};
@@ -117,7 +117,11 @@ fn class_with(text: &str) -> GradedClass {
             is_for_attempt: false,
         };
         let result = EntryResult { id, info, outcome };
-        ClassRow::new(result, &Policy::default(), vec![vec![manual]], &[])
+        let own = Adjustments {
+            manual: vec![manual],
+            ..Adjustments::default()
+        };
+        ClassRow::new(result, &Policy::default(), vec![own], &[])
     };
     GradedClass {
         settings: Settings {

@@ -7,7 +7,9 @@ use std::path::Path;
 use grader::handed_out::RAYS;
 use insta::assert_snapshot;
 
-use crate::harness::{TestClass, all_files, assert_contains, cell, files_below, source, zip};
+use crate::harness::{
+    TestClass, all_files, assert_contains, cell, files_below, source, successful_stdout, zip,
+};
 
 /// Returns the receipt that Blackboard writes for each attempt.
 fn receipt(person: &str) -> String {
@@ -191,6 +193,43 @@ fn the_times_in_sakais_folders_count() {
     let late = |id: &str, name: &str| cell(&class, id, name, "late_days");
     assert_eq!(late("Lee__Ann_ann_", "Ann Lee"), "1");
     assert_eq!(late("Kim__Bob__Bobby__bob_x.edu_", "Bob (Bobby) Kim"), "0");
+}
+
+/// The group has no group name in any list, only the names of its folder and members. The folder's
+/// time is two days after the due time.
+#[test]
+fn an_extension_can_have_any_name_that_is_shown_for_a_group_or_its_members() {
+    let class = sakai("Path tracer");
+    let exam = class.small_exam(&["camera.offset"]);
+    let policy = |extensions: &str| {
+        let due = "[late]\ndue = 2026-11-18T23:59:59+01:00\n";
+        ("policy", format!("{due}[late.extensions]\n{extensions}"))
+    };
+    let members = ["José Roe García", "Li \u{200c0}", "Doe & Co"];
+    let late_days = |extensions: &str| {
+        let (list, text) = policy(extensions);
+        let lists = class.lists(&[(list, &text)]);
+        let lists: Vec<&str> = lists.iter().map(String::as_str).collect();
+        let output = class.grade(&exam, &lists);
+        successful_stdout(&output);
+        let warnings = String::from_utf8(output.stderr).unwrap();
+        assert!(!warnings.contains("an extension for"), "{warnings}");
+        members.map(|name| cell(&class, "Team_A", name, "late_days"))
+    };
+    assert_eq!(late_days(""), ["2"; 3]);
+    for name in [
+        "Team A",
+        "team_a",
+        "Team A (0d5a2a1e-96a8-4a0b-9a1c-1f2e3d4c5b6a)",
+        "José Roe García + Li \u{200c0} + Doe & Co",
+    ] {
+        assert_eq!(late_days(&format!("'{name}' = 2\n")), ["0"; 3], "{name}");
+    }
+    for name in ["jose", "JOSÉ ROE GARCÍA", "José Roe-García"] {
+        let expected = ["0", "2", "2"];
+        assert_eq!(late_days(&format!("'{name}' = 2\n")), expected, "{name}");
+    }
+    assert_eq!(late_days("'Team A' = 1\nli2 = 2\n"), ["1", "0", "1"]);
 }
 
 #[test]

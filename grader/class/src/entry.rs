@@ -304,14 +304,20 @@ impl EntryInfo {
     /// Removes the groups and extensions, which only come from rosters. This is needed when a
     /// different roster is used.
     pub fn forget_groups_and_extensions(&mut self) {
-        if let Some(team) = &self.team {
-            self.people = vec![Person::named_by_file(team)];
+        if let Some(team) = self.team_record() {
+            self.people = vec![team];
         }
         self.people.retain(|person| !person.is_from_group);
         for person in &mut self.people {
             person.group.clear();
             person.extension.clear();
         }
+    }
+
+    /// Returns the record of the group that the submission is named after, which may have a row in a
+    /// list.
+    pub fn team_record(&self) -> Option<Person> {
+        self.team.as_ref().map(Person::named_by_file)
     }
 
     /// Returns the names of all people, joined with ` + `.

@@ -67,12 +67,16 @@ pub fn complete_entries(
         info.unclear_person = unclear.or_else(|| similar_name(info, &others));
         info.is_unlisted = info.unclear_person.is_none() && !is_listed(&rows, info);
     }
-    let people: Vec<&Person> = entries.iter().flat_map(|info| &info.people).collect();
+    let teams: Vec<Person> = entries
+        .iter()
+        .filter_map(|info| info.team_record())
+        .collect();
+    let people = entries.iter().flat_map(|info| &info.people).chain(&teams);
     let mut manual = match &lists.manual_points {
         Some(path) => ManualPointsList::read(path, handed_out)?,
         None => ManualPointsList::default(),
     };
-    let missing = roster::missing(&rows, &people);
+    let missing = roster::missing(&rows, &Vec::from_iter(people));
     let named = ids.iter().copied().zip(entries.iter().map(|info| &**info));
     manual.find_people(&Vec::from_iter(named), &missing)?;
     let unlisted = entries.iter().filter(|info| info.is_unlisted);

@@ -46,7 +46,8 @@ pub fn shared_team(rows: &[Member], info: &EntryInfo) -> Option<String> {
 }
 
 /// Returns the members of each group that an entry may be named after. Returns no groups if the
-/// entry is named after a person on a list.
+/// entry is named after a person on one of the staff's lists. The list in a platform's download can
+/// also contain a group's account.
 fn groups_named_by<'a>(rows: &'a [Member], info: &EntryInfo) -> BTreeMap<String, Vec<&'a Member>> {
     let mut groups: BTreeMap<String, Vec<&Member>> = BTreeMap::new();
     let [person] = info.people.as_slice() else {
@@ -57,7 +58,8 @@ fn groups_named_by<'a>(rows: &'a [Member], info: &EntryInfo) -> BTreeMap<String,
         "" => person.login.as_str(),
         name => name,
     };
-    if team.is_empty() || rows.iter().any(|row| row.matches(person)) {
+    let mut of_staff = rows.iter().filter(|row| row.list != ListKind::Downloaded);
+    if team.is_empty() || of_staff.any(|row| row.matches(person)) {
         return groups;
     }
     let members = rows.iter();

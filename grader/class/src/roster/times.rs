@@ -12,8 +12,9 @@ use crate::list_kind::ListKind;
 /// have none in the platform's export.
 pub fn set_submission_times(rows: &[Member], entries: &mut [&mut EntryInfo]) {
     for info in entries.iter_mut().filter(|info| info.submitted.is_none()) {
+        let team = info.team_record();
         let theirs = rows.iter().filter(|row| {
-            let mut people = info.people.iter();
+            let mut people = info.people.iter().chain(&team);
             let has_time = row.list != ListKind::Canvas && !row.submitted.is_empty();
             has_time && people.any(|person| row.matches(person))
         });

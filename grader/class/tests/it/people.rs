@@ -200,6 +200,38 @@ fn a_person_known_by_different_identifiers_is_not_missing() {
     assert_contains(&preview, &["without a submission:\n      Eve Ray\n\n"]);
 }
 
+/// The account `team-7` has a row in classroom50's list, but belongs to two people in the roster. The
+/// list gives the time of their submission.
+#[test]
+fn the_row_of_a_groups_own_account_in_classroom50_is_about_its_members() {
+    let scores = "username,first_name,last_name,email,datetime,late\n\
+                  ann,Ann,Lee,ann@x.edu,2026-11-20T10:00:00Z,false\n\
+                  bob,Bob,Kim,bob@x.edu,,\n\
+                  eve,Eve,Ray,eve@x.edu,,\n\
+                  team-7,,,,2026-11-22T10:00:00Z,true\n";
+    let class = TestClass::named("2026-11-29")
+        .with_starter("cg-ann/student/src")
+        .with("cg-ann/result.json", "{}")
+        .with_reference("cg-team-7/student/src")
+        .with("cg-team-7/result.json", "{}")
+        .with("scores.csv", scores);
+    let exam = class.small_exam(&ITEMS);
+    let roster = "name,username,group\nAnn Lee,ann,\nBob Kim,bob,Team 7\nEve Ray,eve,Team 7\n";
+    class.graded_with(&exam, &[("roster", roster), ("policy", DUE)], &[]);
+    let of = |id: &str, name: &str| {
+        ["status", "late_days", "late_flag", "counts"].map(|column| cell(&class, id, name, column))
+    };
+    assert_eq!(of("ann", "Ann Lee"), ["graded", "0", "", "0"]);
+    for name in ["Bob Kim", "Eve Ray"] {
+        assert_eq!(of("team-7", name), ["graded", "2", "LATE", "80"], "{name}");
+    }
+    assert!(!class.read("grades.csv").contains("nothing submitted"));
+    // Without the group, the account is all that is known.
+    let roster = "name,username\nAnn Lee,ann\nBob Kim,bob\nEve Ray,eve\n";
+    class.graded_with(&exam, &[("roster", roster)], &[]);
+    assert_eq!(of("team-7", ""), ["graded", "2", "LATE", "80"]);
+}
+
 /// The roster names the tutors, and the list next to the clones gives the submission times.
 #[test]
 fn the_list_in_a_download_counts_beside_a_roster_and_in_later_runs() {

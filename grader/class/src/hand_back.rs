@@ -7,17 +7,18 @@
 //! participant, plug-in type, plug-in and file name, so the full name must not contain any.
 
 use std::collections::BTreeSet;
-use std::io;
+use std::io::{self, Cursor, Write};
 
 use grader::report::html::with_counted;
 use judging::sanitize::safe_folder_name;
+use zip::write::SimpleFileOptions;
+use zip::{DateTime, ZipWriter};
 
-use crate::archive::ArchiveWriter;
 use crate::entry::{NUMBER, Person, WHO};
 use crate::error::Error;
 use crate::graded_class::{ClassRow, GradedClass, PersonGrade};
 use crate::names::{joined, unique_name};
-use crate::store::Store;
+use crate::store::{FEEDBACK, Store};
 
 /// The name of the archive in the output folder.
 pub const ARCHIVE: &str = "hand-back.zip";
@@ -73,7 +74,7 @@ pub fn hand_back(class: &GradedClass, store: &Store) -> Result<HandBack, Error> 
         if ready.is_empty() {
             continue;
         }
-        let page = store.read_feedback(&row.result.id)?;
+        let page = store.read_of_entry(&row.result.id, FEEDBACK)?;
         let name = row.result.info.hand_back_as.as_deref();
         if let Some(name) = name.filter(|name| !name.contains(NUMBER)) {
             // The platform forwards the page to the members of a group.
@@ -144,4 +145,43 @@ fn add_as(archive: &mut ArchiveWriter, name: &str, who: &str, page: &str) -> io:
     let mut inner = ArchiveWriter::default();
     inner.add(&format!("{who}_{PAGE}"), page.as_bytes())?;
     archive.add(&name, &inner.finish()?)
+}
+
+/// An archive that is being written in memory.
+struct ArchiveWriter {
+    writer: ZipWriter<Cursor<Vec<u8>>>,
+    /// The names already used in the archive, in lower case.
+    used: BTreeSet<String>,
+}
+
+impl Default for ArchiveWriter {
+    /// Returns an empty archive.
+    fn default() -> Self {
+        ArchiveWriter {
+            writer: ZipWriter::new(Cursor::new(Vec::new())),
+            used: BTreeSet::new(),
+        }
+    }
+}
+
+impl ArchiveWriter {
+    /// Adds a file. If the name is taken, a number is appended to its stem. The file gets no
+    /// modification time, so that the archive depends only on the files' contents.
+    fn add(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let (stem, end) = name.split_at(name.rfind('.').unwrap_or(name.len()));
+        let free = unique_name(stem, end, &mut self.used);
+        let options = SimpleFileOptions::default().last_modified_time(DateTime::default());
+        self.writer.start_file(free, options)?;
+        self.writer.write_all(bytes)
+    }
+
+    /// Returns the number of files.
+    fn count(&self) -> usize {
+        self.used.len()
+    }
+
+    /// Returns the bytes of the archive.
+    fn finish(self) -> io::Result<Vec<u8>> {
+        Ok(self.writer.finish()?.into_inner())
+    }
 }

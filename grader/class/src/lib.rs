@@ -18,11 +18,10 @@
 //! | a graded class | [`graded_class`] |
 //! | results, layouts and rules for people | [`groups`], [`late`], [`layout`], [`manual_points`], [`progress`], [`similar_pairs`], [`store`] |
 //! | outcomes and people in lists | [`identity`], [`outcome`], [`roster`] |
-//! | options, entries, tables and archives | [`archive`], [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
+//! | options, entries and tables | [`cli`], [`entry`], [`moodle_status`], [`run`], [`table`] |
 //! | tools | [`distribution`], [`error`], [`estimate`], [`file_tree`], [`layout_kind`], [`list_kind`], [`names`], [`paths`], [`queue`], [`shard`] |
 
 pub mod anonymous;
-pub mod archive;
 pub mod attempts;
 pub mod cli;
 pub mod corrected;

@@ -17,7 +17,7 @@ use crate::outcome::{EntryOutcome, EntryResult, ScoreSummary};
 use crate::progress::Progress;
 use crate::queue;
 use crate::run::Run;
-use crate::store::Store;
+use crate::store::{FEEDBACK, SUBMISSION, Store, packed};
 use crate::submission_grader::SubmissionGrader;
 
 /// The maximum number of attempts to grade an entry. If all of them fail, the entry doesn't get a
@@ -72,15 +72,11 @@ impl EntryGrader<'_> {
     fn is_done(&self, entry: &Entry) -> bool {
         match collect_submission(entry, self.grader.handed_out()) {
             Ok(submission) => {
-                let key = self.key(&submission);
+                let key = cache_key(self.run, self.grader.policy(), &submission);
                 self.store.cached_score(&entry.id, &key).is_some()
             }
             Err(outcome) => matches!(outcome, EntryOutcome::NothingToGrade(_)),
         }
-    }
-
-    fn key(&self, submission: &Submission) -> String {
-        cache_key(self.run, self.grader.policy(), submission)
     }
 
     /// Returns the result of an entry: the stored one if it is still valid, otherwise a new one.
@@ -93,7 +89,7 @@ impl EntryGrader<'_> {
         let mut key = String::new();
         let (outcome, is_new) = match collect_submission(entry, self.grader.handed_out()) {
             Ok(submission) => {
-                key = self.key(&submission);
+                key = cache_key(self.run, self.grader.policy(), &submission);
                 match self.store.cached_score(&entry.id, &key) {
                     Some(score) => (EntryOutcome::Graded(Box::new(score)), false),
                     None => {
@@ -156,10 +152,12 @@ impl EntryGrader<'_> {
         submission: &Submission,
         show_status: &dyn Fn(&str),
     ) -> Result<ScoreSummary, Error> {
-        self.store.save_submission(&entry.id, submission)?;
-        let mut files = ReportFiles::new(&self.store.entry_folder(&entry.id), Reload::Never);
+        let Entry { id, .. } = entry;
+        self.store
+            .write_of_entry(id, SUBMISSION, packed(submission))?;
+        let mut files = ReportFiles::new(&self.store.entry_folder(id), Reload::Never);
         let (score, page) = self.grader.grade(submission, &mut files, show_status)?;
-        self.store.save_feedback(&entry.id, &page)?;
+        self.store.write_of_entry(id, FEEDBACK, page)?;
         ScoreSummary::parse(&score.to_json()).map_err(Error::user)
     }
 }

@@ -22,7 +22,8 @@ use crate::run::Run;
 
 const SCORE: &str = "score.json";
 const REPORT: &str = "report.html";
-const FEEDBACK: &str = "feedback.html";
+/// The page that the student may see.
+pub const FEEDBACK: &str = "feedback.html";
 /// The archive with the graded task files. The report's commands refer to it.
 pub const SUBMISSION: &str = "submission.zip";
 const STAMP: &str = "entry.json";
@@ -121,8 +122,8 @@ impl Store {
         Ok(atomic_write::write(contents, &self.folder.join(name))?)
     }
 
-    /// Writes one of an entry's files.
-    fn write_of_entry(
+    /// Writes one of an entry's files, such as [`FEEDBACK`].
+    pub fn write_of_entry(
         &self,
         id: &str,
         name: impl AsRef<Path>,
@@ -171,19 +172,9 @@ impl Store {
         self.write_of_entry(&result.id, STAMP, json(&stamp))
     }
 
-    /// Writes the page that the student may see.
-    pub fn save_feedback(&self, id: &str, page: &str) -> Result<(), Error> {
-        self.write_of_entry(id, FEEDBACK, page)
-    }
-
-    /// Writes the graded task files.
-    pub fn save_submission(&self, id: &str, submission: &Submission) -> Result<(), Error> {
-        self.write_of_entry(id, SUBMISSION, packed(submission))
-    }
-
-    /// Reads the page that the student may see.
-    pub fn read_feedback(&self, id: &str) -> Result<String, Error> {
-        Ok(files::read_to_string(self.entry_folder(id).join(FEEDBACK))?)
+    /// Reads one of an entry's files as text.
+    pub fn read_of_entry(&self, id: &str, name: &str) -> Result<String, Error> {
+        Ok(files::read_to_string(self.entry_folder(id).join(name))?)
     }
 
     /// Adds sentences to the entry's pages, first for staff and then for students. They explain how
@@ -221,8 +212,7 @@ impl Store {
         let is_kept =
             |stamp: Stamp| stamp.result.score().is_some() && (stamp.round == round || is_changed);
         if stamp.is_some_and(is_kept) {
-            let text = files::read_to_string(self.entry_folder(id).join(SCORE))?;
-            self.write_of_entry(id, REPLACED, text)?;
+            self.write_of_entry(id, REPLACED, self.read_of_entry(id, SCORE)?)?;
         }
         Ok(())
     }
@@ -309,7 +299,7 @@ impl Store {
             let folder = self.entry_folder(&id);
             let path = folder.join(PREVIOUS);
             let last = match self.read_stamp(&id)?.map(|stamp| stamp.result.outcome) {
-                Some(EntryOutcome::Graded(_)) => Some(files::read_to_string(folder.join(SCORE))?),
+                Some(EntryOutcome::Graded(_)) => Some(self.read_of_entry(&id, SCORE)?),
                 Some(EntryOutcome::NothingToGrade(_)) => {
                     files::remove_if_exists(&path)?;
                     None
@@ -353,7 +343,8 @@ impl Store {
     }
 }
 
-fn packed(submission: &Submission) -> Vec<u8> {
+/// Returns the archive with a submission's task files.
+pub fn packed(submission: &Submission) -> Vec<u8> {
     archive_bytes(submission).expect("writing to memory succeeds")
 }
 

@@ -133,7 +133,7 @@ fn an_entry_without_a_score_keeps_no_files_of_one() {
     let folder = store.entry_folder("a");
     store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
     fs::write(folder.join(REPORT), "page").unwrap();
-    store.save_feedback("a", "page").unwrap();
+    store.write_of_entry("a", FEEDBACK, "page").unwrap();
     fs::write(folder.join(PREVIOUS), "kept").unwrap();
     store.save_graded(&result("a", &["Ann"], graded(80)), "key", 1);
     assert_eq!(names(&folder), [STAMP, FEEDBACK, PREVIOUS, REPORT, SCORE]);
@@ -152,7 +152,7 @@ fn both_pages_say_what_counts() {
     let write = || store.write_counted("a", &texts, &BTreeSet::new()).unwrap();
     write();
     assert_eq!(names(&folder), [REPORT], "no page is made");
-    store.save_feedback("a", page).unwrap();
+    store.write_of_entry("a", FEEDBACK, page).unwrap();
     write();
     for name in [REPORT, FEEDBACK] {
         let page = fs::read_to_string(folder.join(name)).unwrap();

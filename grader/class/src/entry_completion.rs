@@ -27,11 +27,6 @@ pub struct ListFindings {
     pub warnings: Vec<String>,
     /// The manual points.
     pub manual: ManualPointsList,
-    /// The number of entries.
-    entries: usize,
-    /// The names of the entries whose people aren't on any list. Entries whose people are unclear
-    /// are left out. Empty if there are no lists.
-    unlisted: Vec<String>,
 }
 
 /// Completes the entries from the lists: first unknown identifiers, then group members, and finally
@@ -46,14 +41,13 @@ pub fn complete_entries(
     let rows = roster::read_lists(lists)?;
     if lists.moodle.is_some() {
         // Use only this worksheet's status, not one from an earlier worksheet.
-        let people = entries.iter_mut().flat_map(|info| &mut info.people);
-        people.for_each(|person| person.status.clear());
+        people_of(entries).for_each(|person| person.status.clear());
     }
     let names = Vec::from_iter(entries.iter().map(|info| only_name(info)));
-    fill_in(&rows, entries);
+    roster::fill_in(&rows, people_of(entries));
     let has_teams = groups::resolve_teams(&rows, entries);
     if groups::add_group_members(&rows, entries) || has_teams {
-        fill_in(&rows, entries);
+        roster::fill_in(&rows, people_of(entries));
     }
     let similar = resolve_copies(&names, entries);
     for info in entries.iter_mut() {
@@ -79,7 +73,6 @@ pub fn complete_entries(
     let missing = roster::missing(&rows, &Vec::from_iter(people));
     let named = ids.iter().copied().zip(entries.iter().map(|info| &**info));
     manual.find_people(&Vec::from_iter(named), &missing)?;
-    let unlisted = entries.iter().filter(|info| info.is_unlisted);
     let warnings = entries.iter();
     let warnings = warnings.filter_map(|info| {
         let unclear = info.unclear_person.clone();
@@ -89,34 +82,30 @@ pub fn complete_entries(
         missing,
         warnings: warnings.collect(),
         manual,
-        entries: entries.len(),
-        unlisted: unlisted.map(|info| info.display_names()).collect(),
     })
 }
 
-impl ListFindings {
-    /// Rejects a class if more than half of its entries match nobody on the lists. In that case,
-    /// the lists may belong to another class, or the names may have been misread.
-    pub fn check(&self, lists: &Lists) -> Result<(), Error> {
-        let all = self.entries;
-        match self.unlisted.first() {
-            Some(example) if 2 * self.unlisted.len() > all && !lists.accept_unlisted => {
-                let unlisted = self.unlisted.len();
-                let example = sanitize_line(example, MAX_CHARS);
-                Err(Error::user(format!(
-                    "{unlisted} of {all} submissions, such as {example:?}, don't match anyone on \
-                     the lists: check that the roster or gradebook is for this class and that \
-                     --dry-run shows the right names; if both are right, pass --accept-unlisted"
-                )))
-            }
-            Some(_) | None => Ok(()),
+/// Rejects a class if more than half of its entries match nobody on the lists. In that case, the
+/// lists may belong to another class, or the names may have been misread.
+pub fn check_listed(entries: &[(&str, &EntryInfo)], lists: &Lists) -> Result<(), Error> {
+    let all = entries.len();
+    let mut unlisted = entries.iter().filter(|(_, info)| info.is_unlisted);
+    let count = unlisted.clone().count();
+    match unlisted.next() {
+        Some((_, example)) if 2 * count > all && !lists.accept_unlisted => {
+            let example = sanitize_line(&example.display_names(), MAX_CHARS);
+            Err(Error::user(format!(
+                "{count} of {all} submissions, such as {example:?}, don't match anyone on the \
+                 lists: check that the roster or gradebook is for this class and that --dry-run \
+                 shows the right names; if both are right, pass --accept-unlisted"
+            )))
         }
+        Some(_) | None => Ok(()),
     }
 }
 
-fn fill_in(rows: &[Member], entries: &mut [&mut EntryInfo]) {
-    let people = entries.iter_mut().flat_map(|info| &mut info.people);
-    roster::fill_in(rows, &mut people.collect::<Vec<_>>());
+fn people_of<'a>(entries: &'a mut [&mut EntryInfo]) -> impl Iterator<Item = &'a mut Person> {
+    entries.iter_mut().flat_map(|info| &mut info.people)
 }
 
 /// Returns whether somebody in the entry is on a list. Also returns `true` if staff provided no

@@ -8,7 +8,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use grader::files;
 use grader::handed_out::{HandedOut, own_lines};
@@ -46,9 +46,12 @@ impl OwnWork<'_> {
     }
 }
 
-/// Checks that the folder for anonymous files is empty and doesn't overlap with the input or the
-/// output. `option` is the command-line option that names the folder.
-pub fn check_folder(folder: &Path, others: &[&Path], option: &str) -> Result<(), Error> {
+/// Checks that the folder for anonymous files, if there is one, is empty and doesn't overlap with the
+/// input or the output. `option` is the command-line option that names the folder.
+pub fn check_folder(folder: Option<&PathBuf>, others: &[&Path], option: &str) -> Result<(), Error> {
+    let Some(folder) = folder else {
+        return Ok(());
+    };
     if fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(Error::user(format!(
             "{} is not empty: choose a new folder for {option}",
@@ -115,13 +118,12 @@ pub fn write_input(
 }
 
 fn key_table(all: &[OwnWork]) -> Table {
-    let mut table = Table::new(&["number", "submission", "names"]);
-    for work in all {
+    let row = |work: &OwnWork| {
         let [id, names] = work.cells();
-        let row = [format!("{:04}", work.number), id, names];
-        table.rows.push(row.to_vec());
-    }
-    table
+        vec![format!("{:04}", work.number), id, names]
+    };
+    let header = ["number", "submission", "names"];
+    Table::new(&header, all.iter().map(row).collect())
 }
 
 /// Returns the groups of submissions whose students wrote the same lines.
@@ -139,17 +141,21 @@ fn identical<'a, 'e>(all: &'a [OwnWork<'e>]) -> Vec<Vec<&'a OwnWork<'e>>> {
 }
 
 fn identical_table(groups: &[Vec<&OwnWork>]) -> Table {
-    let mut table = Table::new(&["set", "submission", "names", "expected"]);
+    let mut rows = Vec::new();
     for (number, works) in (1..).zip(groups) {
         let is_expected = is_one_group(works);
         let expected = if is_expected { "same group" } else { "" };
         for work in works {
             let [id, names] = work.cells();
-            let row = [i32::to_string(&number), id, names, expected.to_owned()];
-            table.rows.push(row.to_vec());
+            rows.push(vec![
+                i32::to_string(&number),
+                id,
+                names,
+                expected.to_owned(),
+            ]);
         }
     }
-    table
+    Table::new(&["set", "submission", "names", "expected"], rows)
 }
 
 /// Returns whether the roster lists all of these people in the same group. They may then hand in

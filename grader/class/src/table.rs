@@ -80,11 +80,11 @@ impl Table {
         })
     }
 
-    /// Creates a table with this header and no rows.
-    pub fn new(header: &[&str]) -> Self {
+    /// Creates a table with this header and these rows.
+    pub fn new(header: &[&str], rows: Vec<Vec<String>>) -> Self {
         Table {
             header: header.iter().map(|name| (*name).to_owned()).collect(),
-            rows: Vec::new(),
+            rows,
             row_numbers: Vec::new(),
             delimiter: b',',
             has_byte_order_mark: false,

@@ -14,7 +14,7 @@ use crate::anonymous::Pseudonyms;
 use crate::cli::{ClassArguments, Lists};
 use crate::corrected;
 use crate::entry::{Entry, EntryInfo, Person};
-use crate::entry_completion;
+use crate::entry_completion::{check_listed, complete_entries};
 use crate::entry_grader::EntryGrader;
 use crate::error::Error;
 use crate::final_grades::{self, GradeHistory};
@@ -69,23 +69,19 @@ pub fn grade_class_with(
     let path = arguments.input.as_deref().unwrap_or(Path::new("."));
     let out = arguments.out.as_deref();
     let others: Vec<&Path> = [path].into_iter().chain(out).collect();
-    for (option, folder) in [
-        ("--similarity-input", &arguments.similarity_input),
-        ("--anonymous", &given.anonymous),
-    ] {
-        if let Some(folder) = folder {
-            similarity::check_folder(folder, &others, option)?;
-        }
-    }
-    let last = out.map(|out| Store::new(out).read_run()).transpose()?;
+    let own_lines = arguments.similarity_input.as_ref();
+    similarity::check_folder(own_lines, &others, "--similarity-input")?;
+    similarity::check_folder(given.anonymous.as_ref(), &others, "--anonymous")?;
+    let store = out.map(Store::new);
+    let last = store.as_ref().map(Store::read_run).transpose()?;
     let last = last.flatten().map(|run| run.choice);
     let choice = arguments.choice.or(&last.unwrap_or_default());
     let (cache, handed_out) = (workspace.cache_folder().join("classes"), options.handed_out);
     let known = roster::read_lists(given)?;
     let input = Input::open(&choice, path, &cache, handed_out, &known)?;
     let mut recognised = input.class.clone();
-    if let Some(out) = out {
-        let pseudonyms = Pseudonyms::read(&Store::new(out))?;
+    if let Some(store) = &store {
+        let pseudonyms = Pseudonyms::read(store)?;
         for Entry { id, info, .. } in &mut recognised.entries {
             info.pseudonym = pseudonyms.of(id);
         }
@@ -95,13 +91,14 @@ pub fn grade_class_with(
     let (ids, mut infos): (Vec<&str>, Vec<&mut EntryInfo>) = infos.unzip();
     used.add_downloaded(input.class.layout.find_list(&input.root), out)?;
     let given = &used.lists;
-    let findings = entry_completion::complete_entries(given, handed_out, &ids, &mut infos)?;
+    let findings = complete_entries(given, handed_out, &ids, &mut infos)?;
     recognised.notes.extend_from_slice(&findings.warnings);
-    match (&arguments.corrected, out) {
+    match (&arguments.corrected, &store) {
         (Some(folder), _) => {
-            let history = out.map(|out| Store::new(out).read(final_grades::FILE));
+            let history = store.as_ref().map(|store| store.read(final_grades::FILE));
             let history: Option<GradeHistory> = history.transpose()?.flatten();
-            let mut last = out.map_or(Ok(Vec::new()), |out| Store::new(out).results())?;
+            let last = store.as_ref().map(Store::results).transpose()?;
+            let mut last = last.unwrap_or_default();
             last.retain(|result| result.info.is_corrected);
             // Corrected files may earn fewer points than another attempt, which then counts. Used
             // again, a person's name must still stand for the same attempt.
@@ -116,28 +113,27 @@ pub fn grade_class_with(
             };
             corrected::replace_files(&mut recognised, folder, path, handed_out, counts)?;
         }
-        (None, Some(out)) => corrected::check_none_lost(&Store::new(out))?,
+        (None, Some(store)) => corrected::check_none_lost(store)?,
         (None, None) => {}
     }
     if let Some(folder) = &arguments.similarity_input {
         let entries = &recognised.entries;
         print(similarity::write_input(folder, entries, handed_out)?);
     }
-    let (Some(out), false) = (&arguments.out, arguments.dry_run) else {
+    let infos = recognised.entries.iter();
+    let infos = Vec::from_iter(infos.map(|entry| (entry.id.as_str(), &entry.info)));
+    let (Some(store), false) = (store, arguments.dry_run) else {
         let missing = &findings.missing;
         print(render_preview(&recognised, missing, handed_out));
-        if let Err(error) = findings.check(given) {
+        if let Err(error) = check_listed(&infos, given) {
             print(format!("  this class cannot be graded yet: {error}\n\n"));
         }
         return Ok(Completion::Complete);
     };
 
-    findings.check(given)?;
+    check_listed(&infos, given)?;
     let grader = prepare(&options)?;
-    let infos = recognised.entries.iter();
-    let infos = infos.map(|entry| (entry.id.as_str(), &entry.info));
-    warn_about_extensions(grader.policy(), &Vec::from_iter(infos), &findings.missing);
-    let store = Store::new(out);
+    warn_about_extensions(grader.policy(), &infos, &findings.missing);
     check_out(&store, path, arguments.shard)?;
     let settings = grader.settings()?;
     let run = start_or_resume(&store, settings, arguments.regrade)?;

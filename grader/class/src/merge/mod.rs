@@ -11,7 +11,7 @@ use judging::sanitize::sanitize_line;
 use crate::anonymous::Pseudonyms;
 use crate::cli::{Lists, MergeArguments};
 use crate::entry::EntryInfo;
-use crate::entry_completion;
+use crate::entry_completion::{check_listed, complete_entries};
 use crate::error::Error;
 use crate::late::warn_about_extensions;
 use crate::list_memory::{FolderCopies, UsedLists};
@@ -30,11 +30,9 @@ pub fn merge_shards(
     handed_out: &HandedOut,
 ) -> Result<Completion, Error> {
     check_out(arguments)?;
-    if let Some(folder) = &arguments.lists.anonymous {
-        let others = arguments.shards.iter().chain([&arguments.out]);
-        let others: Vec<&Path> = others.map(PathBuf::as_path).collect();
-        check_folder(folder, &others, "--anonymous")?;
-    }
+    let others = arguments.shards.iter().chain([&arguments.out]);
+    let others: Vec<&Path> = others.map(PathBuf::as_path).collect();
+    check_folder(arguments.lists.anonymous.as_ref(), &others, "--anonymous")?;
     let shards = arguments.shards.iter();
     let shards = shards.map(|path| read_finished_run(Store::new(path)));
     let shards: Vec<(Store, Run)> = shards.collect::<Result<_, Error>>()?;
@@ -107,13 +105,14 @@ pub fn merge_shards(
             info.forget_groups_and_extensions();
         }
     }
-    let findings = entry_completion::complete_entries(lists, handed_out, &ids, &mut infos)?;
-    findings.check(lists)?;
+    let findings = complete_entries(lists, handed_out, &ids, &mut infos)?;
+    let infos = rows.iter().map(|row| (row.id.as_str(), &row.info));
+    let infos = Vec::from_iter(infos);
+    check_listed(&infos, lists)?;
     for warning in &findings.warnings {
         print(format!("  {}\n", sanitize_line(warning, 400)));
     }
-    let infos = rows.iter().map(|row| (row.id.as_str(), &row.info));
-    warn_about_extensions(&policy, &Vec::from_iter(infos), &findings.missing);
+    warn_about_extensions(&policy, &infos, &findings.missing);
     let ids: Vec<&str> = sources.keys().map(String::as_str).collect();
     let stores = shards.iter().map(|(shard, _)| shard);
     let stores: Vec<&Store> = [&out].into_iter().chain(stores).collect();

@@ -20,18 +20,17 @@ pub fn grades_table(class: &GradedClass) -> Table {
     let tasks = class.tasks().iter().map(|task| task.id.as_str());
     let header = COLUMNS_BEFORE_TASKS.split(',').chain(tasks.clone());
     let header: Vec<&str> = header.chain(COLUMNS_AFTER_TASKS.split(',')).collect();
-    let mut table = Table::new(&header);
+    let mut rows = Vec::new();
     for class_row in &class.rows {
         let people = class_row.people();
-        let rows = people.map(|(person, grade)| row(class_row, person, grade, tasks.len()));
-        table.rows.extend(rows);
+        rows.extend(people.map(|(person, grade)| row(class_row, person, grade, tasks.len())));
     }
     for person in &class.missing {
         let mut row = person_cells("", person, "nothing submitted");
         row.resize(header.len(), String::new());
-        table.rows.push(row);
+        rows.push(row);
     }
-    table
+    Table::new(&header, rows)
 }
 
 fn row(class_row: &ClassRow, person: &Person, grade: &PersonGrade, tasks: usize) -> Vec<String> {

@@ -249,7 +249,7 @@ pub fn read_lists(lists: &Lists) -> Result<Vec<Member>, Error> {
 
 /// Fills in unknown fields of `people`, using the rows of the lists. A row may add an identifier
 /// that matches another row, regardless of the order of the rows.
-pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
+pub fn fill_in<'a>(rows: &[Member], people: impl IntoIterator<Item = &'a mut Person>) {
     for person in people {
         loop {
             let known = person.clone();
@@ -258,7 +258,7 @@ pub fn fill_in(rows: &[Member], people: &mut [&mut Person]) {
                     person.fill_missing_from(&row.person);
                 }
             }
-            if **person == known {
+            if *person == known {
                 break;
             }
         }
@@ -295,7 +295,7 @@ pub fn missing(rows: &[Member], people: &[&Person]) -> Vec<Person> {
     let mut missing: Vec<Person> = Vec::new();
     for row in &absent {
         let mut person = row.person.clone();
-        fill_in(&absent, &mut [&mut person]);
+        fill_in(&absent, [&mut person]);
         let is_same = |other: &Person| other.matches(&person) || *other == person;
         if !missing.iter().any(is_same) {
             missing.push(person);

@@ -184,7 +184,7 @@ fn outputs(text: &str) -> Vec<(&'static str, String)> {
     };
     let gradebook = FilledGradebook {
         title: text.to_owned(),
-        table: Table::new(&["Name"]),
+        table: Table::new(&["Name"], Vec::new()),
         changes: vec![CellChange {
             who: text.to_owned(),
             was: text.to_owned(),

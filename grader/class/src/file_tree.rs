@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use grader::disk::{self, Operation};
-use grader::files::{self, AtPath, PathError};
+use grader::files::{AtPath, PathError};
 use grader::submission::{Archive, ArchiveLimits, is_archive_name, is_skipped_name};
 
 /// The number of subfolder levels to list. This is enough for a project inside a student's folder
@@ -79,16 +79,6 @@ pub fn list_folder(folder: &Path) -> Result<Node, PathError> {
         children: Some(list_children(folder, MAX_DEPTH).at("read", folder)?),
         is_link: false,
     })
-}
-
-/// Returns the names of the hidden files and folders in a folder, except those that macOS adds to
-/// every folder.
-pub fn hidden_names(folder: &Path) -> Result<Vec<String>, PathError> {
-    let paths = files::read_dir(folder)?.into_iter();
-    let names = paths.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
-    let is_macos = |name: &str| name == ".DS_Store" || name.starts_with("._");
-    let hidden = names.filter(|name| name.starts_with('.') && !is_macos(name));
-    Ok(hidden.collect())
 }
 
 fn list_children(folder: &Path, depth: usize) -> io::Result<Vec<Node>> {

@@ -17,7 +17,7 @@ mod times;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use grader::files::PathError;
+use grader::files::{self, PathError};
 use grader::handed_out::HandedOut;
 use judging::sanitize::safe_folder_name;
 use unicode_normalization::UnicodeNormalization;
@@ -31,7 +31,7 @@ use self::reader::Reader;
 use self::records::{SAKAI_MEMBERS, SAKAI_TIME};
 use crate::entry::{Entry, Source};
 use crate::error::Error;
-use crate::file_tree::{Node, hidden_names, names_inside};
+use crate::file_tree::{Node, names_inside};
 use crate::names::unique_name;
 use crate::roster::Member;
 
@@ -97,11 +97,15 @@ impl Layout {
     }
 }
 
-/// Returns the hidden files and folders in a folder. They don't belong to any submission.
+/// Returns the hidden files and folders in a folder, except those that macOS adds to every folder.
+/// They don't belong to any submission.
 pub fn hidden_paths(folder: &Path) -> Result<Vec<UnmatchedPath>, PathError> {
     let why = "its name begins with a dot, so it is treated as a hidden file and ignored";
-    let names = hidden_names(folder)?.into_iter();
-    Ok(names.map(|name| UnmatchedPath::new(name, why)).collect())
+    let paths = files::read_dir(folder)?.into_iter();
+    let names = paths.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let is_macos = |name: &str| name == ".DS_Store" || name.starts_with("._");
+    let hidden = names.filter(|name| name.starts_with('.') && !is_macos(name));
+    Ok(hidden.map(|name| UnmatchedPath::new(name, why)).collect())
 }
 
 /// Returns whether a platform writes a file with this name into a submission's folder.
@@ -138,24 +142,18 @@ pub fn recognise(
         None if metadata.is_some() => Layout::Gradescope,
         None => recognise_layout(root, reader)?,
     };
-    let (mut entries, unmatched, notes) = reader(layout).read(root, metadata, choice)?;
-    reject_links(&mut entries);
+    let mut class = reader(layout).read(root, metadata, choice)?;
+    let entries = &mut class.entries;
+    reject_links(entries);
     // In the other layouts, the platform says who handed in each entry. By explicitly choosing the
     // plain layout, staff confirm that each entry is one submission.
-    let mut mixtures = Vec::new();
     if layout == Layout::Plain && choice.layout.is_none() {
         let export = |node: &Node| export_inside(node, reader);
-        mixtures = mixture::reject_mixtures(root, &mut entries, handed_out, known, export);
+        class.mixtures = mixture::reject_mixtures(root, entries, handed_out, known, export);
     }
     entries.sort_by(|one, other| one.id.cmp(&other.id));
-    make_ids_unique(&mut entries);
-    Ok(RecognisedClass {
-        layout,
-        entries,
-        unmatched,
-        notes,
-        mixtures,
-    })
+    make_ids_unique(entries);
+    Ok(class)
 }
 
 /// Returns the layouts that most of the names in a folder fit.
@@ -265,10 +263,6 @@ fn make_ids_unique(entries: &mut [Entry]) {
         entry.id = unique_name(&safe_folder_name(&id), "", &mut used);
     }
 }
-
-/// The entries found in a folder, the paths that don't belong to any entry, and sentences about how
-/// the folder was read.
-type LayoutContents = (Vec<Entry>, Vec<UnmatchedPath>, Vec<String>);
 
 #[cfg(test)]
 mod tests;

@@ -12,7 +12,7 @@ use super::platforms::{Platform, Record};
 use super::records::{Receipts, SAKAI_ATTACHMENTS, SubmissionRecord, read_files_in_folder};
 use super::template::Parts;
 use super::times::normalize_time;
-use super::{LayoutChoice, LayoutContents, UnmatchedPath};
+use super::{LayoutChoice, RecognisedClass, UnmatchedPath};
 use crate::entry::{Entry, Person, Source};
 use crate::error::Error;
 use crate::file_tree::Node;
@@ -39,20 +39,18 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Returns the entries of a class, the paths that don't belong to any entry, and notes.
-    /// `metadata` is the text of Gradescope's file.
+    /// Returns the class in a folder. `metadata` is the text of Gradescope's file.
     pub fn read(
         &self,
         root: &Node,
         metadata: Option<&str>,
         choice: &LayoutChoice,
-    ) -> Result<LayoutContents, Error> {
+    ) -> Result<RecognisedClass, Error> {
         let platform = self.platform;
         let metadata = metadata.filter(|_| platform.record == Record::Metadata);
         let mut records = metadata.map(read_metadata).transpose()?.unwrap_or_default();
         let names = self.read_names(root, choice)?;
         let (mut entries, mut unmatched) = (names.ambiguous, names.unmatched);
-        let notes = names.notes;
         let mut groups: BTreeMap<Parts, Vec<SubmissionNode>> = BTreeMap::new();
         for found in names.found {
             let key = found.parts.without(&OF_FILES);
@@ -91,7 +89,13 @@ impl Reader<'_> {
             let entry = Entry::left_to_staff(&name, "its folder is not in the export");
             entries.push(record.describe(entry));
         }
-        Ok((entries, unmatched, notes))
+        Ok(RecognisedClass {
+            layout: platform.layout,
+            entries,
+            unmatched,
+            notes: names.notes,
+            mixtures: Vec::new(),
+        })
     }
 
     /// Returns whether a list contains the person's number together with a similar name, or a group

@@ -1,6 +1,5 @@
 //! The entries of a class, in a form that doesn't depend on the layout.
 
-use std::ops::Not;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -83,41 +82,30 @@ pub struct Person {
     /// The full name.
     pub name: String,
     /// The email address.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub email: String,
     /// The university's student id.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub sid: String,
     /// The account name, for example on GitHub.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub login: String,
     /// The number that the platform assigns to the person, such as the user id in Canvas or the
     /// participant number in Moodle. In Moodle's file names, it can also be a group's number, which
     /// may coincide with somebody else's personal number, so it is only used together with the
     /// name.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub number: String,
     /// The group in the roster.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub group: String,
     /// The section or tutor in the roster.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub section: String,
     /// The extension in the roster: a number of days or a time.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub extension: String,
     /// The status in Moodle's worksheet, which may include an extension.
-    #[serde(skip_serializing_if = "String::is_empty")]
     pub status: String,
     /// Whether `name` comes from the name of a file or folder. If so, the name on a list is
     /// preferred.
-    #[serde(skip_serializing_if = "Not::not")]
     pub is_named_by_file: bool,
     /// Whether the person was added to the submission only because of the roster's groups.
-    #[serde(skip_serializing_if = "Not::not")]
     pub is_from_group: bool,
     /// Whether the person is on a list, in which case `number` isn't a group's number.
-    #[serde(skip_serializing_if = "Not::not")]
     pub is_listed: bool,
 }
 
@@ -393,13 +381,5 @@ mod tests {
         assert_eq!(filled(by_file(), ""), ("lee_ann".to_owned(), true));
         let named = Person::named("Ann");
         assert_eq!(filled(named, "Ann Lee"), ("Ann".to_owned(), false));
-    }
-
-    #[test]
-    fn only_what_is_known_of_a_person_is_stored() {
-        let stored = serde_json::to_string(&Person::named("Ann")).unwrap();
-        assert_eq!(stored, r#"{"name":"Ann"}"#);
-        let stored = serde_json::to_string(&Person::named_by_file("Ann")).unwrap();
-        assert_eq!(stored, r#"{"name":"Ann","is_named_by_file":true}"#);
     }
 }

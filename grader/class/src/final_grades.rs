@@ -36,7 +36,6 @@ pub struct FinalGrades {
     settings: Settings,
     lists: BTreeMap<ListKind, String>,
     /// The text of the policy. Empty if there is none.
-    #[serde(default)]
     policy: String,
     /// Whether some submissions were not graded because of a fault. Their earlier grades are kept.
     is_incomplete: bool,
@@ -56,7 +55,6 @@ struct FinalGrade {
     /// The manual points, even if there are no final points.
     manual: i32,
     late_days: u32,
-    #[serde(default)]
     is_corrected: bool,
 }
 

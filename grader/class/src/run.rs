@@ -21,13 +21,10 @@ pub struct Run {
     /// The shard that is graded. `None` for the whole class.
     pub shard: Option<Shard>,
     /// The policy, the roster and the other lists. The folder contains copies of them.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lists: ListCopies,
     /// The chosen layout.
-    #[serde(default)]
     pub choice: LayoutChoice,
     /// The maximum points for each item in the exam.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub items: BTreeMap<String, u32>,
     /// The ids of the entries. The folder may contain other entries, from students who are no
     /// longer in the input.
@@ -107,13 +104,11 @@ impl Run {
     /// Returns the resumed run. If the round was finished, its state becomes
     /// [`RoundState::Resumed`]. Otherwise, the state doesn't change.
     #[must_use]
-    pub fn resume(self) -> Self {
-        let state = if self.was_finished() {
-            RoundState::Resumed
-        } else {
-            self.state
-        };
-        Run { state, ..self }
+    pub fn resume(mut self) -> Self {
+        if self.was_finished() {
+            self.state = RoundState::Resumed;
+        }
+        self
     }
 
     /// Returns whether the round was finished, in this run or in an earlier one.

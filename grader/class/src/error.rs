@@ -8,7 +8,8 @@ use grader::files::PathError;
 #[error("{text}")]
 pub struct Error {
     text: String,
-    exit_code: u8,
+    /// 2 if the user can fix the error, and 3 if the grader or the machine is at fault.
+    pub exit_code: u8,
 }
 
 impl Error {
@@ -23,11 +24,6 @@ impl Error {
     pub fn machine(error: impl ToString) -> Self {
         let text = error.to_string();
         Error { text, exit_code: 3 }
-    }
-
-    /// Returns 2 if the user can fix the error, and 3 if the grader or the machine is at fault.
-    pub fn exit_code(&self) -> u8 {
-        self.exit_code
     }
 }
 

@@ -186,7 +186,7 @@ impl UsedLists {
         store: &Store,
         run: &Run,
     ) -> Result<T, Error> {
-        let is_refused = finished.as_ref().is_err_and(|error| error.exit_code() == 2);
+        let is_refused = finished.as_ref().is_err_and(|error| error.exit_code == 2);
         if self.has_new_points && is_refused {
             let kind = ListKind::ManualPoints;
             self.kept.remove(&kind);

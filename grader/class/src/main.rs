@@ -21,7 +21,7 @@ fn main() -> ExitCode {
         Ok(Completion::Incomplete) => ExitCode::from(3),
         Err(error) => {
             print_error(&error);
-            ExitCode::from(error.exit_code())
+            ExitCode::from(error.exit_code)
         }
     }
 }

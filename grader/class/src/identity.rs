@@ -73,7 +73,11 @@ pub fn matching_people(who: &str, all: &[(&str, &EntryInfo)]) -> Vec<Attempt> {
             names.iter().any(|name| are_same_name(name, who))
         },
         &|own| are_same_name(&person(own).group, who),
-        &|own| distinct_name(person(own), parts.iter().map(person)) == who,
+        &|own| {
+            // Comparing the beginning is fast and rules out most people.
+            let is_possible = who.starts_with(person(own).display_name());
+            is_possible && distinct_name(person(own), parts.iter().map(person)) == who
+        },
     ];
     let found = tests.iter().map(|test| parts.iter().filter(test));
     let mut found = found.map(|found| Vec::from_iter(found.copied()));

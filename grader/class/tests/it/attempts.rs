@@ -12,10 +12,8 @@ fn preview(layout: &str, files: &[(&str, &str)], roster: Option<&str>) -> String
     let class = files
         .iter()
         .fold(class, |class, (path, text)| class.with(path, text));
-    let roster = roster.map(|text| class.write_beside("roster.csv", text));
-    let list = roster.iter().flat_map(|path| ["--roster", path]);
-    let options: Vec<&str> = ["--layout", layout].into_iter().chain(list).collect();
-    class.preview_of(&class.input(), &options)
+    let lists = Vec::from_iter(roster.map(|text| ("roster", text)));
+    class.previewed_with(&lists, &["--layout", layout])
 }
 
 /// Ann hands in twice, in each form that the platform's export can have.

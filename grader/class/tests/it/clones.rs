@@ -22,11 +22,10 @@ fn with_clone(class: TestClass, path: &str) -> TestClass {
         .with_minimal_submission(&format!("{path}/student/src"))
 }
 
-fn class(name: &str, paths: &[&str]) -> TestClass {
-    let class = TestClass::named(name);
-    paths
-        .iter()
-        .fold(class, |class, path| with_clone(class, path))
+/// Returns a class of repositories.
+fn class(name: &str, paths: &[impl AsRef<str>]) -> TestClass {
+    let paths = paths.iter().map(AsRef::as_ref);
+    paths.fold(TestClass::named(name), with_clone)
 }
 
 /// Packs the class's folder in each way that people pack a folder: the folder or its contents, as a
@@ -145,8 +144,7 @@ fn packed_clones_in_an_archive_with_another_name_are_refused_unless_the_layout_i
 #[test]
 fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
     let preview = |paths: &[&str]| {
-        let class = TestClass::named("cg26").with("README.md", "text");
-        let class = paths.iter().copied().fold(class, with_clone);
+        let class = class("cg26", paths).with("README.md", "text");
         // The layout isn't guessed.
         let error = class.refused_preview(&[]);
         assert_contains(&error, &["--layout folders"]);
@@ -154,7 +152,7 @@ fn reads_clones_of_a_gitlab_group_flat_and_with_tutorials() {
             error.contains("--layout gitlab or"),
             !paths[0].contains('/')
         );
-        class.preview_of(&class.input(), &["--layout", "gitlab"])
+        class.previewed(&["--layout", "gitlab"])
     };
     let flat = preview(&["cg26-ann", "cg26-bob"]);
     // The second tutorial has only one student.
@@ -169,41 +167,31 @@ fn the_accounts_on_a_list_show_where_the_names_of_clones_begin() {
     let scores = "username,first_name,last_name,email,datetime,late\n\
                   tum-ann,Ann,Lee,a@x.edu,,\ntum-bob,Bob,Kim,b@x.edu,,\ntum-eve,Eve,Ray,e@x.edu,,\n";
     let clones = ["ann", "bob", "eve"].map(|name| format!("cg26-pathtracing-tum-{name}"));
-    let clones = |class: TestClass| {
-        clones
-            .iter()
-            .fold(class, |class, path| with_clone(class, path))
-    };
-    let class = clones(TestClass::named("2026-11-29")).with("scores.csv", scores);
+    let cloned = class("2026-11-29", &clones).with("scores.csv", scores);
     let people = ["  Ann Lee: all", "  Bob Kim: all", "  Eve Ray: all"];
-    assert_contains(&class.preview(), &people);
-    let class = with_clone(class, "cg26-warmup-lena");
-    let preview = class.preview();
+    assert_contains(&cloned.preview(), &people);
+    let preview = with_clone(cloned, "cg26-warmup-lena").preview();
     assert_contains(&preview, &people);
     let odd = "begin with cg26-pathtracing-, unlike cg26-warmup-lena: ";
     assert_contains(&preview, &[odd, &all_files("  cg26-warmup-lena")]);
 
-    let class = with_clone(clones(TestClass::named("clones")), "handout");
+    let class = with_clone(class("clones", &clones), "handout");
     let error = class.refused_preview(&["--layout", "gitlab"]);
     let odd = "begin with cg26-pathtracing-tum-, unlike handout, so it is unclear";
     assert_contains(
         &error,
         &[odd, "move them elsewhere; otherwise, pass a list"],
     );
-    let roster = class.write_beside("roster.csv", "name,sid\nAnn,tum-ann\nBob,tum-bob\n");
-    let options = ["--layout", "gitlab", "--roster", &roster];
-    let preview = class.preview_of(&class.input(), &options);
+    let roster = ("roster", "name,sid\nAnn,tum-ann\nBob,tum-bob\n");
+    let preview = class.previewed_with(&[roster], &["--layout", "gitlab"]);
     assert_contains(&preview, &["  Ann: all", "  Bob: all", "  tum-eve: all"]);
 }
 
 #[test]
 fn the_folder_above_a_gitlab_group_is_refused_with_the_one_to_pass() {
     let group = |paths: &[&str]| {
-        let class = TestClass::named("clones");
-        let paths = paths.iter().copied();
-        paths.fold(class, |class, path| {
-            with_clone(class, &format!("cg26/{path}"))
-        })
+        let paths = paths.iter().map(|path| format!("cg26/{path}"));
+        class("clones", &Vec::from_iter(paths))
     };
     let chosen = ["--layout", "gitlab"];
     let class = group(&["mon/pt-ann", "mon/pt-bob", "tue/pt-eve"]);
@@ -214,7 +202,7 @@ fn the_folder_above_a_gitlab_group_is_refused_with_the_one_to_pass() {
     assert_contains(&class.refused_preview(&[]), &["pass this folder"]);
 
     let class = group(&["pt-ann", "pt-bob"]);
-    let preview = class.preview_of(&class.input(), &chosen);
+    let preview = class.previewed(&chosen);
     assert_contains(&preview, &["2 submissions", "  ann: all", "  bob: all"]);
     assert!(!preview.contains("there is only"), "{preview}");
 
@@ -236,12 +224,12 @@ fn a_folder_for_each_tutorial_is_refused_with_both_readings() {
     let error = class.refused_preview(&[]);
     let error = error.replace(class.path_beside("").to_str().unwrap(), "FOLDER/");
     assert_snapshot!(error, @"error: FOLDER/class cannot be read as a class: the folder mon contains several submissions (ann, bob): if they are from different students, pass this folder, or move them out of it; if they are attempts by one student, keep only the one that should be graded; if each contains part of one submission, combine them in one folder. Alternatively, pass --layout tutorials if each folder contains several students' folders, --layout teams if the folders are from Microsoft Teams, or --layout folders if each folder is one submission");
-    let preview = class.preview_of(&class.input(), &["--layout", "tutorials"]);
+    let preview = class.previewed(&["--layout", "tutorials"]);
     assert_contains(
         &preview,
         &["4 submissions", "mon/ann", "4 of 4 can be graded"],
     );
-    let preview = class.preview_of(&class.input(), &["--layout", "folders"]);
+    let preview = class.previewed(&["--layout", "folders"]);
     assert_contains(
         &preview,
         &["2 submissions in folders and archives", "  mon: "],

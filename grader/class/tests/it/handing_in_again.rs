@@ -3,10 +3,8 @@
 
 use std::fs;
 
-use grader::handed_out::RAYS;
-
 use crate::harness::{
-    TestClass, all_files, assert_contains, cell, files_below, source, workspace, zip,
+    TestClass, all_files, assert_contains, cell, files_below, solution, source, workspace,
 };
 
 const ITEMS: [&str; 1] = ["camera.offset"];
@@ -17,11 +15,6 @@ const ROSTER: &str = "name,username,email,datetime\n\
     Dora Day,dora,,\n\
     Eve Fox,eve,eve@x.edu,\n";
 const SENTENCE: &str = "The files were handed in again";
-
-fn solution() -> Vec<u8> {
-    let read = |file: &'static str| (file, source(&format!("reference/src/{file}")));
-    zip(RAYS.file_names().map(read))
-}
 
 /// Bob's archive is damaged, Carl handed in some other file, and Dora handed in nothing. Eve handed
 /// in one file twice, in two submissions. Only staff can find out who the files in `tut` belong to.
@@ -39,11 +32,18 @@ fn class() -> TestClass {
         .with("tut/camera (2).rs", "// a third")
 }
 
-/// Adds a corrected hand-in to the folder `corrected`, next to the class's folder.
-fn correct(class: &TestClass, path: &str, bytes: impl AsRef<[u8]>) {
-    let path = class.path_beside("corrected").join(path);
+/// Adds a corrected hand-in to the folder `corrected`, next to the class's folder. Returns the path
+/// of this folder.
+fn correct(class: &TestClass, path: &str, bytes: impl AsRef<[u8]>) -> String {
+    let folder = class.path_beside("corrected");
+    let path = folder.join(path);
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(path, bytes).unwrap();
+    folder.to_str().unwrap().to_owned()
+}
+
+fn remove_corrections(class: &TestClass) {
+    fs::remove_dir_all(class.path_beside("corrected")).unwrap();
 }
 
 fn texts(class: &TestClass) -> Vec<String> {
@@ -78,8 +78,7 @@ fn a_corrected_hand_in_is_graded_with_the_time_of_the_first() {
         "Carl Ode/student/src/camera.rs",
         source("reference/src/camera.rs"),
     );
-    correct(&class, "dora/still not.txt", "");
-    let folder = class.path_beside("corrected").display().to_string();
+    let folder = correct(&class, "dora/still not.txt", "");
     let corrected = ["--corrected", &folder];
     let printed = class.graded_with(&exam, &lists, &corrected);
     assert_contains(&printed, &["2 messages for students who need to resubmit"]);
@@ -165,11 +164,11 @@ fn a_corrected_hand_in_without_its_submission_is_an_error() {
         &["Eve Fox.zip"],
         &["bob.zip", "Bob Kim.zip"],
     ] {
-        names
-            .iter()
-            .for_each(|name| correct(&class, name, solution()));
+        for name in names {
+            correct(&class, name, solution());
+        }
         errors.push(run("corrected"));
-        fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+        remove_corrections(&class);
     }
     insta::assert_snapshot!(errors.join("\n"));
 }
@@ -178,9 +177,8 @@ fn a_corrected_hand_in_without_its_submission_is_an_error() {
 fn the_dry_run_shows_corrected_files_and_those_of_nobody() {
     let class = class();
     correct(&class, "bob.zip", solution());
-    correct(&class, "camera.rs", "// whose?");
-    let folder = class.path_beside("corrected").display().to_string();
-    let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
+    let folder = correct(&class, "camera.rs", "// whose?");
+    let preview = class.previewed(&["--corrected", &folder]);
     let expected = [
         "corrected/camera.rs: neither a folder nor an archive",
         &(all_files("bob") + "\n      bob.zip (corrected: bob.zip)"),
@@ -231,14 +229,13 @@ fn a_corrected_hand_in_may_have_the_name_of_the_archive_that_it_replaces() {
         .with("leeann_7001_9001_notes.txt", "text")
         .with("leeann_7001_9002_hw.zip", "PK\x03\x04 and no more")
         .with("kimbob_7002_9003_hw.zip", solution());
-    let folder = class.path_beside("corrected").display().to_string();
     for path in ["leeann_7001_9002_hw.zip", "leeann_7001_9002_hw/hw.zip"] {
-        correct(&class, path, solution());
-        let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
+        let folder = correct(&class, path, solution());
+        let preview = class.previewed(&["--corrected", &folder]);
         let name = path.trim_end_matches("/hw.zip");
         let expected = format!("(corrected: {name})");
         assert_contains(&preview, &[all_files("leeann"), expected]);
-        fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+        remove_corrections(&class);
     }
 }
 
@@ -260,18 +257,18 @@ fn a_second_download_is_a_correction_too() {
         "Ann Lee 2/handin.zip",
     ] {
         correct(&class, name, solution());
-        let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
+        let preview = class.previewed(&["--corrected", &folder]);
         let name = name.trim_end_matches("/handin.zip");
         let expected = format!("\n      Ann Lee.zip (corrected: {name})");
         assert_contains(&preview, &[all_files("Ann Lee") + &expected]);
-        fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+        remove_corrections(&class);
     }
     let refused = |names: &[&str]| {
-        names
-            .iter()
-            .for_each(|name| correct(&class, name, solution()));
+        for name in names {
+            correct(&class, name, solution());
+        }
         let error = class.refused_preview(&["--corrected", &folder]);
-        fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+        remove_corrections(&class);
         error
     };
     let error = refused(&["Ann Lee.zip", "Ann Lee (1).zip"]);
@@ -283,7 +280,7 @@ fn a_second_download_is_a_correction_too() {
 
     correct(&class, "bob.zip", solution());
     correct(&class, ".Ann Lee.zip", solution());
-    let preview = class.preview_of(&class.input(), &["--corrected", &folder]);
+    let preview = class.previewed(&["--corrected", &folder]);
     assert_contains(
         &preview,
         &["corrected/.Ann Lee.zip: its name begins with a dot"],
@@ -297,16 +294,15 @@ fn a_second_download_that_could_be_somebody_elses_is_refused_with_both_readings(
         .with("pt-ann/notes.txt", "")
         .with("pt-ann-2/notes.txt", "");
     let roster = class.write_beside("roster.csv", "name,username\nAnn Lee,ann\nAnn Ray,ann-2\n");
-    let folder = class.path_beside("corrected").display().to_string();
+    let folder = correct(&class, "ann-2.zip", solution());
     let options = ["--roster", &roster, "--corrected", &folder];
-    correct(&class, "ann-2.zip", solution());
     let error = class.refused_preview(&options);
     let expected = "ann-2.zip: it could be for pt-ann-2 or pt-ann, since \"ann-2\" is also the name \
                     that browsers give to a second download: rename the file to one of these names";
     assert_contains(&error, &[expected]);
-    fs::remove_dir_all(class.path_beside("corrected")).unwrap();
+    remove_corrections(&class);
     correct(&class, "pt-ann-2.zip", solution());
-    let preview = class.preview_of(&class.input(), &options);
+    let preview = class.previewed(&options);
     assert_contains(&preview, &["pt-ann-2 (corrected: pt-ann-2.zip)"]);
 
     // Eve has two attempts.
@@ -314,8 +310,7 @@ fn a_second_download_that_could_be_somebody_elses_is_refused_with_both_readings(
         .with("eve.zip", broken)
         .with("e1/x.txt", "");
     let roster = class.write_beside("roster.csv", "name,username,sid\nEve Fox,eve,e1\n");
-    let folder = class.path_beside("corrected").display().to_string();
-    correct(&class, "Eve_Fox (1).zip", solution());
+    let folder = correct(&class, "Eve_Fox (1).zip", solution());
     let error = class.refused_preview(&["--roster", &roster, "--corrected", &folder]);
     assert_contains(
         &error,

@@ -69,12 +69,9 @@ fn a_canvas_name_that_can_be_read_in_two_ways_needs_a_gradebook() {
         "1 of 3 can be graded",
     ];
     assert_contains(&preview, &expected);
-    let gradebook = class.write_beside(
-        "gradebook.csv",
-        "Student,ID,SIS Login ID,Section,Path (7)\nRed_2,7001,red,A,\n\"Lee, Ann\",7002,ann,A,\n\
-         \"Kim, Eve\",7003,eve,A,\n",
-    );
-    let preview = class.preview_of(&class.input(), &["--canvas", &gradebook]);
+    let gradebook = "Student,ID,SIS Login ID,Section,Path (7)\nRed_2,7001,red,A,\n\
+                     \"Lee, Ann\",7002,ann,A,\n\"Kim, Eve\",7003,eve,A,\n";
+    let preview = class.previewed_with(&[("canvas", gradebook)], &[]);
     let who = [
         "  Ann Lee: ",
         &format!("  Red_2: 1 of {} files", RAYS.files.len()),
@@ -103,8 +100,7 @@ fn what_is_in_the_only_submission_does_not_describe_the_class() {
             ));
         let error = class.refused_preview(&[]);
         assert_contains(&error, &[why]);
-        let roster = class.write_beside("roster.csv", "name\nMallory\nBob\n");
-        let preview = class.preview_of(&class.input(), &["--roster", &roster]);
+        let preview = class.previewed_with(&[("roster", "name\nMallory\nBob\n")], &[]);
         let expected = [
             "1 submission in folders and archives",
             &all_files("  Mallory"),
@@ -148,13 +144,13 @@ fn a_class_of_which_most_are_on_no_list_needs_a_confirmation() {
     let exam = class.small_exam(&ITEMS);
     let roster = class.write_beside("roster.csv", "username\nann\nkim\n");
     let lists = ["--roster", &roster];
-    let preview = class.preview_of(&class.input(), &lists);
+    let preview = class.previewed(&lists);
     assert_contains(&preview, &["this class cannot be graded yet"]);
     for shard in ["1/3", "2/3"] {
         let error = class.refused(&exam, &[&lists[..], &["--shard", shard]].concat());
-        assert!(
-            error.contains("2 of 3 submissions, such as \"bob\", don't match anyone"),
-            "{error}"
+        assert_contains(
+            &error,
+            &["2 of 3 submissions, such as \"bob\", don't match anyone"],
         );
         assert!(!class.out().exists());
     }
@@ -192,14 +188,8 @@ fn a_name_without_its_punctuation_belongs_to_the_person_on_the_list() {
     let folder = corrected.join("Bob O'Hara/student/src");
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("camera.rs"), "text").unwrap();
-    let roster = class.write_beside("roster.csv", roster);
-    let options = [
-        "--corrected",
-        corrected.to_str().unwrap(),
-        "--roster",
-        &roster,
-    ];
-    let preview = class.preview_of(&class.input(), &options);
+    let corrected = ["--corrected", corrected.to_str().unwrap()];
+    let preview = class.previewed_with(&[("roster", roster)], &corrected);
     assert_contains(&preview, &["file (corrected: Bob O'Hara)"]);
 }
 
@@ -207,8 +197,7 @@ fn a_name_without_its_punctuation_belongs_to_the_person_on_the_list() {
 fn people_whose_names_differ_only_in_punctuation_are_not_guessed() {
     let class = TestClass::named("moodle").with_reference("Bob OHara_9_assignsubmission_file");
     let roster = "name,email\nBob O'Hara,bob@x.edu\nBob Ohara,bo@x.edu\n";
-    let roster = class.write_beside("roster.csv", roster);
-    let preview = class.preview_of(&class.input(), &["--roster", &roster]);
+    let preview = class.previewed_with(&[("roster", roster)], &[]);
     let expected = [
         "several people on the lists are named Bob OHara",
         "so that it contains one of bo@x.edu, bob@x.edu",
@@ -226,10 +215,7 @@ fn a_team_whose_name_lost_its_punctuation_is_that_of_the_roster() {
         .with_reference("Lab 1 Team 8_2_assignsubmission_file")
         .with_reference("Müller  Co_3_assignsubmission_file")
         .with_reference("Team 7_4_assignsubmission_file");
-    let preview = |groups: &str| {
-        let roster = class.write_beside("roster.csv", groups);
-        class.preview_of(&class.input(), &["--roster", &roster])
-    };
+    let preview = |groups: &str| class.previewed_with(&[("roster", groups)], &[]);
     let text = preview(GROUPS);
     let people = ["  Ann Lee", "  Bob Kim", "  Cid Fox", "  Eve Ray + Dora Y"];
     assert_contains(&text, &people.map(all_files));
@@ -247,16 +233,11 @@ fn a_canvas_groups_files_belong_to_its_members() {
     let class = TestClass::named("submissions")
         .with("projectgroup1_7014_9001_camera.rs", "text")
         .with("team_8_7016_9002_camera.rs", "text");
-    let canvas = class.write_beside(
-        "gradebook.csv",
-        "Student,ID,SIS Login ID,Section,Path (7)\n\"Lee, Ann\",7014,ann,A,\n\
-         \"Kim, Bob\",7015,bob,A,\n\"Fox, Cid\",7016,cid,A,\n",
-    );
+    let canvas = "Student,ID,SIS Login ID,Section,Path (7)\n\"Lee, Ann\",7014,ann,A,\n\
+                  \"Kim, Bob\",7015,bob,A,\n\"Fox, Cid\",7016,cid,A,\n";
     let roster = "name,username,group\nAnn Lee,ann,Project Group 1\nBob Kim,bob,Project Group 1\n\
                   Cid Fox,cid,Team_8\n";
-    let roster = class.write_beside("roster.csv", roster);
-    let options = ["--canvas", &canvas, "--roster", &roster];
-    let preview = class.preview_of(&class.input(), &options);
+    let preview = class.previewed_with(&[("canvas", canvas), ("roster", roster)], &[]);
     assert_contains(&preview, &["  Ann Lee + Bob Kim: 1 of", "  Cid Fox: 1 of"]);
     assert!(!preview.contains("was not used"), "{preview}");
     assert!(!preview.contains("without a submission"), "{preview}");
@@ -271,25 +252,19 @@ fn a_namesakes_folder_that_was_renamed_is_confirmed_by_its_number() {
                      Participant 400306,Ann Lee,u02lee@uni.example,,100\n\
                      Participant 400307,Ann Lee,u03lee@uni.example,,100\n";
     let roster = "name,email\nAnn Lee,u02lee@uni.example\nAnn Lee,u03lee@uni.example\n";
-    let worksheet = class.write_beside("worksheet.csv", worksheet);
-    let roster = class.write_beside("roster.csv", roster);
-    for options in [
-        &["--moodle", &worksheet][..],
-        &["--moodle", &worksheet, "--roster", &roster],
-    ] {
-        let preview = class.preview_of(&class.input(), options);
+    let lists = [("moodle", worksheet), ("roster", roster)];
+    for lists in [&lists[..1], &lists] {
+        let preview = class.previewed_with(lists, &[]);
         assert_eq!(preview.matches(&all_files("  Ann Lee")).count(), 2);
         for problem in ["was not used", "without a submission"] {
             assert!(!preview.contains(problem), "{preview}");
         }
     }
     // The number is Ann's, but the address is Bob's.
-    let roster = class.write_beside("roster.csv", "name,email\nBob,u02lee@uni.example\n");
+    let roster = "name,email\nBob,u02lee@uni.example\n";
     let other = "Identifier,Full name,Email address,Grade,Maximum Grade\n\
                  Participant 400306,Ann Lee,u04@uni.example,,100\n";
-    let other = class.write_beside("worksheet.csv", other);
-    let options = ["--moodle", &other, "--roster", &roster];
-    let preview = class.preview_of(&class.input(), &options);
+    let preview = class.previewed_with(&[("moodle", other), ("roster", roster)], &[]);
     assert_contains(
         &preview,
         &["the number 400306 was ignored because a list assigns it to Ann Lee"],
@@ -302,8 +277,7 @@ fn a_roster_may_write_the_family_name_first() {
         .with_minimal_submission("Zoë Müller")
         .with_minimal_submission("Jane Doe Jr");
     let text = "name,email\n\"Müller, Zoë\",z@x.edu\n\"Jane Doe, Jr.\",j@x.edu\n";
-    let roster = class.write_beside("roster.csv", text);
-    let preview = class.preview_of(&class.input(), &["--roster", &roster]);
+    let preview = class.previewed_with(&[("roster", text)], &[]);
     let people = ["Zoë Müller", "Jane Doe, Jr."].map(all_files);
     assert_contains(&preview, &people);
     assert!(!preview.contains("without a submission"), "{preview}");

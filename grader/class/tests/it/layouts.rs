@@ -196,7 +196,7 @@ fn an_export_is_not_graded_as_one_submission() {
         "or --layout folders if each folder is one submission",
     ];
     assert_contains(&class.refused_preview(&[]), &expected);
-    let preview = class.preview_of(&class.input(), &["--layout", "folders"]);
+    let preview = class.previewed(&["--layout", "folders"]);
     assert_contains(&preview, &["2 of 2 can be graded"]);
 
     // One student's files from a platform are one submission.
@@ -265,12 +265,9 @@ fn names_github_clones_by_account_and_joins_the_roster() {
         .with_minimal_submission("pathtracing-ann-lee/student/src")
         .with_minimal_submission("pathtracing-zoe/student/src")
         .with("pathtracing-empty/README.md", "text");
-    let roster = class.write_beside(
-        "roster.csv",
-        "name,email,github_username\n\"Lee, Ann\",ann@example.edu,Ann-Lee\nBob,bob@example.edu,bob\n",
-    );
-    let preview = class.preview_of(&class.input(), &["--roster", &roster]);
-    assert_snapshot!(preview);
+    let roster = "name,email,github_username\n\"Lee, Ann\",ann@example.edu,Ann-Lee\n\
+                  Bob,bob@example.edu,bob\n";
+    assert_snapshot!(class.previewed_with(&[("roster", roster)], &[]));
 }
 
 #[test]

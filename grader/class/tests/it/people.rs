@@ -144,7 +144,7 @@ fn namesakes_are_told_apart_or_belong_to_nobody() {
         .with_minimal_submission("Ann Lee")
         .with_minimal_submission("a1@x.edu");
     let roster = class.write_beside("roster.csv", roster);
-    let preview = class.preview_of(&class.input(), &["--roster", &roster]);
+    let preview = class.previewed(&["--roster", &roster]);
     let expected = [
         "Ann Lee: several people on the lists are named Ann Lee",
         "so that it contains one of a1@x.edu, a2@x.edu",
@@ -194,9 +194,7 @@ fn a_person_known_by_different_identifiers_is_not_missing() {
         ("roster", "name,email\nBob Kim,bob@x.edu\n"),
         ("canvas", canvas),
     ];
-    let lists = class.lists(&lists);
-    let lists: Vec<&str> = lists.iter().map(String::as_str).collect();
-    let preview = class.preview_of(&class.input(), &lists);
+    let preview = class.previewed_with(&lists, &[]);
     assert_contains(&preview, &["without a submission:\n      Eve Ray\n\n"]);
 }
 

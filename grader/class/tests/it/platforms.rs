@@ -285,7 +285,7 @@ fn one_of_several_assignments_in_teams_is_chosen_by_its_title() {
             "choose one with --title",
         ],
     );
-    let preview = class.preview_of(&class.input(), &["--title", "Essay"]);
+    let preview = class.previewed(&["--title", "Essay"]);
     assert_contains(
         &preview,
         &[
@@ -322,12 +322,12 @@ fn the_last_version_in_teams_counts_if_the_policy_says_so() {
 fn a_teams_library_in_another_language_is_read_if_it_is_chosen() {
     let class = TestClass::named("Eingereichte Dateien")
         .with_minimal_submission("Ann Lee/Path tracer/Version 1");
-    let preview = class.preview_of(&class.input(), &["--layout", "teams"]);
+    let preview = class.previewed(&["--layout", "teams"]);
     assert_contains(&preview, &["1 submission in the submitted files"]);
     let class = class
         .with_minimal_submission("Bob/Path tracer/Version 1")
         .with_minimal_submission("Bob/Path tracer/Version 2");
-    let preview = class.preview_of(&class.input(), &["--layout", "teams"]);
+    let preview = class.previewed(&["--layout", "teams"]);
     assert_contains(
         &preview,
         &[
@@ -346,7 +346,7 @@ fn a_chosen_layout_enters_a_folder_that_is_no_submission() {
         "text",
     );
     assert_contains(&class.preview(), &["1 submission in folders and archives"]);
-    let preview = class.preview_of(&class.input(), &["--layout", "blackboard"]);
+    let preview = class.previewed(&["--layout", "blackboard"]);
     let expected = [
         "1 submission in a Blackboard download",
         &format!("  Path_tracer_ann: 1 of {} files", RAYS.files.len()),
@@ -366,9 +366,9 @@ fn names_of_two_platforms_are_refused_with_both_readings() {
         .with("doejane_303_9002_assignsubmission_file_camera.rs", "text");
     let error = class.refused_preview(&[]);
     assert_snapshot!(error, @"error: the input can be read in two ways: as a Canvas download, or as a Moodle download; choose one with --layout canvas or --layout moodle");
-    let preview = class.preview_of(&class.input(), &["--layout", "canvas"]);
+    let preview = class.previewed(&["--layout", "canvas"]);
     assert_contains(&preview, &["2 submissions in a Canvas download"]);
-    let preview = class.preview_of(&class.input(), &["--layout", "moodle"]);
+    let preview = class.previewed(&["--layout", "moodle"]);
     assert_contains(&preview, &["2 submissions in a Moodle download"]);
 }
 

@@ -7,7 +7,7 @@ use grader::handed_out::RAYS;
 use serde_json::Value;
 
 use crate::harness::{
-    TestClass, assert_contains, cell, refusal, source, successful_stdout, table, zip,
+    TestClass, assert_contains, cell, refusal, solution, source, successful_stdout, table,
 };
 
 const MANUAL: &str = "student,task,delta,comment,author,date\n\
@@ -111,9 +111,7 @@ fn a_person_with_several_attempts_is_found_by_the_one_that_counts() {
     }
     let again = class.path_beside("again");
     fs::create_dir(&again).unwrap();
-    let files = RAYS.file_names();
-    let files = files.map(|file| (file, source(&format!("reference/src/{file}"))));
-    fs::write(again.join("Ann Lee.zip"), zip(files)).unwrap();
+    fs::write(again.join("Ann Lee.zip"), solution()).unwrap();
     for _ in 0..2 {
         graded("latest", &["--corrected", again.to_str().unwrap()]);
         assert_eq!(cell(&class, &ids[2], "Ann Lee", "counts"), "2");

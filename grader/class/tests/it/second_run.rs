@@ -64,10 +64,9 @@ fn a_list_that_is_left_out_counts_as_before_until_it_is_dropped() {
         let text = format!("using {text} from the last run");
         assert!(error.contains(&text), "{text}: {error}");
     }
-    let preview = graded.class.preview_of(
-        &graded.class.input(),
-        &["--out", graded.class.out().to_str().unwrap()],
-    );
+    let preview = graded
+        .class
+        .previewed(&["--out", graded.class.out().to_str().unwrap()]);
     assert!(preview.contains("Zoe Z"), "{preview}");
 
     let dropped = ["manual-points", "roster", "canvas"];

@@ -19,7 +19,7 @@ fn compared_class() -> TestClass {
                 .with_replaced(&format!("{who}/camera.rs"), "\nuse glam", &mine)
         });
     let own = class.path_beside("own").display().to_string();
-    class.preview_of(&class.input(), &["--similarity-input", &own]);
+    class.previewed(&["--similarity-input", &own]);
     class
 }
 

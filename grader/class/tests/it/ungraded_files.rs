@@ -146,10 +146,7 @@ fn files_with_other_names_are_named_once() {
                     bvh.rs.txt: name each file exactly like its task file, such as camera.rs; \
                     names must end in .rs";
     assert_eq!(line(&preview, "ann"), expected);
-    assert!(
-        preview.contains("bob: nothing to grade: nothing was handed in"),
-        "{preview}"
-    );
+    assert_contains(&preview, &["bob: nothing to grade: nothing was handed in"]);
 }
 
 #[test]

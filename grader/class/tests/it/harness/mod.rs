@@ -148,7 +148,19 @@ impl TestClass {
 
     /// Returns the output of `--dry-run`.
     pub fn preview(&self) -> String {
-        self.preview_of(&self.input(), &[])
+        self.previewed(&[])
+    }
+
+    /// Previews the class with lists and additional options.
+    pub fn previewed_with(&self, lists: &[(&str, &str)], more: &[&str]) -> String {
+        let lists = self.lists(lists);
+        let lists: Vec<&str> = lists.iter().map(String::as_str).collect();
+        self.previewed(&[&lists, more].concat())
+    }
+
+    /// Previews the class with additional options.
+    pub fn previewed(&self, more: &[&str]) -> String {
+        self.preview_of(&self.input(), more)
     }
 
     pub fn preview_of(&self, input: &Path, more: &[&str]) -> String {
@@ -283,6 +295,12 @@ pub fn assert_contains(text: &str, parts: &[impl AsRef<str>]) {
     for part in parts.iter().map(AsRef::as_ref) {
         assert!(text.contains(part), "{part:?} is not in {text}");
     }
+}
+
+/// Returns a zip with the reference's task files.
+pub fn solution() -> Vec<u8> {
+    let read = |file: &'static str| (file, source(&format!("reference/src/{file}")));
+    zip(RAYS.file_names().map(read))
 }
 
 /// Returns the text of a file in the repository.

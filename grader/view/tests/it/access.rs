@@ -13,7 +13,7 @@ use tempfile::TempDir;
 #[cfg(target_os = "linux")]
 use test_support::programs::{path_with, write_program};
 
-use crate::harness::{Submission, Viewer, view, view_and_open};
+use crate::harness::{Submission, Viewer, view, view_and_open, view_of};
 
 #[test]
 fn only_the_users_browser_is_answered() {
@@ -256,12 +256,10 @@ fn without_a_desktop_the_viewer_says_what_to_do() {
 #[test]
 fn a_codespace_reaches_the_page_by_the_name_of_its_port() {
     let submission = Submission::starter();
-    let mut command = view();
+    let mut command = view_of(&submission);
     command
         .env("CODESPACE_NAME", "ada-42")
-        .env("GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN", "app.github.dev")
-        .arg("--submission")
-        .arg(submission.path());
+        .env("GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN", "app.github.dev");
     let viewer = Viewer::run(&mut command).unwrap();
     let name = format!("ada-42-{}.app.github.dev", viewer.port);
     let page = viewer.headers();
@@ -281,8 +279,7 @@ fn a_codespace_reaches_the_page_by_the_name_of_its_port() {
 #[test]
 fn a_second_viewer_takes_another_port() {
     let submission = Submission::starter();
-    let mut command = view();
-    command.arg("--submission").arg(submission.path());
+    let mut command = view_of(&submission);
     let first = Viewer::spawn(&mut command).unwrap();
     let second = Viewer::spawn(&mut command).unwrap();
     assert_ne!(first.port, second.port);

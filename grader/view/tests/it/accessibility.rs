@@ -3,9 +3,11 @@
 
 use glam::Vec3;
 use serde_json::{Value, json};
-use test_support::{Chromium, DESKTOP, Viewer as Reader, violations};
+use test_support::{Chromium, DESKTOP, Tab, Viewer as Reader, violations};
 
-use crate::browser::{HAS_TABLE, open, property, start, text, wait};
+use crate::browser::{
+    HAS_TABLE, focus, open, property, run, start, text, wait, wait_for_text, wait_until_shown,
+};
 use crate::harness::{Submission, Viewer};
 
 #[test]
@@ -14,32 +16,28 @@ fn the_keyboard_alone_explains_a_pixel_and_shows_the_tree() {
     let Some((_chromium, _viewer, mut tab)) = start(&Submission::reference(), arguments) else {
         return;
     };
-    tab.eval("document.getElementById('stage').focus(); 0");
-    tab.press("Enter", 13);
+    let press_enter = |tab: &mut Tab, selector: &str| {
+        focus(tab, selector);
+        tab.press("Enter", 13);
+    };
+    press_enter(&mut tab, "#stage");
     wait(&mut tab, HAS_TABLE);
-    wait(&mut tab, "!document.getElementById('tree-content').hidden");
-    tab.eval("document.getElementById('level').focus(); 0");
+    wait_until_shown(&mut tab, "tree-content");
+    focus(&mut tab, "#level");
     tab.press("ArrowRight", 39);
-    wait(
-        &mut tab,
-        "document.getElementById('boxes-count').innerText.includes('box')",
-    );
+    wait_for_text(&mut tab, "boxes-count", "box");
     assert_eq!(text(&mut tab, "#level-value"), "1");
-    tab.eval("document.querySelector('#nodes summary').focus(); 0");
-    tab.press("Enter", 13);
-    tab.eval("document.querySelector('#worst button').focus(); 0");
-    tab.press("Enter", 13);
+    press_enter(&mut tab, "#nodes summary");
+    press_enter(&mut tab, "#worst button");
     let node = text(&mut tab, "#node");
     assert!(node.contains("of the SAH cost"), "{node}");
     // Go from node to node, and read the table of the boxes in the picture.
-    tab.eval("document.getElementById('node-index').value = 0; 0");
-    tab.eval("document.querySelector('#choose-node button').focus(); 0");
-    tab.press("Enter", 13);
+    run(&mut tab, "document.getElementById('node-index').value = 0");
+    press_enter(&mut tab, "#choose-node button");
     let is_root = "document.getElementById('node').innerText.startsWith('Node 0, level 0')";
     wait(&mut tab, is_root);
     assert_eq!(property(&mut tab, "node-parent", "disabled"), true);
-    tab.eval("document.getElementById('node-second').focus(); 0");
-    tab.press("Enter", 13);
+    press_enter(&mut tab, "#node-second");
     let is_child = "/^(Node|Leaf) \\d+, level 1/.test(document.getElementById('node').innerText)";
     wait(&mut tab, is_child);
     let rows = tab.eval("document.querySelectorAll('#drawn-boxes tbody tr').length");
@@ -123,7 +121,7 @@ fn keys_alone_move_the_camera_in_every_way() {
 fn check(viewer: &Viewer, chromium: &Chromium, reader: Reader, is_shown: &str) {
     let mut tab = open(viewer, chromium, reader);
     wait(&mut tab, is_shown);
-    tab.eval("document.getElementById('history').open = true; 0");
+    run(&mut tab, "document.getElementById('history').open = true");
     let name = format!("width {}, dark: {}", reader.width, reader.dark);
     assert_eq!(violations(&mut tab), [""; 0], "{name}");
     let width = tab.eval("document.documentElement.scrollWidth");

@@ -26,6 +26,49 @@ pub fn wait(tab: &mut Tab, condition: &str) {
     tab.wait_until(condition, TEXT);
 }
 
+/// Waits until the element with this id is shown.
+pub fn wait_until_shown(tab: &mut Tab, id: &str) {
+    wait(tab, &format!("!document.getElementById('{id}').hidden"));
+}
+
+/// Waits until the text of the element with this id contains `text`.
+pub fn wait_for_text(tab: &mut Tab, id: &str, text: &str) {
+    let content = format!("document.getElementById('{id}').innerText");
+    wait(tab, &format!("{content}.includes('{text}')"));
+}
+
+/// Runs statements on the page.
+pub fn run(tab: &mut Tab, statements: &str) {
+    tab.eval(&format!("{statements}; 0"));
+}
+
+/// Clicks on the first element that matches a selector.
+pub fn click(tab: &mut Tab, selector: &str) {
+    run(
+        tab,
+        &format!("document.querySelector('{selector}').click()"),
+    );
+}
+
+/// Moves the focus to the first element that matches a selector.
+pub fn focus(tab: &mut Tab, selector: &str) {
+    run(
+        tab,
+        &format!("document.querySelector('{selector}').focus()"),
+    );
+}
+
+/// Returns a condition that moves the mouse to a position in the element with this id, given as
+/// fractions of the element's size. Wait for it together with the expected reaction, since the page
+/// may not be ready yet when it is first evaluated.
+pub fn point_at(id: &str, x: f64, y: f64) -> String {
+    format!(
+        "(() => {{ const at = document.getElementById('{id}').getBoundingClientRect(); \
+         document.getElementById('{id}').dispatchEvent(new PointerEvent('pointermove', \
+         {{ clientX: at.x + {x} * at.width, clientY: at.y + {y} * at.height }})); return true; }})()"
+    )
+}
+
 /// Returns a property of the element with this id.
 pub fn property(tab: &mut Tab, id: &str, name: &str) -> Value {
     tab.eval(&format!("document.getElementById('{id}').{name}"))
@@ -90,7 +133,7 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     };
     let own = viewer.wait_for_picture();
 
-    tab.eval("document.getElementById('stage').focus(); 0");
+    focus(&mut tab, "#stage");
     tab.press("ArrowRight", 39);
     viewer.wait_for(|state| state["camera"] != own["camera"]);
     wait(&mut tab, IS_COMPLETE);
@@ -104,7 +147,7 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     let shown = tab.eval("document.querySelectorAll('#explanation tbody tr').length");
     assert_eq!(shown, rows);
     // No tree is drawn here, so use the scene's own camera again.
-    tab.eval("document.querySelector('[data-own]').click(); 0");
+    click(&mut tab, "[data-own]");
     viewer.wait_for(|state| state["camera"]["is_own"] == true);
     let expected = Expected::of_scene("checkered-teapot", uvec2(96, 72));
     for pixel in [uvec2(48, 36), uvec2(40, 40), uvec2(3, 70)] {
@@ -115,18 +158,15 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     assert!(row.contains("node 0\t0\t"), "{row}");
     // Go forward and backward, step by step.
     let steps = "document.querySelector('[aria-current=step] button').innerText";
-    tab.eval("document.querySelector('[aria-label=\"First step\"]').click(); 0");
-    tab.eval("document.querySelector('[aria-label=\"Step forward\"]').click(); 0");
+    click(&mut tab, "[aria-label=\"First step\"]");
+    click(&mut tab, "[aria-label=\"Step forward\"]");
     assert_eq!(tab.eval(steps), "2");
-    tab.eval("document.querySelector('[aria-label=\"Step back\"]').click(); 0");
+    click(&mut tab, "[aria-label=\"Step back\"]");
     assert_eq!(tab.eval(steps), "1");
 
     let before = viewer.wait_for_picture();
     let correct = submission.read("bvh.rs");
-    submission.write(
-        "bvh.rs",
-        &correct.replace("pub fn hit(&self", "pub fn hit(&self,"),
-    );
+    submission.replace("bvh.rs", "pub fn hit(&self", "pub fn hit(&self,");
     submission.write("bvh.rs", &format!("{correct}\nlet oops\n"));
     // The error from the first save may be shown before the error from the second one.
     let is_second = "/let oops/.test(document.querySelector('#errors pre')?.innerText)";
@@ -140,19 +180,15 @@ fn a_student_orbits_explains_a_pixel_breaks_the_code_and_repairs_it() {
     submission.write("bvh.rs", &correct);
     wait(&mut tab, "document.getElementById('errors').hidden");
     wait(&mut tab, IS_COMPLETE);
-    wait(
-        &mut tab,
-        "document.getElementById('stage').className === ''",
-    );
+    let is_fresh = "document.getElementById('stage').className === ''";
+    wait(&mut tab, is_fresh);
     let after = viewer.wait_for_picture();
     assert_eq!(after["camera"], before["camera"]);
     assert_eq!(tab.errors(), [""; 0]);
     let here = format!("http://127.0.0.1:{}/", viewer.port);
-    assert!(
-        tab.requests().iter().all(|url| url.starts_with(&here)),
-        "{:?}",
-        tab.requests()
-    );
+    let requests = tab.requests();
+    let are_here = requests.iter().all(|url| url.starts_with(&here));
+    assert!(are_here, "{requests:?}");
 }
 
 #[test]
@@ -197,33 +233,22 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
     let Some((_chromium, viewer, mut tab)) = start(&Submission::reference(), arguments) else {
         return;
     };
-    wait(&mut tab, "!document.getElementById('tree-content').hidden");
-    // Point at the canvas repeatedly until the page reacts, since the canvas is drawn some time
-    // after it is shown.
-    let point = |canvas: &str, x: f64, y: f64| {
-        format!(
-            "(() => {{ const at = document.getElementById('{canvas}').getBoundingClientRect(); \
-             document.getElementById('{canvas}').dispatchEvent(new PointerEvent('pointermove', \
-             {{ clientX: at.x + {x} * at.width, clientY: at.y + {y} * at.height }})); return true; }})()"
-        )
-    };
+    wait_until_shown(&mut tab, "tree-content");
     // The highest row of the strip is the root.
-    let names =
-        |start: &str| format!("document.getElementById('node').innerText.startsWith('{start}')");
-    let root = point("strip", 0.5, 0.01);
-    wait(&mut tab, &format!("{root} && {}", names("Node 0, level 0")));
+    let names = "document.getElementById('node').innerText";
+    let root = point_at("strip", 0.5, 0.01);
+    let is_root = format!("{names}.startsWith('Node 0, level 0')");
+    wait(&mut tab, &format!("{root} && {is_root}"));
     // The boxes of level 1 are drawn over the picture.
-    tab.eval(
-        "document.getElementById('level').value = 1; \
-         document.getElementById('level').dispatchEvent(new Event('input')); 0",
-    );
-    wait(
+    let level = "document.getElementById('level')";
+    run(
         &mut tab,
-        "document.getElementById('boxes-count').innerText !== ''",
+        &format!("{level}.value = 1; {level}.dispatchEvent(new Event('input'))"),
     );
-    let is_named = "document.getElementById('node').innerText.includes(', level 1: ')";
-    let middle = point("lines", 0.5, 0.5);
-    wait(&mut tab, &format!("{middle} && {is_named}"));
+    wait_for_text(&mut tab, "boxes-count", "box");
+    let middle = point_at("lines", 0.5, 0.5);
+    let is_below = format!("{names}.includes(', level 1: ')");
+    wait(&mut tab, &format!("{middle} && {is_below}"));
 
     let saved = tab.eval(
         "(async () => { const image = new Image(); image.src = document.getElementById('save').href; \
@@ -233,21 +258,15 @@ fn the_mouse_names_nodes_and_the_picture_can_be_saved() {
          return [...context.getImageData(0, 0, image.width, image.height).data]; })()",
     );
     let saved: Vec<u8> = serde_json::from_value(saved).unwrap();
-    let pixels: Vec<[u8; 3]> = saved
-        .chunks(4)
-        .map(|rgba| [rgba[0], rgba[1], rgba[2]])
-        .collect();
-    assert!(pixels == viewer.picture(), "another picture is saved");
+    let (pixels, _) = saved.as_chunks();
+    let pixels = pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]);
+    assert!(pixels.eq(viewer.picture()), "another picture is saved");
     assert_eq!(property(&mut tab, "save", "download"), "flat.png");
     // If a command is refused, the page says why.
-    tab.eval(
-        "document.getElementById('exposure').value = 99; \
-         document.getElementById('exposure').dispatchEvent(new Event('change')); 0",
-    );
-    wait(
-        &mut tab,
-        "document.getElementById('refused').innerText.includes('out of range')",
-    );
+    let exposure = "document.getElementById('exposure')";
+    let change = format!("{exposure}.dispatchEvent(new Event('change'))");
+    run(&mut tab, &format!("{exposure}.value = 99; {change}"));
+    wait_for_text(&mut tab, "refused", "out of range");
 }
 
 #[test]
@@ -256,8 +275,11 @@ fn two_windows_show_the_same_camera_and_pixel() {
     let Some((chromium, viewer, mut first)) = start(&Submission::reference(), arguments) else {
         return;
     };
-    first.eval("document.querySelector('[data-side=top]').click(); 0");
-    first.eval("document.getElementById('pick-sample').value = '1'; 0");
+    click(&mut first, "[data-side=top]");
+    run(
+        &mut first,
+        "document.getElementById('pick-sample').value = '1'",
+    );
     explain(&mut first, &viewer, uvec2(20, 10));
     let mut second = open(&viewer, &chromium, DESKTOP);
     wait(&mut second, HAS_TABLE);
@@ -265,7 +287,7 @@ fn two_windows_show_the_same_camera_and_pixel() {
         assert!(text(tab, "#explanation h3").starts_with("Pixel (20, 10), path 2"));
         assert_eq!(property(tab, "pick-sample", "value"), "1");
     }
-    second.eval("document.getElementById('stage').focus(); 0");
+    focus(&mut second, "#stage");
     second.press("Enter", 13);
     first.bring_to_front();
     let title = "document.querySelector('#explanation h3').innerText";
@@ -293,7 +315,7 @@ fn ten_tabs_show_the_picture_and_notice_that_the_viewer_has_ended() {
     drop(viewer);
     for tab in &mut tabs {
         tab.bring_to_front();
-        wait(tab, "!document.getElementById('offline').hidden");
+        wait_until_shown(tab, "offline");
     }
 }
 
@@ -310,10 +332,8 @@ fn the_secret_leaves_the_address_and_stays_in_this_browser() {
     again.open_url(&address, DESKTOP);
     wait(&mut again, IS_COMPLETE);
     tab.open_url(&address, DESKTOP);
-    wait(
-        &mut tab,
-        &format!("{TEXT}.includes('printed in the terminal')"),
-    );
+    let is_refused = format!("{TEXT}.includes('printed in the terminal')");
+    wait(&mut tab, &is_refused);
 }
 
 #[test]
@@ -324,15 +344,15 @@ fn a_sample_in_the_history_of_a_pixel_leads_to_its_path() {
         return;
     };
     explain(&mut tab, &viewer, uvec2(16, 8));
-    wait(&mut tab, "!document.getElementById('history').hidden");
+    wait_until_shown(&mut tab, "history");
     let summary = text(&mut tab, "#history summary");
     let start = "Samples: mean of the first 5 samples 0.";
     assert!(summary.starts_with(start), "{summary}");
-    tab.eval("document.querySelector('#history summary').click(); 0");
+    click(&mut tab, "#history summary");
     let dots = tab.eval("document.querySelectorAll('#history svg circle').length");
     assert_eq!(dots, 5);
-    tab.eval("document.querySelector('[aria-label=\"Show path 3\"]').focus(); 0");
-    tab.eval("document.activeElement.click(); 0");
+    focus(&mut tab, "[aria-label=\"Show path 3\"]");
+    run(&mut tab, "document.activeElement.click()");
     let is_shown =
         "document.querySelector('#explanation h3')?.innerText === 'Pixel (16, 8), path 3'";
     wait(&mut tab, is_shown);

@@ -131,7 +131,7 @@ fn the_history_of_a_pixel_has_each_path_and_its_mean_is_the_pictures_value() {
 
     let last = &history[5];
     let mean = numbers(&last["mean"]);
-    let value: Value = serde_json::from_slice(&viewer.get("/value?x=16&y=8").body).unwrap();
+    let value = viewer.get_json("/value?x=16&y=8");
     let [r, g, b] = mean[..].try_into().unwrap();
     let expected: String = format!("radiance ({r:.2}, {g:.2}, {b:.2})");
     assert_eq!(value, expected);

@@ -5,35 +5,12 @@ use serde_json::{Value, json};
 #[cfg(target_os = "linux")]
 use test_support::processes::{eventually, family, is_running};
 
-use crate::harness::{Submission, Viewer};
-
-/// Returns the text and location of each note in a state, one note per line.
-fn notes(state: &Value) -> String {
-    let notes = state["notes"].as_array().unwrap().iter();
-    let line = |note: &Value| {
-        format!(
-            "{} ({})\n",
-            note["text"].as_str().unwrap(),
-            note["location"]
-        )
-    };
-    notes.map(line).collect()
-}
-
-/// Returns the number of pixels whose colour marks a panic.
-fn panicked(viewer: &Viewer) -> usize {
-    let picture = viewer.picture();
-    picture
-        .iter()
-        .filter(|pixel| **pixel == [255, 0, 255])
-        .count()
-}
+use crate::harness::{Submission, Viewer, notes};
 
 #[test]
 fn the_starter_lists_the_tasks_that_are_missing_with_their_lines() {
     let viewer = Viewer::start(&Submission::starter(), "spheres --size 16x12");
-    let state = viewer.wait_for_picture();
-    let notes = notes(&state);
+    let notes = notes(&viewer.wait_for_picture());
     for (task, file) in [
         ("`Camera::sample_ray` is not written yet", "camera.rs:"),
         ("`Triangle::hit` is not written yet", "triangle.rs:"),
@@ -52,8 +29,7 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
     submission.write("sphere.rs", &starter.read("sphere.rs"));
     submission.write("bvh.rs", &starter.read("bvh.rs"));
     let viewer = Viewer::start(&submission, "spheres --size 32x24 --samples 1");
-    let state = viewer.wait_for_picture();
-    let notes = notes(&state);
+    let notes = notes(&viewer.wait_for_picture());
     assert!(notes.contains("spheres are left out"), "{notes}");
     assert!(
         notes.contains("`Bvh::build` is not written yet, so each ray tests all"),
@@ -72,15 +48,9 @@ fn before_the_tree_and_the_spheres_the_rest_is_shown() {
         viewer.picture().iter().any(|pixel| *pixel != [0, 0, 0]),
         "the floor is shown"
     );
-    let explanation = viewer.explain([16, 2], None);
-    let ray = &explanation["rays"][0];
-    assert!(
-        ray["notes"][0]
-            .as_str()
-            .unwrap()
-            .contains("There is no tree yet"),
-        "{ray}"
-    );
+    let ray = &viewer.explain([16, 2], None)["rays"][0];
+    let note = ray["notes"][0].as_str().unwrap();
+    assert!(note.contains("There is no tree yet"), "{note}");
     assert_eq!(ray["boxes"], 0);
 }
 
@@ -164,7 +134,7 @@ fn a_panic_paints_its_pixels_and_names_its_place() {
     submission.insert_into_camera(panic);
     let viewer = Viewer::start(&submission, "flat --size 20x10 --samples 1");
     let state = viewer.wait_for_picture();
-    assert_eq!(panicked(&viewer), 10);
+    assert_eq!(viewer.panicked_pixels(), 10);
     let note = &state["panics"][0];
     assert_eq!(
         (&note["message"], &note["count"]),
@@ -267,6 +237,6 @@ fn a_save_ends_programs_that_hang_before_their_limit() {
     submission.write("bvh.rs", "not Rust");
     viewer.wait_for(|state| state["build"] == "failed");
     eventually(|| (family(viewer.process()).len() == 1).then_some(()));
-    let state: Value = serde_json::from_slice(&viewer.get("/state?after=0").body).unwrap();
+    let state = viewer.get_json("/state?after=0");
     assert_eq!(state["notes"], json!([]), "a program ran until its limit");
 }

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::browser::{start, text, wait};
-use crate::harness::{Submission, Viewer};
+use crate::browser::{start, text, wait_until_shown};
+use crate::harness::{Submission, Viewer, notes};
 
 /// The maximum time until the page names the method that hangs. Three seconds are enough if nothing
 /// else is running, but the limits apply to CPU time, and other tests may be running at the same
@@ -70,13 +70,12 @@ const HANGS: [Hang; 9] = [
 /// Returns the notes, the slow-build warning and the panics in a state, one per line, each with its
 /// location.
 fn messages(state: &Value) -> String {
-    let notes = state["notes"].as_array().unwrap().iter();
-    let notes = notes.chain([&state["slow_build"]]);
-    let notes = notes.map(|note| (&note["text"], &note["location"]));
+    let slow = &state["slow_build"];
     let panics = state["panics"].as_array().unwrap().iter();
-    let all = notes.chain(panics.map(|panic| (&panic["message"], &panic["location"])));
-    all.map(|(text, location)| format!("{text} ({location})\n"))
-        .collect()
+    let others = panics.map(|panic| (&panic["message"], &panic["location"]));
+    let others = others.chain([(&slow["text"], &slow["location"])]);
+    let others = others.map(|(text, location)| format!("{text} ({location})\n"));
+    notes(state) + &others.collect::<String>()
 }
 
 #[test]
@@ -116,15 +115,7 @@ fn a_hang_ends_and_its_pixel_is_found() {
     submission.insert_into_camera(hang);
     let viewer = Viewer::start(&submission, "flat --size 16x12 --samples 1");
     let state = viewer.wait_for_picture();
-    let is_marked = |pixel: &[u8; 3]| *pixel == [255, 0, 255];
-    assert_eq!(
-        viewer
-            .picture()
-            .iter()
-            .filter(|pixel| is_marked(pixel))
-            .count(),
-        1
-    );
+    assert_eq!(viewer.panicked_pixels(), 1);
     let note = &state["panics"][0];
     assert_eq!(note["pixel"], json!([5, 6]));
     let message = note["message"].as_str().unwrap();
@@ -163,7 +154,7 @@ fn the_page_shows_a_hang_over_the_picture() {
         return;
     };
     let line = HANGS[2].write(&submission);
-    wait(&mut tab, "!document.getElementById('stopped').hidden");
+    wait_until_shown(&mut tab, "stopped");
     let shown = text(&mut tab, "#stopped-text");
     assert!(
         shown.starts_with("Triangle::hit: stopped because"),

@@ -55,6 +55,27 @@ pub fn view() -> Command {
     command
 }
 
+/// Returns a command that starts the viewer on a submission, without choosing the code for the
+/// other part.
+pub fn view_of(submission: &Submission) -> Command {
+    let mut command = view();
+    command.arg("--submission").arg(submission.path());
+    command
+}
+
+/// Returns the text and location of each note in a state, one note per line.
+pub fn notes(state: &Value) -> String {
+    let notes = state["notes"].as_array().unwrap().iter();
+    let line = |note: &Value| {
+        format!(
+            "{} ({})\n",
+            note["text"].as_str().unwrap(),
+            note["location"]
+        )
+    };
+    notes.map(line).collect()
+}
+
 /// Returns a command that starts the viewer and opens the page.
 pub fn view_and_open() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_view"));
@@ -173,17 +194,8 @@ impl Viewer {
 
     /// Starts the viewer like [`Viewer::start`], or returns its error message.
     pub fn try_start(submission: &Submission, arguments: &str) -> Result<Self, String> {
-        Viewer::try_start_with(submission, &format!("--reference-light {arguments}"))
-    }
-
-    /// Starts the viewer on a submission without choosing the code for the other part.
-    pub fn start_with(submission: &Submission, arguments: &str) -> Self {
-        Viewer::try_start_with(submission, arguments).unwrap_or_else(|error| panic!("{error}"))
-    }
-
-    fn try_start_with(submission: &Submission, arguments: &str) -> Result<Self, String> {
-        let mut command = view();
-        command.arg("--submission").arg(submission.path());
+        let mut command = view_of(submission);
+        command.arg("--reference-light");
         Viewer::run(command.args(arguments.split_whitespace()))
     }
 
@@ -263,6 +275,10 @@ impl Viewer {
         self.request("GET", path, &self.headers(), "")
     }
 
+    pub fn get_json(&self, path: &str) -> Value {
+        serde_json::from_slice(&self.get(path).body).unwrap()
+    }
+
     /// Sends a command as the page does and returns the status.
     pub fn send(&self, command: &Value) -> u16 {
         self.request("POST", "/command", &self.headers(), &command.to_string())
@@ -301,6 +317,19 @@ impl Viewer {
         self.wait_for(|state| state["is_picture_complete"] == true)
     }
 
+    /// Shows another quantity and waits until its complete picture is shown.
+    #[track_caller]
+    pub fn show(&self, view: &str) -> Value {
+        self.command(&json!({ "view": view }));
+        self.wait_for(|state| state["view"] == view && state["is_picture_complete"] == true)
+    }
+
+    /// Returns the number of pixels whose colour marks a panic.
+    pub fn panicked_pixels(&self) -> usize {
+        let picture = self.picture().into_iter();
+        picture.filter(|pixel| *pixel == [255, 0, 255]).count()
+    }
+
     /// Returns the pixels of the picture, row by row from the top.
     pub fn picture(&self) -> Vec<[u8; 3]> {
         let answer = self.get("/picture");
@@ -326,7 +355,7 @@ impl Viewer {
             assert_eq!(state["explanation_fault"], Value::Null);
             state["explanation"].is_number()
         });
-        serde_json::from_slice(&self.get("/explanation").body).unwrap()
+        self.get_json("/explanation")
     }
 }
 

@@ -5,14 +5,9 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::harness::{Submission, Viewer};
+use crate::harness::{Submission, Viewer, notes};
 
 const ARGUMENTS: &str = "flat --size 4x3 --samples 1";
-
-/// Returns the text of the first note.
-fn first_note(state: &Value) -> &str {
-    state["notes"][0]["text"].as_str().unwrap_or_default()
-}
 
 #[test]
 fn a_tree_that_is_too_large_is_refused_and_the_picture_goes_on() {
@@ -21,7 +16,7 @@ fn a_tree_that_is_too_large_is_refused_and_the_picture_goes_on() {
     let viewer = Viewer::start(&submission, ARGUMENTS);
     viewer.command(&json!({ "view": "bvh" }));
     let state = viewer.wait_for_picture();
-    let note = first_note(&state);
+    let note = notes(&state);
     assert!(
         note.contains("it has 1500000 nodes, but a binary tree over"),
         "{note}"
@@ -62,7 +57,7 @@ fn a_deep_cyclic_tree_of_equal_leaves_is_shown_in_time() {
     };
     let mut longest = Duration::ZERO;
     loop {
-        let state: Value = serde_json::from_slice(&viewer.get("/state?after=0").body).unwrap();
+        let state = viewer.get_json("/state?after=0");
         longest = longest.max(slowest("/state?after=0"));
         if state["is_picture_complete"] == true {
             assert!(state["tree_levels"].as_u64() > Some(10_000), "{state:#}");
@@ -83,12 +78,13 @@ fn a_deep_cyclic_tree_of_equal_leaves_is_shown_in_time() {
 #[test]
 fn a_long_panic_with_odd_characters_is_short_and_harmless_on_the_page() {
     let submission = Submission::reference();
-    let panic = "panic!(\"\\u{202e}\\u{1b}[2J\\u{7}<b>\\\\{}\", \"é\".repeat(50 << 20));";
+    let panic = "panic!(\"\\u{202e}\\u{1b}[2J\\u{7}\\r\\u{8}\\u{c}\\u{7f}\\u{85}\\t<b>\\\"\\\\{}\", \
+         \"é\".repeat(50 << 20));";
     submission.insert_into_camera(panic);
     let viewer = Viewer::start(&submission, ARGUMENTS);
     let state = viewer.wait_for_picture();
     let message = state["panics"][0]["message"].as_str().unwrap();
-    let start = "\\u{202e}\\u{1b}[2J\\u{7}<b>\\ééé";
+    let start = "\\u{202e}\\u{1b}[2J\\u{7}\\r\\u{8}\\u{c}\\u{7f}\\u{85}\t<b>\"\\ééé";
     assert!(message.starts_with(start), "{message}");
     assert!(message.len() < 700, "{}", message.len());
     assert_eq!(state["panics"][0]["count"], 12);
@@ -145,7 +141,7 @@ mod pipe {
             submission.write("bvh.rs", &correct);
             write_to_pipe(&submission, &code);
             let state = viewer.wait_for(|state| state["has_stopped"] == true);
-            assert!(first_note(&state).contains(why), "{code}: {state:#}");
+            assert!(notes(&state).contains(why), "{code}: {state:#}");
             submission.write("bvh.rs", "not Rust");
             viewer.wait_for(|state| state["build"] == "failed");
         }

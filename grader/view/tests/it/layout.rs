@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use test_support::Tab;
 
-use crate::browser::{HAS_TABLE, start, text, wait};
+use crate::browser::{HAS_TABLE, point_at, start, text, wait, wait_until_shown};
 use crate::harness::{SLIDES_HIT, Submission};
 
 /// The picture, the level slider and the table of steps, each as [left, top, right, bottom].
@@ -27,18 +27,17 @@ fn the_picture_and_the_slider_are_seen_together_and_messages_move_neither() {
     for (width, height) in [(1280, 800), (1920, 1080)] {
         tab.resize(width, height);
         let [picture, slider, steps] = boxes(&mut tab).try_into().unwrap();
-        let window = [0.0, 0.0, f64::from(width), f64::from(height)];
+        let window = [width, height].map(f64::from);
         for ([left, top, right, bottom], name) in [(picture, "picture"), (slider, "slider")] {
-            let is_inside = left >= window[0] && top >= window[1];
-            let is_inside = is_inside && right <= window[2] && bottom <= window[3];
+            let is_inside = left >= 0.0 && top >= 0.0 && right <= window[0] && bottom <= window[1];
             assert!(
                 is_inside,
                 "{name} at {width} × {height}: {left} {top} {right} {bottom}"
             );
         }
-        assert!(steps[1] < window[3], "the first steps are seen");
+        assert!(steps[1] < window[1], "the first steps are seen");
         let [left, top, right, bottom] = picture;
-        let share = (right - left) * (bottom - top) / (window[2] * window[3]);
+        let share = (right - left) * (bottom - top) / (window[0] * window[1]);
         assert!(share > 0.4, "{share} of the window");
         assert!(((right - left) / (bottom - top) - 4.0 / 3.0).abs() < 0.01);
     }
@@ -53,7 +52,7 @@ fn the_picture_and_the_slider_are_seen_together_and_messages_move_neither() {
     let before = boxes(&mut tab)[..2].to_vec();
     let correct = submission.read("camera.rs");
     submission.write("camera.rs", &format!("{correct}\nlet oops\n"));
-    wait(&mut tab, "!document.getElementById('errors').hidden");
+    wait_until_shown(&mut tab, "errors");
     assert_eq!(boxes(&mut tab)[..2], before, "a compile error");
     let covers = tab.eval(
         "(({ right, bottom }, stage) => right > stage.left && bottom > stage.top)\
@@ -71,9 +70,8 @@ fn the_picture_and_the_slider_are_seen_together_and_messages_move_neither() {
 
     submission.write("camera.rs", &correct);
     submission.insert_into_camera("assert!(pixel.x != 3, \"not here\");");
-    let is_shown = |id: &str| format!("!document.getElementById('{id}').hidden");
-    let settled = format!("{} && !({})", is_shown("messages"), is_shown("errors"));
-    wait(&mut tab, &settled);
+    wait(&mut tab, "document.getElementById('errors').hidden");
+    wait_until_shown(&mut tab, "messages");
     assert_eq!(boxes(&mut tab)[..2], before, "a panic");
 }
 
@@ -84,7 +82,7 @@ fn on_a_phone_the_picture_comes_first() {
         return;
     };
     tab.resize(420, 800);
-    wait(&mut tab, "!document.getElementById('tree-content').hidden");
+    wait_until_shown(&mut tab, "tree-content");
     let [picture, slider, _] = boxes(&mut tab).try_into().unwrap();
     let [left, top, right, bottom] = picture;
     assert!(right - left > 380.0 && top < 150.0, "{picture:?}");
@@ -110,19 +108,14 @@ fn marks_link_to_the_traversal_and_the_mouse_shows_values() {
     wait(&mut tab, is_shown);
     let link = tab.eval("document.querySelector('#explanation p.rule a').href");
     let code = submission.read("bvh.rs");
-    let line = code
-        .lines()
-        .position(|line| line.contains("pub fn hit(&self"));
+    let mut lines = code.lines();
+    let line = lines.position(|line| line.contains("pub fn hit(&self"));
     let path = submission.path().join("bvh.rs");
     let expected = format!("vscode://file{}:{}:1", path.display(), line.unwrap() + 1);
     assert_eq!(link, expected);
 
-    viewer.command(&json!({ "view": "depth" }));
-    viewer.wait_for(|state| state["view"] == "depth" && state["is_picture_complete"] == true);
-    // Point at the picture repeatedly, since the page may not have received it yet.
-    let point = "(() => { const box = document.getElementById('stage').getBoundingClientRect(); \
-         document.getElementById('stage').dispatchEvent(new PointerEvent('pointermove', \
-         { clientX: box.x + box.width / 2, clientY: box.y + box.height / 2 })); return true; })()";
+    viewer.show("depth");
+    let point = point_at("stage", 0.5, 0.5);
     let is_value =
         "/^\\(12, 11\\): (distance|no hit)/.test(document.getElementById('hovered').innerText)";
     wait(&mut tab, &format!("{point} && {is_value}"));

@@ -4,17 +4,11 @@
 use serde_json::{Value, json};
 use test_support::{Chromium, DESKTOP};
 
-use crate::browser::{open, text, wait};
+use crate::browser::{open, text, wait_for_text, wait_until_shown};
 use crate::expected_tests::marks;
 use crate::harness::{Submission, Viewer};
 
 const SIZE: [u32; 2] = [48, 36];
-
-/// Selects the view that shows mistakes and waits until the picture is complete.
-fn wait_for_mistakes(viewer: &Viewer) -> Value {
-    viewer.command(&json!({ "view": "mistakes" }));
-    viewer.wait_for(|state| state["view"] == "mistakes" && state["is_picture_complete"] == true)
-}
 
 #[test]
 fn a_save_that_visits_the_farther_child_first_changes_the_sums_and_the_picture() {
@@ -22,7 +16,7 @@ fn a_save_that_visits_the_farther_child_first_changes_the_sums_and_the_picture()
     let [width, height] = SIZE;
     let arguments = format!("checkered-teapot --size {width}x{height} --samples 1");
     let viewer = Viewer::start(&submission, &arguments);
-    let state = wait_for_mistakes(&viewer);
+    let state = viewer.show("mistakes");
     let correct = &state["tests"];
     assert_eq!(correct["marked"], 0.0, "{correct}");
     assert_eq!(correct["broken"], json!([0.0, 0.0, 0.0]));
@@ -69,38 +63,30 @@ fn a_save_that_visits_the_farther_child_first_changes_the_sums_and_the_picture()
 
     if let Some(chromium) = Chromium::start() {
         let mut tab = open(&viewer, &chromium, DESKTOP);
-        wait(&mut tab, "!document.getElementById('sums').hidden");
+        wait_until_shown(&mut tab, "sums");
         let sums = text(&mut tab, "#sums");
-        assert!(
-            sums.contains("% of rays visit the farther child first (before the last save: 0%)"),
-            "{sums}"
-        );
+        let farther = "% of rays visit the farther child first (before the last save: 0%)";
+        assert!(sums.contains(farther), "{sums}");
         viewer.command(&json!({ "view": "tests" }));
-        wait(
-            &mut tab,
-            "document.getElementById('legend').innerText.includes('1000 or more')",
-        );
+        wait_for_text(&mut tab, "legend", "1000 or more");
         let sums = text(&mut tab, "#sums");
-        assert!(
-            sums.contains("tests per ray on average (before the last save: "),
-            "{sums}"
-        );
+        let average = "tests per ray on average (before the last save: ";
+        assert!(sums.contains(average), "{sums}");
         assert_eq!(tab.errors(), [""; 0]);
     }
     // Saves made while another view is shown: the last version's tests are not known.
-    viewer.command(&json!({ "view": "shaded" }));
-    viewer.wait_for_picture();
+    viewer.show("shaded");
     for save in 1..=2 {
         let text = submission.read("bvh.rs");
         submission.write("bvh.rs", &format!("{text}// save {save}\n"));
         viewer.wait_for(|state| state["is_picture_complete"] == false);
         viewer.wait_for_picture();
     }
-    let state = wait_for_mistakes(&viewer);
+    let state = viewer.show("mistakes");
     assert_eq!(state["tests"]["before"], Value::Null);
     // A different camera produces different rays.
     viewer.command(&json!({ "side": "top" }));
-    let state = wait_for_mistakes(&viewer);
+    let state = viewer.show("mistakes");
     assert_eq!(state["tests"]["before"], Value::Null);
 }
 

@@ -1,25 +1,20 @@
 //! Part two's code: saving a file redraws the picture, and each kind of bad value has its message.
 
-use serde_json::{Value, json};
+use serde_json::json;
 
-use crate::harness::{Submission, Viewer};
-
-fn texts(notes: &Value) -> Vec<&str> {
-    let notes = notes.as_array().unwrap().iter();
-    notes.map(|note| note["text"].as_str().unwrap()).collect()
-}
+use crate::harness::{Submission, Viewer, notes, view_of};
 
 /// Starts the viewer on a submission for part two.
 fn start(submission: &Submission) -> Viewer {
     let arguments = "cornell-box --size 16x16 --samples 2 --assignment light";
-    Viewer::start_with(submission, arguments)
+    Viewer::run(view_of(submission).args(arguments.split(' '))).unwrap()
 }
 
 #[test]
 fn a_save_redraws_and_an_error_is_shown_with_its_line() {
     let submission = Submission::reference_light();
     let viewer = start(&submission);
-    assert_eq!(texts(&viewer.wait_for_picture()["notes"]), [""; 0]);
+    assert_eq!(notes(&viewer.wait_for_picture()), "");
     let correct = viewer.picture();
     let path = submission.read("path.rs");
     let black = "throughput *= 0.0 * scattered.attenuation;";
@@ -80,19 +75,14 @@ fn each_kind_of_bad_value_has_its_message_in_the_picture_and_at_its_bounce() {
     ] {
         let correct = submission.read(file);
         submission.replace(file, from, to);
-        let state = viewer.wait_for(|state| {
-            let notes = texts(&state["notes"]);
-            notes.iter().any(|note| note.contains(in_picture))
-        });
+        let state = viewer.wait_for(|state| notes(state).contains(in_picture));
         assert_eq!(state["has_stopped"], false);
         // A pixel of the back wall, which the light reaches.
         let explanation = viewer.explain([8, 8], Some(0));
         let problems = explanation["history"][0]["problems"].as_array().unwrap();
         assert!(problems.contains(&json!(at_sample)), "{to}: {problems:?}");
         submission.write(file, &correct);
-        let is_correct =
-            |state: &Value| state["build"] == "ready" && texts(&state["notes"]).is_empty();
-        viewer.wait_for(is_correct);
+        viewer.wait_for(|state| state["build"] == "ready" && notes(state).is_empty());
     }
 }
 

@@ -9,7 +9,7 @@ use reference::world::Student;
 use reference_light::integrator::Light;
 use serde_json::json;
 
-use crate::harness::{Submission, Viewer, view, workspace};
+use crate::harness::{Submission, Viewer, view_of, workspace};
 
 /// Renders a scene the way `cargo render` does.
 fn rendered(scene: &str, film: UVec2, samples: u32, seed: u64, stops: f32) -> Vec<[u8; 3]> {
@@ -45,17 +45,13 @@ fn a_picture_is_that_of_the_render_command_pixel_for_pixel() {
 fn until_part_two_is_written_the_picture_is_drawn_in_clay() {
     let submission = Submission::reference();
     let arguments = "flat --size 40x30 --samples 2";
-    let mut command = view();
-    command.arg("--submission").arg(submission.path());
     // The workspace's own part two has stubs.
-    let viewer = Viewer::run(command.args(arguments.split_whitespace())).unwrap();
+    let viewer = Viewer::run(view_of(&submission).args(arguments.split(' '))).unwrap();
     let state = viewer.wait_for_picture();
     let notes = state["notes"].to_string();
     assert!(notes.contains("Part two: not written yet"), "{notes}");
     let shaded = viewer.picture();
-    viewer.command(&json!({ "view": "clay" }));
-    let state =
-        viewer.wait_for(|state| state["view"] == "clay" && state["is_picture_complete"] == true);
+    let state = viewer.show("clay");
     assert!(!state["notes"].to_string().contains("Part two"), "{state}");
     assert!(viewer.picture() == shaded);
 }
@@ -83,8 +79,7 @@ fn every_view_has_a_picture_of_its_own() {
     for view in [
         "shaded", "clay", "normals", "depth", "uv", "bvh", "tests", "mistakes",
     ] {
-        viewer.command(&json!({ "view": view }));
-        viewer.wait_for(|state| state["view"] == view && state["is_picture_complete"] == true);
+        viewer.show(view);
         let picture = viewer.picture();
         assert!(!pictures.contains(&picture), "{view}");
         pictures.push(picture);
@@ -96,15 +91,14 @@ fn the_tree_is_that_of_the_submission() {
     let viewer = Viewer::start(&Submission::reference(), "flat --size 8x8");
     assert_eq!(viewer.get("/tree").status, 404);
     let state = viewer.wait_for(|state| state["has_tree"] == true);
-    let tree: serde_json::Value = serde_json::from_slice(&viewer.get("/tree").body).unwrap();
+    let tree = viewer.get_json("/tree");
     let scene = Scene::load(&workspace().join("scenes/flat.json")).unwrap();
     use framework::submission::Submission as _;
     let expected = Student.build(&scene.shapes, scene.max_leaf_size).tree();
     assert_eq!(tree["nodes"], expected.nodes.len());
     assert_eq!(tree["primitives"], expected.order.len());
     assert_eq!(tree["levels"], state["tree_levels"]);
-    let boxes = viewer.get("/boxes?level=0&below=true").body;
-    let boxes: serde_json::Value = serde_json::from_slice(&boxes).unwrap();
+    let boxes = viewer.get_json("/boxes?level=0&below=true");
     assert_eq!(boxes["count"], expected.nodes.len());
     let root = &boxes["boxes"][0];
     assert_eq!((&root["level"], &root["area"]), (&json!(0), &json!(1.0)));

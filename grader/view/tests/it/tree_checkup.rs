@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use test_support::{Chromium, DESKTOP};
 use view::sweep_costs::{SWEEP_COSTS, hash};
 
-use crate::browser::{open, text, wait};
+use crate::browser::{click, open, text, wait, wait_until_shown};
 use crate::harness::{Submission, Viewer, workspace};
 
 const ARGUMENTS: &str = "checkered-teapot --size 24x18 --samples 1";
@@ -22,7 +22,7 @@ fn start(change: &str) -> (Viewer, Value) {
     let viewer = Viewer::start(&submission, ARGUMENTS);
     // Nothing has to be clicked, because every tree is checked.
     viewer.wait_for(|state| state["has_tree"] == true);
-    let tree: Value = serde_json::from_slice(&viewer.get("/tree").body).unwrap();
+    let tree = viewer.get_json("/tree");
     (viewer, tree)
 }
 
@@ -137,7 +137,7 @@ fn a_primitive_in_two_leaves_is_listed_with_them_and_drawn() {
         return;
     };
     let mut tab = open(&viewer, &chromium, DESKTOP);
-    wait(&mut tab, "!document.getElementById('defects').hidden");
+    wait_until_shown(&mut tab, "defects");
     let listed = tab.eval("document.getElementById('defects').textContent");
     assert!(listed.as_str().unwrap().contains(defect), "{listed}");
     let cost = text(&mut tab, "#tree-facts");
@@ -148,9 +148,9 @@ fn a_primitive_in_two_leaves_is_listed_with_them_and_drawn() {
         red += data[i] > 200 && data[i + 1] < 80 && data[i + 2] < 80 && data[i + 3] > 100; \
         return red; })()";
     wait(&mut tab, &format!("{count_red} > 10"));
-    tab.eval("document.querySelector('#defects input').click(); 0");
+    click(&mut tab, "#defects input");
     assert_eq!(tab.eval(count_red), 0);
-    tab.eval("document.querySelector('#defects button').click(); 0");
+    click(&mut tab, "#defects button");
     wait(&mut tab, &format!("{count_red} > 10"));
     assert_eq!(tab.errors(), [""; 0]);
 }

@@ -39,6 +39,8 @@ const RULE_COLOURS: [Vec3; RULES] = [
 
 /// The colours of a picture's pixels, row by row from the top.
 type Colours = Vec<[u8; 3]>;
+/// A function that composes a picture and returns its size and colours.
+type Composition = Box<dyn FnOnce() -> (UVec2, Colours)>;
 
 /// Composes pictures until the process ends.
 pub fn run(shared: &SharedSession) {
@@ -73,42 +75,31 @@ pub fn run(shared: &SharedSession) {
 
 /// Returns a function that composes the picture and returns its size and colours. The function owns
 /// a copy of the values, so drawing can continue while the function runs.
-fn composition(session: &Session) -> Box<dyn FnOnce() -> (UVec2, Colours)> {
+fn composition(session: &Session) -> Composition {
     let data = |colour| Tone::Data.to_bytes(colour);
+    let of_radiance = |layer: &Layer<Vec3>| -> Composition {
+        let (layer, stops) = (layer.clone(), session.shown.exposure);
+        Box::new(move || {
+            let tone = ToneTable::new(stops);
+            paint(&layer, |_, sum, count| tone.to_bytes(sum / count as f32))
+        })
+    };
+    let of_tests = |colour: fn(MarkedTests) -> Vec3| -> Composition {
+        let tests = session.picture.tests.clone();
+        Box::new(move || paint(&tests, |_, tests, _| data(colour(tests))))
+    };
     let mode = match session.shown.view {
-        View::Shaded | View::Clay => {
-            let is_clay = session.shown.view == View::Clay;
-            let layer = if is_clay {
-                &session.clay
-            } else {
-                &session.light
-            };
-            let (light, stops) = (layer.clone(), session.shown.exposure);
-            return Box::new(move || {
-                let tone = ToneTable::new(stops);
-                paint(&light, |_, sum, count| tone.to_bytes(sum / count as f32))
-            });
-        }
-        View::Tests => {
-            let tests = session.tests.clone();
-            return Box::new(move || {
-                paint(&tests, |_, tests, _| {
-                    let thousandths = (1000.0 * share_of_scale(tests)) as u32;
-                    data(view::heat_colour(thousandths, 1000))
-                })
-            });
-        }
-        View::Mistakes => {
-            let tests = session.tests.clone();
-            return Box::new(move || paint(&tests, |_, tests, _| data(mistakes(tests))));
-        }
+        View::Shaded => return of_radiance(&session.picture.light),
+        View::Clay => return of_radiance(&session.picture.clay),
+        View::Tests => return of_tests(test_count),
+        View::Mistakes => return of_tests(mistakes),
         View::Normals => ViewMode::Normals,
         View::Depth => ViewMode::Depth,
         View::Uv => ViewMode::Uv,
         View::Bvh => ViewMode::Bvh,
     };
     let (tree, extent) = (session.tree.clone(), session.subject.extent);
-    let hits = session.hits.clone();
+    let hits = session.picture.hits.clone();
     Box::new(move || {
         let film = hits.tiles.film;
         let pixels = (0..film.y).flat_map(|y| (0..film.x).map(move |x| UVec2::new(x, y)));
@@ -147,6 +138,11 @@ fn paint<T: Copy + Default>(
 fn share_of_scale(tests: MarkedTests) -> f32 {
     let total = tests.counts.total().max(1) as f32;
     (total.log2() / MOST_TESTS.log2()).min(1.0)
+}
+
+/// Returns the colour for the number of a ray's tests.
+fn test_count(tests: MarkedTests) -> Vec3 {
+    view::heat_colour((1000.0 * share_of_scale(tests)) as u32, 1000)
 }
 
 /// Returns the colour for a ray's mistakes. It is the colour of the rule that the ray breaks most

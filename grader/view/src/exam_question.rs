@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use framework::render::renderer::PathSettings;
 use framework::scene::{Camera, Environment, Material, Scene};
 use glam::{UVec2, Vec3};
 use grader::exam_source::ExamSource;
@@ -13,7 +14,7 @@ use judging::exam::{ExamQuestion, Key};
 use judging::judge::tree::bounds::Bounds;
 use judging::scene::{self, QuestionScene};
 use protocol::{PinholeCamera, Question, Ray, Shape, Tree};
-use view_probe::scene_data::{PathSettings, TreeSource};
+use view_probe::scene_data::TreeSource;
 
 use crate::error::ViewError;
 use crate::model::viewpoint::Viewpoint;
@@ -62,7 +63,7 @@ fn subject(
 ) -> Result<Subject, ViewError> {
     if let Question::Radiance { scene, .. } = &question.question {
         let scene = Scene::from_text(scene).map_err(ViewError::usage)?;
-        return Ok(Subject::of_scene(name, &scene, settings));
+        return Ok(Subject::of_scene(name, scene, settings));
     }
     let Some(QuestionScene {
         shapes,
@@ -124,7 +125,7 @@ fn subject(
     } else {
         None
     };
-    let mut subject = Subject::of_scene(name, &scene, settings);
+    let mut subject = Subject::of_scene(name, scene, settings);
     Arc::make_mut(&mut subject.data).tree = tree;
     Ok(Subject {
         bounds,

@@ -32,12 +32,9 @@ pub enum Stop {
     /// The result is no longer wanted, or the reason has already been reported.
     #[error("the result is no longer needed")]
     Unwanted,
-    /// The program failed.
-    #[error("{0}")]
-    Fault(Fault),
-    /// The program failed in this method.
+    /// The program failed, in this method if it is known.
     #[error("{1}")]
-    FaultIn(SubmissionPart, Fault),
+    Fault(Option<SubmissionPart>, Fault),
     /// The program could not be started, or its response is unusable.
     #[error("{0}")]
     Invalid(String),
@@ -46,7 +43,7 @@ pub enum Stop {
 impl Probe {
     /// Starts a program with this memory limit, in bytes.
     pub fn start(program: &Program, memory: u64) -> std::io::Result<Self> {
-        let (path, sandbox) = program.executable();
+        let launcher = program.launcher();
         let limits = Limits {
             data: None,
             memory,
@@ -54,7 +51,7 @@ impl Probe {
             file: 0,
         };
         Ok(Probe {
-            running: RunningProgram::start(&path, &sandbox, limits)?,
+            running: RunningProgram::start(&launcher.program, &launcher.sandbox, limits)?,
             nonce: 0,
             _program: program.clone(),
         })
@@ -105,14 +102,21 @@ impl Probe {
     }
 }
 
+impl Stop {
+    /// If the program failed, also records which method was being called.
+    pub fn in_part(self, part: SubmissionPart) -> Self {
+        match self {
+            Stop::Fault(_, fault) => Stop::Fault(Some(part), fault),
+            Stop::Unwanted | Stop::Invalid(_) => self,
+        }
+    }
+}
+
 impl From<Fault> for Stop {
     fn from(fault: Fault) -> Self {
         // Unlike the grader, the viewer doesn't rerun a program to find out why it was killed.
         let is_killed = fault == Fault::Crashed(Crash::Killed);
-        Stop::Fault(if is_killed {
-            Fault::Crashed(Crash::Signal(9))
-        } else {
-            fault
-        })
+        let shown = Fault::Crashed(Crash::Signal(9));
+        Stop::Fault(None, if is_killed { shown } else { fault })
     }
 }

@@ -12,7 +12,6 @@ use std::thread;
 use grader::build::{Build, Builder, LinkedProgram, NotCompiled};
 use grader::handed_out::{GivenFile, HandedOut, LIGHT, RAYS};
 use grader::probe::Launcher;
-use grader::sandbox::Sandbox;
 use grader::select_isolation::{IsolationRequest, with_requested_level};
 use grader::submission::{Submission, SubmissionError};
 use grader::verdict::messages::file_message;
@@ -240,24 +239,19 @@ impl Programs {
 }
 
 impl Program {
-    /// Returns the path of the program and the sandbox to start it in.
-    pub fn executable(&self) -> (PathBuf, Sandbox) {
-        let Program(linked) = self;
-        let Launcher {
-            program, sandbox, ..
-        } = &linked.launcher;
-        (program.clone(), sandbox.clone())
+    /// Returns how to start the program.
+    pub fn launcher(&self) -> &Launcher {
+        &self.0.launcher
     }
 }
 
 fn file_errors<'a>(files: impl Iterator<Item = (&'static str, &'a NotCompiled)>) -> Vec<FileError> {
     let error = |(file, why): (&'static str, &NotCompiled)| FileError {
         file: file.to_owned(),
-        line: match why {
-            NotCompiled::Error { line, .. } => *line,
-            NotCompiled::Unreadable(_)
-            | NotCompiled::MissingDeclaration(_)
-            | NotCompiled::Compiler(_) => None,
+        line: if let NotCompiled::Error { line, .. } = why {
+            *line
+        } else {
+            None
         },
         text: file_message(file, why),
     };

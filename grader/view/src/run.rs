@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Instant;
 use std::{fs, io, thread};
 
+use framework::render::renderer::PathSettings;
 use grader::files::{AtPath, PathError};
 use grader::handed_out::{HandedOut, LIGHT, RAYS};
 use grader::printing::print_line;
@@ -13,7 +14,6 @@ use grader::system::available_memory;
 use grader::workspace::Workspace;
 use judging::sanitize::sanitize_line;
 use tempfile::NamedTempFile;
-use view_probe::scene_data::PathSettings;
 
 use crate::access::Access;
 use crate::browser;
@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         Some(question) => subject_of_question(handed_out, question, settings)?,
         None => {
             let name = scenes.name_of(&arguments.scene)?;
-            Subject::of_scene(&name, &scenes.load(&name)?, settings)
+            Subject::of_scene(&name, scenes.load(&name)?, settings)
         }
     };
     let listener = listen(arguments.port)?;
@@ -92,9 +92,12 @@ pub fn run(arguments: &Arguments) -> Result<(), ViewError> {
         ));
     }
     print_line("The page redraws after every save. Press Ctrl-C to stop.");
-    let redirection = (!arguments.no_open)
-        .then(|| open_browser(&workspace, &url, port).map_err(ViewError::machine))
-        .transpose()?;
+    let redirection = if arguments.no_open {
+        None
+    } else {
+        let opened = open_browser(&workspace, &url, port);
+        Some(opened.map_err(ViewError::machine)?)
+    };
     let routes = Routes {
         access,
         session,
@@ -168,21 +171,17 @@ fn programs(
     } else {
         IsolationRequest::OwnWork
     };
-    let source = |part: &'static HandedOut, is_reference: bool| match &arguments.submission {
-        Some(path) if part == handed_out => Ok(Source {
-            path: workspace.resolve(path),
-            is_package: false,
-        }),
-        Some(_) | None if is_reference => {
-            let path = workspace.reference(part);
-            let path = path.ok_or_else(|| ViewError::usage(NO_REFERENCE))?;
-            let is_package = false;
-            Ok(Source { path, is_package })
-        }
-        Some(_) | None => Ok(Source {
-            path: workspace.root().join(part.student),
-            is_package: true,
-        }),
+    let source = |part: &'static HandedOut, is_reference: bool| {
+        let submission = arguments.submission.as_ref();
+        let (path, is_package) = match submission.filter(|_| part == handed_out) {
+            Some(path) => (workspace.resolve(path), false),
+            None if is_reference => {
+                let path = workspace.reference(part);
+                (path.ok_or_else(|| ViewError::usage(NO_REFERENCE))?, false)
+            }
+            None => (workspace.root().join(part.student), true),
+        };
+        Ok(Source { path, is_package })
     };
     // A submission for part two needs a part one that works.
     let is_of_light = arguments.submission.is_some() && handed_out == &LIGHT;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use framework::render::renderer::PathSettings;
 use framework::scene::{Camera, Scene};
 use glam::{DVec3, Vec3};
 use grader::nearest_name::suggestion;
@@ -12,7 +13,7 @@ use judging::judge::tree::bounds::Bounds;
 use protocol::{Question, Ray, Shape};
 use serde::{Serialize, Serializer};
 use view_probe::messages::TreeSize;
-use view_probe::scene_data::{Aim, PathSettings, SceneData, TreeSource};
+use view_probe::scene_data::{Aim, SceneData, TreeSource};
 
 use crate::error::ViewError;
 use crate::model::tree::CHECKS;
@@ -27,16 +28,12 @@ const SCENES: &str = "scenes";
 pub struct Subject {
     /// The name on the page.
     pub name: String,
-    /// A description.
-    pub about: String,
     /// The scene.
     pub data: Arc<SceneData>,
     /// The box around all shapes.
     pub bounds: Bounds,
     /// The largest coordinate, as in [`Scene::extent`].
     pub extent: f32,
-    /// The scene's own camera.
-    pub camera: Camera,
     /// The viewpoint of the scene's own camera.
     pub viewpoint: Viewpoint,
     /// The question from the exam, if the subject is one.
@@ -65,30 +62,34 @@ fn is_some<S: Serializer>(ray: &Option<Ray>, out: S) -> Result<S::Ok, S::Error> 
 
 impl Subject {
     /// Creates a subject from a scene.
-    pub fn of_scene(name: &str, scene: &Scene, settings: PathSettings) -> Self {
+    pub fn of_scene(name: &str, scene: Scene, settings: PathSettings) -> Self {
         let bounds = bounds(scene.shapes.iter().map(Bounds::of_shape));
-        let viewpoint = Viewpoint::of_scene(&scene.camera, &bounds);
-        let aim = Aim {
-            camera: scene.camera,
-            settings,
-        };
+        let camera = scene.camera;
         Subject {
             name: name.to_owned(),
-            about: scene.about.clone(),
-            data: Arc::new(SceneData::new(scene, aim)),
             bounds,
             extent: scene.extent(),
-            camera: scene.camera,
-            viewpoint,
+            viewpoint: Viewpoint::of_scene(&camera, &bounds),
             question: None,
             sweep_cost: sweep_costs::find(&scene.shapes, scene.max_leaf_size),
+            data: Arc::new(SceneData {
+                scene,
+                tree: TreeSource::Build,
+                aim: Aim { camera, settings },
+                is_recorded: false,
+            }),
         }
+    }
+
+    /// Returns the scene's own camera.
+    pub fn camera(&self) -> &Camera {
+        &self.data.scene.camera
     }
 
     /// Returns the criteria for a tree over these shapes. A tree from the exam isn't checked,
     /// because its decoys would count as defects.
     pub fn tree_criteria<'a>(&self, shapes: &'a [Shape]) -> TreeCriteria<'a> {
-        let is_complete = shapes.len() == self.data.shapes.len();
+        let is_complete = shapes.len() == self.data.scene.shapes.len();
         TreeCriteria {
             checks: match self.data.tree {
                 TreeSource::Build => &CHECKS,
@@ -96,14 +97,14 @@ impl Subject {
             },
             sweep_cost: self.sweep_cost.filter(|_| is_complete),
             shapes,
-            max_leaf_size: self.data.max_leaf_size,
+            max_leaf_size: u32::try_from(self.data.scene.max_leaf_size).unwrap_or(u32::MAX),
         }
     }
 
     /// Returns the reason for not reading a tree of this size, or `None` if the tree isn't much
     /// larger than a correct tree can be.
     pub fn oversize(&self, size: TreeSize) -> Option<String> {
-        let shapes = self.data.shapes.len();
+        let shapes = self.data.scene.shapes.len();
         let own = match &self.data.tree {
             TreeSource::Prebuilt(tree) => tree.nodes.len(),
             TreeSource::Build | TreeSource::List => 0,

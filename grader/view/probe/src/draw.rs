@@ -8,13 +8,13 @@ use framework::harness::lighting::written_path_tracer;
 use framework::render::clay::Clay;
 use framework::render::path_log;
 use framework::render::path_steps::{FirstBadValues, Step, bounces};
-use framework::render::renderer::{InvalidSample, Lighting, PathSettings, RenderStats, Renderer};
-use glam::{UVec2, Vec2};
+use framework::render::renderer::{Lighting, RenderStats, Renderer};
+use glam::{UVec2, Vec2, Vec3};
 use protocol::{Panic, Trace};
 
 use crate::messages::{
     Draw, DrawnPixels, Follow, MAX_PANICS, MAX_STEP_BYTES, MarkedTests, PathSample, Quantity,
-    RecordedRays, SampleOutcome, SampleRange, Target, Values,
+    RecordedRays, Target, Values,
 };
 use crate::open_scene::OpenScene;
 use crate::record;
@@ -51,13 +51,20 @@ impl<'a> Renderers<'a> {
             let OpenScene {
                 scene, world, aim, ..
             } = self.stage;
-            let (bounces, seed) = (aim.settings.bounces, aim.settings.seed);
-            let settings = PathSettings { bounces, seed };
-            written_path_tracer(self.lighting, scene, world, settings)
+            written_path_tracer(self.lighting, scene, world, aim.settings)
         });
         match path_tracer {
             Ok(path_tracer) => &**path_tracer,
             Err(_) => &self.clay,
+        }
+    }
+
+    /// Returns the renderer of a quantity, or `None` if the quantity comes from a single ray.
+    fn of(&self, quantity: Quantity) -> Option<&dyn Renderer> {
+        match quantity {
+            Quantity::Light => Some(self.light()),
+            Quantity::Clay => Some(&self.clay),
+            Quantity::Hit | Quantity::Tests => None,
         }
     }
 
@@ -74,26 +81,15 @@ pub(crate) fn draw(stage: &OpenScene, renderers: &Renderers, request: &Draw) -> 
         request,
         panics: Vec::new(),
     };
-    let values = match request.quantity {
-        Quantity::Hit => Values::Hits(pixels.each(None, |_, pixel| {
+    let values = match renderers.of(request.quantity) {
+        Some(renderer) => Values::Light(pixels.each(Vec3::ZERO, |pass, pixel| {
+            renderer.sample_radiance(pixel, request.sample + pass, &mut stats)
+        })),
+        None if request.quantity == Quantity::Hit => Values::Hits(pixels.each(None, |_, pixel| {
             stats.rays += 1;
             stage.first_hit(pixel)
         })),
-        Quantity::Light { sample } => {
-            Values::Light(pixels.each(Default::default(), |pass, pixel| {
-                renderers
-                    .light()
-                    .sample_radiance(pixel, sample + pass, &mut stats)
-            }))
-        }
-        Quantity::Clay { sample } => {
-            Values::Light(pixels.each(Default::default(), |pass, pixel| {
-                renderers
-                    .clay
-                    .sample_radiance(pixel, sample + pass, &mut stats)
-            }))
-        }
-        Quantity::Tests => Values::Tests(pixels.each(MarkedTests::default(), |_, pixel| {
+        None => Values::Tests(pixels.each(MarkedTests::default(), |_, pixel| {
             stats.rays += 1;
             stage.marked_tests(pixel)
         })),
@@ -103,10 +99,7 @@ pub(crate) fn draw(stage: &OpenScene, renderers: &Renderers, request: &Draw) -> 
     DrawnPixels {
         values,
         panics: pixels.panics,
-        rays: stats.rays,
-        invalid_paths: stats.invalid_paths,
-        invalid_radiances: stats.invalid_radiances,
-        bad_values: stats.bad_values.paths().collect(),
+        stats,
         no_light: renderers.no_light(),
     }
 }
@@ -225,23 +218,21 @@ impl OpenScene<'_> {
 pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow) -> RecordedRays {
     let mut stats = RenderStats::default();
     record::start(request.max_tests, request.max_rays);
-    if let Target::Path { .. } = request.target {
-        // Creating the path tracer traces a path. Only the rays of the requested path are recorded.
-        renderers.light();
-        record::start(request.max_tests, request.max_rays);
-    }
-    let trace = || match request.target {
-        Target::Centre(pixel) => {
+    let renderer = match request.target {
+        Target::Pixel { quantity, .. } => renderers.of(quantity),
+        Target::Ray(_) => None,
+    };
+    // Creating the path tracer traces a path. Only the rays of the requested path are recorded.
+    record::start(request.max_tests, request.max_rays);
+    let trace = || match (request.target, renderer) {
+        (Target::Pixel { pixel, sample, .. }, Some(renderer)) => {
+            Some(renderer.sample_radiance(pixel, sample, &mut stats))
+        }
+        (Target::Pixel { pixel, .. }, None) => {
             stage.first_hit(pixel);
             None
         }
-        Target::Path { pixel, sample } => {
-            Some(renderers.light().sample_radiance(pixel, sample, &mut stats))
-        }
-        Target::Clay { pixel, sample } => {
-            Some(renderers.clay.sample_radiance(pixel, sample, &mut stats))
-        }
-        Target::Ray(ray) => {
+        (Target::Ray(ray), _) => {
             stage.world.bvh.closest_hit(&ray);
             None
         }
@@ -267,12 +258,11 @@ pub(crate) fn follow(stage: &OpenScene, renderers: &Renderers, request: &Follow)
 }
 
 /// Computes the first samples of a pixel, one by one. Returns none if part two isn't written yet.
-pub(crate) fn samples(renderers: &Renderers, range: SampleRange) -> Vec<PathSample> {
+pub(crate) fn samples(renderers: &Renderers, pixel: UVec2, count: u32) -> Vec<PathSample> {
     let renderer = renderers.light();
     if renderers.no_light().is_some() {
         return Vec::new();
     }
-    let pixel = range.pixel;
     let sample = |sample| {
         let mut stats = RenderStats::default();
         let trace = || renderer.trace_sample(pixel, sample, &mut stats);
@@ -280,14 +270,9 @@ pub(crate) fn samples(renderers: &Renderers, range: SampleRange) -> Vec<PathSamp
         let mut bad_values = FirstBadValues::default();
         bad_values.add_path(pixel, &steps);
         PathSample {
-            outcome: match outcome {
-                Ok(Ok(radiance)) => SampleOutcome::Radiance(radiance),
-                Ok(Err(InvalidSample::Hit)) => SampleOutcome::InvalidHit,
-                Ok(Err(InvalidSample::Radiance)) => SampleOutcome::InvalidRadiance,
-                Err(panic) => SampleOutcome::Panicked(panic),
-            },
-            bad_values: bad_values.paths().collect(),
+            outcome,
+            bad_values,
         }
     };
-    (0..range.count).map(sample).collect()
+    (0..count).map(sample).collect()
 }

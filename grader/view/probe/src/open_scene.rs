@@ -12,7 +12,7 @@ use protocol::{
 };
 
 use crate::indexed_tree::IndexedTree;
-use crate::messages::{OpenOutcome, SubmissionPart, TreeSize, Trial};
+use crate::messages::{OpenOutcome, SubmissionPart, TreeSize};
 use crate::record::RecordingTree;
 use crate::scene_data::{Aim, SceneData, TreeSource, written_shapes};
 
@@ -29,10 +29,7 @@ pub(crate) struct OpenScene<'a> {
 
 /// A scene whose tree hasn't been built yet.
 pub(crate) struct Opening {
-    scene: Scene,
-    aim: Aim,
-    is_recorded: bool,
-    source: TreeSource,
+    data: SceneData,
     /// The parts that haven't been written yet.
     missing: Vec<(SubmissionPart, Panic)>,
 }
@@ -40,30 +37,26 @@ pub(crate) struct Opening {
 impl Opening {
     pub(crate) fn new(data: SceneData) -> Self {
         Opening {
-            aim: data.aim,
-            is_recorded: data.is_recorded,
-            source: data.tree.clone(),
-            scene: data.into_scene(),
+            data,
             missing: Vec::new(),
         }
     }
 
     /// Calls a part once to find out whether it has been written yet.
-    pub(crate) fn try_part(&mut self, submission: &dyn Submission, trial: &Trial) {
-        let Trial { part, ray } = trial;
-        let hit = |is_sphere: bool| {
-            let is_such = |shape: &&Shape| matches!(shape, Shape::Sphere { .. }) == is_sphere;
-            if let Some(shape) = self.scene.shapes.iter().find(is_such) {
-                submission.primitive_list(&[*shape]).closest_hit(ray);
-            }
-        };
+    pub(crate) fn try_part(
+        &mut self,
+        submission: &dyn Submission,
+        part: SubmissionPart,
+        ray: &Ray,
+    ) {
+        let shapes = &self.data.scene.shapes;
         let outcome = attempt(|| match part {
             SubmissionPart::Camera => {
-                let camera = submission.camera(&self.scene.camera.pinhole);
+                let camera = submission.camera(&self.data.aim.camera.pinhole);
                 camera.ray(UVec2::ZERO, Vec2::splat(0.5));
             }
-            SubmissionPart::Triangle => hit(false),
-            SubmissionPart::Sphere => hit(true),
+            SubmissionPart::Triangle => hit_shapes(submission, shapes, false, 1, ray),
+            SubmissionPart::Sphere => hit_shapes(submission, shapes, true, 1, ray),
             SubmissionPart::BBox => {
                 submission.intersect_box(Vec3::NEG_ONE, Vec3::ONE, ray, Interval::AHEAD);
             }
@@ -72,34 +65,33 @@ impl Opening {
         if let Err(panic) = outcome
             && panic.is_unimplemented()
         {
-            self.missing.push((*part, panic));
+            self.missing.push((part, panic));
         }
     }
 
     /// Builds the tree. Shapes whose `hit` hasn't been written yet are left out, so that the others
     /// can be seen. Returns no open scene if the tree cannot be built.
     pub(crate) fn build(self, submission: &dyn Submission) -> (OpenOutcome, Option<OpenScene<'_>>) {
-        let Opening {
-            scene,
+        let Opening { data, missing } = self;
+        let SceneData {
+            mut scene,
+            tree: source,
             aim,
             is_recorded,
-            source,
-            missing,
-        } = self;
+        } = data;
+        scene.camera = aim.camera;
         let shapes = written_shapes(&scene.shapes, &missing);
-        let build = || match &source {
-            TreeSource::Build => submission.build(&shapes, scene.max_leaf_size),
-            // A tree from the exam refers to all shapes.
-            TreeSource::Prebuilt(tree) => {
-                submission.prebuilt_tree(&scene.shapes, &tree.nodes, tree.root as usize)
-            }
-            TreeSource::List => Box::new(List(submission.primitive_list(&shapes))),
-        };
-        let has_camera = missing
-            .iter()
-            .all(|(part, _)| *part != SubmissionPart::Camera);
+        let mut missing_parts = missing.iter().map(|(part, _)| *part);
+        let has_camera = missing_parts.all(|part| part != SubmissionPart::Camera);
         let opened = attempt(|| {
-            let tree = build();
+            let tree = match &source {
+                TreeSource::Build => submission.build(&shapes, scene.max_leaf_size),
+                // A tree from the exam refers to all shapes.
+                TreeSource::Prebuilt(tree) => {
+                    submission.prebuilt_tree(&scene.shapes, &tree.nodes, tree.root as usize)
+                }
+                TreeSource::List => Box::new(List(submission.primitive_list(&shapes))),
+            };
             let camera = camera(submission, &aim, has_camera);
             let size = TreeSize {
                 nodes: TreeNode::saturating_index(tree.node_count()),
@@ -138,15 +130,12 @@ const MAX_BOXES: usize = 1 << 20;
 impl OpenScene<'_> {
     /// Calls a method with a ray: `hit` on all shapes of one kind, `hit` on all boxes in the tree,
     /// or the traversal. The results don't matter, only whether the calls return.
-    pub(crate) fn try_part(&self, trial: &Trial) {
-        let Trial { part, ray } = trial;
+    pub(crate) fn try_part(&self, part: SubmissionPart, ray: &Ray) {
         let hit = |is_sphere: bool| {
-            let is_such = |shape: &&Shape| matches!(shape, Shape::Sphere { .. }) == is_sphere;
             for shapes in self.scene.shapes.chunks(SHAPES_AT_ONCE) {
-                let shapes: Vec<Shape> = shapes.iter().filter(is_such).copied().collect();
-                let list = self.submission.primitive_list(&shapes);
                 // If this panics, the pixels where the panic occurs report it.
-                let _ = attempt(|| list.closest_hit(ray));
+                let _ =
+                    attempt(|| hit_shapes(self.submission, shapes, is_sphere, SHAPES_AT_ONCE, ray));
             }
         };
         match part {
@@ -186,6 +175,19 @@ impl OpenScene<'_> {
         let test = || self.submission.intersect_box(min, max, ray, ray.range);
         attempt(test).ok().flatten()
     }
+}
+
+/// Calls `hit` on the first `most` shapes of one kind.
+fn hit_shapes(
+    submission: &dyn Submission,
+    shapes: &[Shape],
+    is_sphere: bool,
+    most: usize,
+    ray: &Ray,
+) {
+    let is_such = |shape: &&Shape| matches!(shape, Shape::Sphere { .. }) == is_sphere;
+    let shapes: Vec<Shape> = shapes.iter().filter(is_such).take(most).copied().collect();
+    submission.primitive_list(&shapes).closest_hit(ray);
 }
 
 fn camera(submission: &dyn Submission, aim: &Aim, has_camera: bool) -> Box<dyn CameraRays> {

@@ -59,9 +59,9 @@ fn serve(
                 }
                 None => Response::NotOpen,
             },
-            (Request::Try(trial), None) => match &mut opening {
+            (Request::Try { part, ray }, None) => match &mut opening {
                 Some(opening) => {
-                    opening.try_part(submission, &trial);
+                    opening.try_part(submission, part, &ray);
                     Response::Tried
                 }
                 None => Response::NotOpen,
@@ -95,17 +95,20 @@ fn serve_aimed(
     loop {
         let response = match &request {
             Request::Scene(_) | Request::Build | Request::Aim(_) => return Ok(request),
-            Request::Try(trial) => {
-                stage.try_part(trial);
+            Request::Try { part, ray } => {
+                stage.try_part(*part, ray);
                 Response::Tried
             }
             Request::Draw(request) => Response::Drawn(draw(stage, &renderers, request)),
             Request::Tree(_) => Response::Tree(attempt(|| TreeData(stage.world.bvh.tree())).into()),
             Request::Follow(request) => Response::Followed(follow(stage, &renderers, request)),
-            Request::Samples(range) => Response::Samples(samples(&renderers, *range)),
-            Request::Boxes(queries) => {
-                let boxes = queries.boxes.iter();
-                let spans = boxes.map(|corners| stage.intersect_box(*corners, &queries.ray));
+            Request::Samples { pixel, count } => {
+                Response::Samples(samples(&renderers, *pixel, *count))
+            }
+            Request::Boxes { ray, boxes } => {
+                let spans = boxes
+                    .iter()
+                    .map(|corners| stage.intersect_box(*corners, ray));
                 Response::Spans(spans.collect())
             }
         };

@@ -69,12 +69,6 @@ impl Response {
         }
     }
 
-    /// Returns the body.
-    #[cfg(test)]
-    pub fn body(&self) -> &[u8] {
-        &self.body
-    }
-
     /// Writes the response.
     pub fn write(&self, to: &mut impl Write) -> io::Result<()> {
         let mut head = format!("HTTP/1.1 {}\r\n", self.status.0);

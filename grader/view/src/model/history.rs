@@ -1,10 +1,11 @@
 //! The history of a pixel: its samples one by one, with the running mean and variance.
 
 use framework::render::film::luminance;
+use framework::render::renderer::InvalidSample;
 use glam::Vec3;
 use protocol::Panic;
 use serde::Serialize;
-use view_probe::messages::{PathSample, SampleOutcome};
+use view_probe::messages::PathSample;
 
 /// A sample of a pixel, and the statistics of all samples up to this one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -31,21 +32,21 @@ pub fn history(samples: &[PathSample]) -> Vec<SampleRow> {
     let mut of_channels = [RunningMoments::default(); 3];
     let row = |sample: &PathSample| {
         let (radiance, problem) = match &sample.outcome {
-            SampleOutcome::Radiance(radiance) => (*radiance, None),
-            SampleOutcome::InvalidHit => (
+            Ok(Ok(radiance)) => (*radiance, None),
+            Ok(Err(InvalidSample::Hit)) => (
                 Vec3::ZERO,
                 Some("black because a hit is unusable".to_owned()),
             ),
-            SampleOutcome::InvalidRadiance => {
+            Ok(Err(InvalidSample::Radiance)) => {
                 let text = "black because `radiance` returned NaN or infinity";
                 (Vec3::ZERO, Some(text.to_owned()))
             }
-            SampleOutcome::Panicked(Panic { message, location }) => (
+            Err(Panic { message, location }) => (
                 Vec3::ZERO,
                 Some(format!("panicked: {message} ({location})")),
             ),
         };
-        let bad_values = sample.bad_values.iter();
+        let bad_values = sample.bad_values.paths();
         let bad_values = bad_values.map(|bad| format!("{}, at bounce {}", bad.kind, bad.bounce));
         let luminance = f64::from(luminance(radiance));
         of_luminance.add(luminance);
@@ -95,17 +96,10 @@ impl RunningMoments {
 
 #[cfg(test)]
 mod tests {
-    use framework::render::path_steps::{BadPath, BadValue};
+    use framework::render::path_steps::{BadPath, BadValue, FirstBadValues};
     use glam::UVec2;
 
     use super::*;
-
-    fn sample(outcome: SampleOutcome) -> PathSample {
-        PathSample {
-            outcome,
-            bad_values: Vec::new(),
-        }
-    }
 
     #[test]
     fn the_running_mean_and_variance_are_those_of_the_samples_so_far() {
@@ -135,11 +129,15 @@ mod tests {
     #[test]
     fn a_discarded_sample_counts_as_black_and_says_why() {
         let mut samples = [
-            sample(SampleOutcome::Radiance(Vec3::splat(3.0))),
-            sample(SampleOutcome::InvalidRadiance),
-            sample(SampleOutcome::InvalidHit),
-        ];
-        samples[1].bad_values.push(BadPath {
+            Ok(Vec3::splat(3.0)),
+            Err(InvalidSample::Radiance),
+            Err(InvalidSample::Hit),
+        ]
+        .map(|outcome| PathSample {
+            outcome: Ok(outcome),
+            bad_values: FirstBadValues::default(),
+        });
+        samples[1].bad_values.add(BadPath {
             kind: BadValue::PdfNegative,
             pixel: UVec2::ZERO,
             bounce: 2,

@@ -79,45 +79,15 @@ mod tests {
     use view_probe::messages::Quantity;
 
     use super::*;
-    use crate::model::tiles::LayerKind;
-
-    /// Draws a picture in which the digits of each pixel's value are the numbers of the pixel's
-    /// samples, in the order they were added. Each request draws at most `most` pixels.
-    fn draw_all(film: UVec2, samples: u32, most: usize) -> Layer<u64> {
-        let mut layer = Layer::new(film, samples);
-        while let Some((index, draw)) = layer.tiles.take(LayerKind::Light, 1) {
-            let Quantity::Light { sample } = draw.quantity else {
-                unreachable!("only light is drawn")
-            };
-            let numbers = draw.pixels().take(most).map(|(pass, _)| sample + pass + 1);
-            let values: Vec<u64> = numbers.map(u64::from).collect();
-            layer.add(index, &draw, &values, [], |sum, sample| 10 * sum + sample);
-        }
-        layer
-    }
-
-    #[test]
-    fn each_pixel_gets_its_samples_in_order_whatever_a_request_draws() {
-        for film in [uvec2(1, 1), uvec2(65, 3), uvec2(130, 70)] {
-            for most in [1, 7, usize::MAX] {
-                let layer = draw_all(film, 9, most);
-                assert!(layer.tiles.is_complete() && layer.tiles.complete_samples() == 9);
-                assert!(
-                    layer.values().all(|value| value == Some(123_456_789)),
-                    "{film} {most}"
-                );
-            }
-        }
-    }
 
     #[test]
     fn coarse_pixels_are_shown_until_the_fine_ones_are_drawn() {
         let mut layer: Layer<u64> = Layer::new(uvec2(9, 9), 1);
         assert_eq!(layer.shown(uvec2(5, 5)), None);
-        let (index, draw) = layer.tiles.take(LayerKind::Light, 1).unwrap();
+        let (index, draw) = layer.tiles.take(Quantity::Light, 1).unwrap();
         assert_eq!(draw.pixels().count(), 9);
         assert!(
-            layer.tiles.take(LayerKind::Light, 1).is_none(),
+            layer.tiles.take(Quantity::Light, 1).is_none(),
             "the only tile is being drawn"
         );
         layer.add(index, &draw, &[7; 9], [4], |sum, sample| sum + sample);

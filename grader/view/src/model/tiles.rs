@@ -18,40 +18,6 @@ const MAX_PASSES: u32 = 16;
 const STRIDES: [u32; 3] = [4, 2, 1];
 const _: () = assert!((TILE * TILE * MAX_PASSES) as usize <= MAX_VALUES);
 
-/// A quantity to draw. Some views share the same quantity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LayerKind {
-    /// Radiance.
-    Light,
-    /// Radiance in clay.
-    Clay,
-    /// First hits.
-    Hits,
-    /// Tests.
-    Tests,
-}
-
-impl LayerKind {
-    /// Returns the layer that a request's quantity belongs to.
-    pub fn of(quantity: Quantity) -> Self {
-        match quantity {
-            Quantity::Light { .. } => LayerKind::Light,
-            Quantity::Clay { .. } => LayerKind::Clay,
-            Quantity::Hit => LayerKind::Hits,
-            Quantity::Tests => LayerKind::Tests,
-        }
-    }
-
-    fn quantity(self, sample: u32) -> Quantity {
-        match self {
-            LayerKind::Light => Quantity::Light { sample },
-            LayerKind::Clay => Quantity::Clay { sample },
-            LayerKind::Hits => Quantity::Hit,
-            LayerKind::Tests => Quantity::Tests,
-        }
-    }
-}
-
 /// The pixels of a picture that have been drawn, regardless of their values.
 #[derive(Clone, Debug)]
 pub struct Tiles {
@@ -103,14 +69,14 @@ impl Tiles {
 
     /// Takes the tile with the fewest samples among the tiles that need more and aren't being
     /// drawn. Returns its index and the request for it, or `None` if there is no such tile.
-    pub fn take(&mut self, layer: LayerKind, milliseconds: u32) -> Option<(usize, Draw)> {
+    pub fn take(&mut self, quantity: Quantity, milliseconds: u32) -> Option<(usize, Draw)> {
         let steps = self.steps();
         let samples = self.samples;
         let tiles = self.tiles.iter_mut().enumerate();
         let open = tiles.filter(|(_, tile)| !tile.is_busy && tile.step < steps);
         let (index, tile) = open.min_by_key(|(_, tile)| tile.step)?;
         tile.is_busy = true;
-        Some((index, tile.draw(layer, samples, milliseconds)))
+        Some((index, tile.draw(quantity, samples, milliseconds)))
     }
 
     /// Counts another sample for each of the first `drawn` pixels in a request and marks the
@@ -181,7 +147,7 @@ impl Tiles {
 }
 
 impl Tile {
-    fn draw(&mut self, layer: LayerKind, samples: u32, milliseconds: u32) -> Draw {
+    fn draw(&mut self, quantity: Quantity, samples: u32, milliseconds: u32) -> Draw {
         let step = self.step as usize;
         let (stride, drawn_stride, sample) = match STRIDES.get(step) {
             Some(stride) if step == 0 => (*stride, 0, 0),
@@ -201,7 +167,8 @@ impl Tile {
             drawn_stride,
             passes: self.passes,
             first: self.first,
-            quantity: layer.quantity(sample),
+            quantity,
+            sample,
             milliseconds,
         }
     }

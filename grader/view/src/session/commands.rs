@@ -5,9 +5,9 @@ use std::time::Instant;
 use framework::math::tan;
 use glam::UVec2;
 use serde::Deserialize;
+use view_probe::messages::Quantity;
 
 use super::{PinnedTarget, Session, View};
-use crate::model::tiles::LayerKind;
 use crate::model::viewpoint::{Movement, Side, Viewpoint};
 
 /// The maximum number of pixels along one side of a film.
@@ -90,15 +90,16 @@ impl Session {
                 }
                 self.shown.samples = *samples;
                 // Samples that have been added cannot be removed.
-                if *samples < self.light.tiles.samples {
+                if *samples < self.picture.light.tiles.samples {
                     self.restart(now);
                 } else {
-                    self.light.tiles.samples = *samples;
-                    self.clay.tiles.samples = *samples;
+                    self.picture.light.tiles.samples = *samples;
+                    self.picture.clay.tiles.samples = *samples;
                 }
             }
             Command::Move(movement) => {
-                let height = 2.0 * tan(0.5 * self.subject.camera.pinhole.vertical_fov.to_radians());
+                let height =
+                    2.0 * tan(0.5 * self.subject.camera().pinhole.vertical_fov.to_radians());
                 self.viewpoint = self.viewpoint.moved(*movement, height);
                 self.restart(now);
             }
@@ -139,8 +140,8 @@ impl Session {
         self.is_dirty = true;
         self.shown.is_picture_complete = false;
         self.is_tree_wanted |= view == View::Bvh;
-        self.is_recording_wanted |= view.layer() == LayerKind::Tests;
-        self.fault = None;
+        self.is_recording_wanted |= view.layer() == Quantity::Tests;
+        self.picture.fault = None;
     }
 
     fn pin(&mut self, pixel: Option<UVec2>, sample: Option<u32>) {

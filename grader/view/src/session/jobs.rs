@@ -3,11 +3,10 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use view_probe::messages::{Draw, MAX_SAMPLES};
+use view_probe::messages::{Draw, MAX_SAMPLES, Quantity};
 use view_probe::scene_data::Aim;
 
 use super::{Key, PinnedTarget, Session};
-use crate::model::tiles::LayerKind;
 use crate::program::{BuildState, Files, Program};
 use crate::subject::Subject;
 
@@ -156,7 +155,7 @@ impl Session {
             return Some(ScheduledJob { aim, ..work });
         }
         let is_superfluous = matches!(worker, Worker::Drawing(index) if index >= self.programs());
-        if self.fault.is_some() || !self.is_watched(now) || is_superfluous {
+        if self.picture.fault.is_some() || !self.is_watched(now) || is_superfluous {
             return None;
         }
         let layer = self.shown.view.layer();
@@ -165,11 +164,12 @@ impl Session {
         let job = if !is_recording && is_tree_wanted && self.tree.is_none() && !self.is_tree_busy {
             self.is_tree_busy = true;
             Job::Tree
-        } else if is_recording == (layer == LayerKind::Tests) {
-            let milliseconds = if self.is_careful { 0 } else { SLICE_MS };
-            let (tile, draw) = self.tiles_mut(layer).take(layer, milliseconds)?;
+        } else if is_recording == (layer == Quantity::Tests) {
+            let is_careful = self.picture.is_careful;
+            let milliseconds = if is_careful { 0 } else { SLICE_MS };
+            let (tile, draw) = self.picture.tiles_mut(layer).take(layer, milliseconds)?;
             let limit = self.limit(CALL_LIMIT);
-            let limit = if self.is_careful { limit / 2 } else { limit };
+            let limit = if is_careful { limit / 2 } else { limit };
             Job::Draw { tile, draw, limit }
         } else {
             return None;
@@ -206,14 +206,14 @@ impl Session {
     /// Returns the time limit for the scene: a fixed amount, and an additional amount for each
     /// shape.
     fn limit(&self, [fixed, per_shape]: [Duration; 2]) -> Duration {
-        let shapes = u32::try_from(self.subject.data.shapes.len()).unwrap_or(u32::MAX);
+        let shapes = u32::try_from(self.subject.data.scene.shapes.len()).unwrap_or(u32::MAX);
         fixed + shapes * per_shape
     }
 
     /// Returns the number of programs that draw at the same time: one per core, or fewer if the
     /// tree is large, since each of them builds its own tree, as does the recording program.
     pub fn programs(&self) -> usize {
-        let shapes = self.subject.data.shapes.len() as u64;
+        let shapes = self.subject.data.scene.shapes.len() as u64;
         let fit = self.resources.memory.min(MAX_MEMORY) / (shapes * BYTES_PER_SHAPE).max(1);
         usize::try_from(fit.saturating_sub(1))
             .unwrap_or(usize::MAX)

@@ -5,6 +5,7 @@ mod commands;
 mod jobs;
 mod notes;
 mod page_state;
+mod picture;
 mod results;
 mod state;
 mod tests_summary;
@@ -14,16 +15,14 @@ mod values;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use framework::render::renderer::RenderStats;
+use framework::render::renderer::PathSettings;
 use framework::scene::Camera;
-use glam::{UVec2, Vec3};
-use protocol::{ElementOutcome, Panic, Trace};
-use view_probe::messages::{MarkedTests, OpenOutcome, TreeSize};
-use view_probe::scene_data::{Aim, PathSettings};
+use glam::UVec2;
+use view_probe::messages::{OpenOutcome, TreeSize};
+use view_probe::scene_data::Aim;
 
 use crate::model::explanation::Explanation;
-use crate::model::layer::Layer;
-use crate::model::tiles::{LayerKind, Tiles};
+use crate::model::tiles::Tiles;
 use crate::model::tree::TreeModel;
 use crate::model::viewpoint::Viewpoint;
 use crate::program::{BuildState, Files};
@@ -33,6 +32,7 @@ pub use commands::Command;
 pub use jobs::{Job, ScheduledJob, Worker};
 pub use notes::{Note, PanicNote};
 pub use page_state::PageState;
+use picture::PictureSoFar;
 pub use state::{Key, PageFields, PinnedTarget, Resources, View};
 use tests_summary::TestAverages;
 use timing::Timing;
@@ -64,20 +64,7 @@ pub struct Session {
     last_opening: Duration,
     /// Whether building the tree takes a long time.
     is_build_slow: bool,
-    /// The reason drawing has stopped.
-    fault: Option<Note>,
-    /// The number of pixels whose drawing ended the program early.
-    faults: u32,
-    /// Whether each request draws a single pixel, in order to find the one that ends the program.
-    is_careful: bool,
-    /// The problems in the picture so far.
-    problems: RenderStats,
-    /// Why the shaded view is drawn in clay.
-    no_light: Option<Panic>,
-    pub(crate) light: Layer<Vec3>,
-    pub(crate) clay: Layer<Vec3>,
-    pub(crate) hits: Layer<Option<Trace>>,
-    pub(crate) tests: Layer<MarkedTests>,
+    pub(crate) picture: PictureSoFar,
     /// The averages for an earlier version of the code, using the same camera.
     averages_before: Option<TestAverages>,
     pub(crate) tree: Option<Arc<TreeModel>>,
@@ -91,9 +78,6 @@ pub struct Session {
     explanation_number: u64,
     is_explanation_busy: bool,
     explanation_fault: Option<String>,
-    /// The time spent drawing each layer.
-    timings: [Timing; 4],
-    started_at: Instant,
     watched_at: Instant,
     resources: Resources,
 }
@@ -109,7 +93,7 @@ impl Session {
         resources: Resources,
         now: Instant,
     ) -> Self {
-        let film = film.unwrap_or(subject.camera.pinhole.film);
+        let film = film.unwrap_or(subject.camera().pinhole.film);
         let shown = PageFields {
             version: 1,
             scenes,
@@ -133,15 +117,7 @@ impl Session {
             opened: None,
             last_opening: Duration::ZERO,
             is_build_slow: false,
-            fault: None,
-            faults: 0,
-            is_careful: false,
-            problems: RenderStats::default(),
-            no_light: None,
-            light: Layer::new(film, samples),
-            clay: Layer::new(film, samples),
-            hits: Layer::new(film, 1),
-            tests: Layer::new(film, 1),
+            picture: PictureSoFar::new(film, samples, now),
             averages_before: None,
             tree: None,
             is_tree_wanted: false,
@@ -152,8 +128,6 @@ impl Session {
             explanation_number: 0,
             is_explanation_busy: false,
             explanation_fault: None,
-            timings: Default::default(),
-            started_at: now,
             watched_at: now,
             resources,
         };
@@ -165,7 +139,7 @@ impl Session {
     pub fn open(&mut self, subject: Subject, now: Instant) {
         self.shown.loading = None;
         self.loading_error = None;
-        self.shown.film = subject.camera.pinhole.film;
+        self.shown.film = subject.camera().pinhole.film;
         self.viewpoint = subject.viewpoint;
         self.subject = Arc::new(subject);
         self.numbers.scene += 1;
@@ -205,7 +179,7 @@ impl Session {
     /// Returns the current camera.
     pub fn camera(&self) -> Camera {
         // Use the film's aspect ratio, like `Scene::on_film`.
-        let own = self.subject.camera;
+        let own = *self.subject.camera();
         let film = self.shown.film;
         let mut camera = own;
         camera.pinhole.film = film;
@@ -238,18 +212,8 @@ impl Session {
     fn draw_again(&mut self, now: Instant) {
         self.numbers.aim += 1;
         self.shown.is_picture_complete = false;
-        self.light = Layer::new(self.shown.film, self.shown.samples);
-        self.clay = Layer::new(self.shown.film, self.shown.samples);
-        self.hits = Layer::new(self.shown.film, 1);
-        self.tests = Layer::new(self.shown.film, 1);
-        self.fault = None;
-        self.faults = 0;
-        self.is_careful = false;
+        self.picture = PictureSoFar::new(self.shown.film, self.shown.samples, now);
         self.shown.panics.clear();
-        self.problems = RenderStats::default();
-        self.no_light = None;
-        self.started_at = now;
-        self.timings = Default::default();
         self.shown.version += 1;
     }
 
@@ -268,35 +232,21 @@ impl Session {
     }
 
     fn timing(&self) -> &Timing {
-        &self.timings[self.shown.view.layer() as usize]
+        self.picture.timing(self.shown.view.layer())
     }
 
     fn timing_mut(&mut self) -> &mut Timing {
-        &mut self.timings[self.shown.view.layer() as usize]
+        self.picture.timing_mut(self.shown.view.layer())
     }
 
     /// Returns the progress of the displayed layer.
     fn tiles(&self) -> &Tiles {
-        match self.shown.view.layer() {
-            LayerKind::Light => &self.light.tiles,
-            LayerKind::Clay => &self.clay.tiles,
-            LayerKind::Hits => &self.hits.tiles,
-            LayerKind::Tests => &self.tests.tiles,
-        }
+        self.picture.tiles(self.shown.view.layer())
     }
 
     /// Returns the number of samples that every pixel in the displayed layer has.
     fn complete_samples(&self) -> u32 {
         self.tiles().complete_samples().min(self.shown.samples)
-    }
-
-    fn tiles_mut(&mut self, layer: LayerKind) -> &mut Tiles {
-        match layer {
-            LayerKind::Light => &mut self.light.tiles,
-            LayerKind::Clay => &mut self.clay.tiles,
-            LayerKind::Hits => &mut self.hits.tiles,
-            LayerKind::Tests => &mut self.tests.tiles,
-        }
     }
 
     /// Returns whether everything the picture needs besides its pixels is available.
@@ -316,7 +266,7 @@ impl Session {
 
     /// Returns the time since the picture was started.
     pub fn age(&self, now: Instant) -> Duration {
-        now.saturating_duration_since(self.started_at)
+        now.saturating_duration_since(self.picture.started_at)
     }
 
     /// Reports that the page shows a new picture. `is_complete` says whether it contains all
@@ -331,10 +281,7 @@ impl Session {
 
     /// Returns the size of the tree, if it has been built.
     fn tree_size(&self) -> Option<TreeSize> {
-        match self.opened.as_ref()?.tree {
-            ElementOutcome::Value(size) => Some(size),
-            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
-        }
+        self.opened.as_ref()?.tree.value().copied()
     }
 
     fn forget_tree(&mut self) {

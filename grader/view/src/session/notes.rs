@@ -73,9 +73,9 @@ impl Session {
         let texts = texts.into_iter().flatten().map(Note::without_location);
         // If the new files don't compile, it doesn't matter why the last version stopped.
         let is_ready = matches!(self.drawing, BuildState::Ready(_));
-        let fault = self.fault.iter().filter(|_| is_ready).cloned();
+        let fault = self.picture.fault.iter().filter(|_| is_ready).cloned();
         let mut notes: Vec<Note> = fault.chain(texts).collect();
-        if let (Some(panic), View::Shaded) = (&self.no_light, self.shown.view) {
+        if let (Some(panic), View::Shaded) = (&self.picture.no_light, self.shown.view) {
             let why = if panic.is_unimplemented() {
                 "not written yet".to_owned()
             } else {
@@ -86,10 +86,9 @@ impl Session {
                 location: Some(panic.location.clone()),
             });
         }
-        let (Some(opened), Some(files)) = (&self.opened, &self.files) else {
+        let Some(opened) = &self.opened else {
             return notes;
         };
-        let task = |id| task(files, id);
         let mut add = |text: String, location: Option<String>| notes.push(Note { text, location });
         for (part, panic) in &opened.missing {
             let (_, method) = task_and_method(*part);
@@ -105,39 +104,39 @@ impl Session {
             let text = format!("`{method}` is not written yet, so {effect}.");
             add(text, Some(panic.location.clone()));
         }
-        let build = task("build");
         match &opened.tree {
             ElementOutcome::Panicked(panic) => add(
                 format!("`Bvh::build` panicked: {}", panic.message),
                 Some(panic.location.clone()),
             ),
-            ElementOutcome::Value(size) => {
-                self.add_notes_about_tree(*size, [build, task("traverse")], &mut add)
-            }
+            ElementOutcome::Value(size) => self.add_notes_about_tree(*size, &mut add),
             ElementOutcome::Skipped => {}
         }
         let checkup = self.tree.as_ref().filter(|tree| tree.index.has_nodes());
         for kind in checkup.into_iter().flat_map(|tree| &tree.checkup.kinds) {
             let text = format!("The tree has defects. {} ({}).", kind.title, kind.count);
-            add(text, self.line_of(build));
+            add(text, self.line_of(SubmissionPart::Build));
         }
         if let Some(why) = &self.tree_fault {
             let text = format!("The tree cannot be shown: {why}");
-            add(text, self.line_of(build));
+            add(text, self.line_of(SubmissionPart::Build));
         }
-        for text in self.problems.notes() {
+        for text in self.picture.problems.notes() {
             let (first, rest) = text.split_at(1);
             add(format!("{}{rest}.", first.to_uppercase()), None);
         }
         notes
     }
 
-    /// Returns the note on a method that failed or didn't return.
-    pub(super) fn note_on_fault(&self, part: SubmissionPart, fault: &Fault) -> Note {
+    /// Returns the note on a program that failed, and on the method at fault, if it has been found.
+    pub(super) fn note_on_fault(&self, part: Option<SubmissionPart>, fault: &Fault) -> Note {
+        let Some(part) = part else {
+            return Note::without_location(fault.to_string());
+        };
         let (_, method) = task_and_method(part);
         Note {
             text: format!("`{method}`: {fault}"),
-            location: self.line_of_part(part),
+            location: self.line_of(part),
         }
     }
 
@@ -146,71 +145,62 @@ impl Session {
         let (_, method) = task_and_method(SubmissionPart::Build);
         self.is_build_slow.then(|| Note {
             text: format!("`{method}` is still running: is there an infinite loop?"),
-            location: self.line_of_part(SubmissionPart::Build),
+            location: self.line_of(SubmissionPart::Build),
         })
     }
 
-    /// Returns the file and line where a part's method is declared.
-    pub(super) fn line_of_part(&self, part: SubmissionPart) -> Option<String> {
-        let (id, _) = task_and_method(part);
-        self.line_of(task(self.files.as_deref()?, id))
-    }
-
-    fn add_notes_about_tree(
-        &self,
-        size: TreeSize,
-        [build, traverse]: [Option<&TaskInfo>; 2],
-        mut add: impl FnMut(String, Option<String>),
-    ) {
+    fn add_notes_about_tree(&self, size: TreeSize, mut add: impl FnMut(String, Option<String>)) {
         let effect = match size.primitives {
             0 => String::new(),
             count => format!(", so each ray tests all {count} primitives"),
         };
-        let not_written =
-            |method: &str, effect: &str| format!("`{method}` is not written yet{effect}.");
-        let is_from_starter = |task: &&TaskInfo| self.is_from_starter(task);
-        let traverse = traverse.filter(is_from_starter);
-        let unwritten = build.filter(|task| size.nodes == 0 && is_from_starter(task));
-        if let Some(build) = unwritten {
+        let [build, traversal] = [SubmissionPart::Build, SubmissionPart::Traversal];
+        let has_traversal = !self.is_from_starter(traversal);
+        if size.nodes == 0 && self.is_from_starter(build) {
             // Unlike the starter's `Bvh::hit`, a correct traversal finds nothing without a tree.
-            let effect = match traverse {
-                Some(_) => &effect,
-                None => ", so `Bvh::hit` has no tree to traverse",
+            let effect = if has_traversal {
+                ", so `Bvh::hit` has no tree to traverse"
+            } else {
+                &effect
             };
-            add(not_written("Bvh::build", effect), self.line_of(Some(build)));
+            let text = format!("`Bvh::build` is not written yet{effect}.");
+            add(text, self.line_of(build));
         } else if size.nodes == 0 && size.primitives > 0 {
             let text = "`Bvh::build` returned a tree without nodes.".to_owned();
             add(text, self.line_of(build));
         }
-        if let Some(traverse) = traverse {
-            add(
-                not_written("Bvh::hit", &effect),
-                self.line_of(Some(traverse)),
-            );
+        if !has_traversal {
+            let text = format!("`Bvh::hit` is not written yet{effect}.");
+            add(text, self.line_of(traversal));
         }
-        if size.primitives == 0 && !self.subject.data.shapes.is_empty() {
+        if size.primitives == 0 && !self.subject.data.scene.shapes.is_empty() {
             let text = "Nothing can be drawn yet: write the `hit` method for triangles or spheres \
                 first.";
             add(text.to_owned(), None);
         }
     }
 
-    /// Returns whether a task's method is still the one in the starter.
-    fn is_from_starter(&self, task: &TaskInfo) -> bool {
-        self.method(task).is_some_and(|method| !method.is_changed)
+    /// Returns whether a part's method is still the one in the starter.
+    fn is_from_starter(&self, part: SubmissionPart) -> bool {
+        let found = self.task_and_methods(part);
+        found.is_some_and(|(_, methods)| !methods.is_changed)
     }
 
-    /// Returns a task's method in the submission, if it is found.
-    fn method(&self, task: &TaskInfo) -> Option<TaskMethods> {
+    /// Returns the file and line where a part's method is declared.
+    pub(super) fn line_of(&self, part: SubmissionPart) -> Option<String> {
+        let (task, methods) = self.task_and_methods(part)?;
+        Some(format!("{}:{}", task.file, methods.line))
+    }
+
+    /// Returns a part's task and its methods in the submission, if they are found. The assignment
+    /// doesn't include the task if the part's code is given to the students.
+    fn task_and_methods(&self, part: SubmissionPart) -> Option<(&TaskInfo, TaskMethods)> {
         let Files { rays, light } = self.files.as_deref()?;
-        let mut parts = [rays, light].into_iter();
-        parts.find_map(|part| part.task_methods(task))
-    }
-
-    /// Returns the file and line where a task's method is declared.
-    fn line_of(&self, task: Option<&TaskInfo>) -> Option<String> {
-        let task = task?;
-        Some(format!("{}:{}", task.file, self.method(task)?.line))
+        let (id, _) = task_and_method(part);
+        [rays, light].into_iter().find_map(|files| {
+            let task = files.handed_out.assignment.find(id)?;
+            Some((task, files.task_methods(task)?))
+        })
     }
 
     /// Adds a panic that occurred in `count` pixels.
@@ -237,13 +227,6 @@ pub(super) fn recording_failed(errors: &[FileError]) -> String {
          cannot be shown: {}",
         errors.first().map_or("", |error| &error.text)
     )
-}
-
-/// Returns the task with this id, or `None` if the assignment doesn't include it because the part's
-/// code is given to the students.
-fn task(files: &Files, id: &str) -> Option<&'static TaskInfo> {
-    let mut parts = [&files.rays, &files.light].into_iter();
-    parts.find_map(|part| part.handed_out.assignment.find(id))
 }
 
 /// Returns a part's task id and method name.

@@ -9,7 +9,7 @@ use view_probe::messages::SubmissionPart;
 
 use super::notes::recording_failed;
 use super::tests_summary::TestsSummary;
-use super::{Note, PageFields, Session};
+use super::{Note, PageFields, PinnedTarget, Session};
 use crate::program::{BuildState, FileError};
 use crate::subject::ExamRay;
 
@@ -65,8 +65,8 @@ struct CameraState {
 /// The explained pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 struct PinnedState {
-    pixel: Option<UVec2>,
-    sample: Option<u32>,
+    #[serde(flatten)]
+    target: PinnedTarget,
     /// Whether the camera hasn't moved since the pixel was clicked, so that the pixel can be
     /// marked.
     is_here: bool,
@@ -81,15 +81,15 @@ impl Session {
         let progress = self.tiles().progress();
         let seconds = self.timing().drawn_for(now).as_secs_f64();
         let is_complete = self.is_complete();
-        let is_drawing = !is_complete && self.fault.is_none() && is_ready;
-        let is_opening = is_ready && self.opened.is_none() && self.fault.is_none();
+        let is_drawing = !is_complete && self.picture.fault.is_none() && is_ready;
+        let is_opening = is_ready && self.opened.is_none() && self.picture.fault.is_none();
         let left = seconds * (1.0 - progress) / progress;
         PageState {
             shown: &self.shown,
             subject: &self.subject.name,
-            about: &self.subject.about,
+            about: &self.subject.data.scene.about,
             question: self.subject.question.as_ref(),
-            own_film: self.subject.camera.pinhole.film,
+            own_film: self.subject.camera().pinhole.film,
             camera: CameraState {
                 position: camera.placement.position,
                 axes: camera.placement.axes.to_cols_array_2d(),
@@ -100,8 +100,8 @@ impl Session {
             build,
             is_opening,
             slow_build: self.note_on_slow_build().filter(|_| is_opening),
-            traversal: self.line_of_part(SubmissionPart::Traversal),
-            has_stopped: is_ready && self.fault.is_some(),
+            traversal: self.line_of(SubmissionPart::Traversal),
+            has_stopped: is_ready && self.picture.fault.is_some(),
             errors,
             notes: self.notes(),
             complete_samples: self.complete_samples(),
@@ -118,10 +118,9 @@ impl Session {
                 .is_some_and(|tree| tree.index.has_nodes()),
             tree_levels: self.tree.as_ref().map_or(0, |tree| tree.index.levels()),
             tree_number: format!("{}.{}", self.numbers.program, self.numbers.scene),
-            pinned: self.pinned.map(|pinned| PinnedState {
-                pixel: pinned.pixel,
-                sample: pinned.sample,
-                is_here: pinned.aim == self.aim(),
+            pinned: self.pinned.map(|target| PinnedState {
+                target,
+                is_here: target.aim == self.aim(),
             }),
             explanation: self.explanation.as_ref().map(|_| self.explanation_number),
             explanation_fault: self.explanation_problem(),
@@ -152,7 +151,7 @@ impl Session {
         {
             return Some("The pixel will be explained as soon as your files compile.".to_owned());
         }
-        if let (Some(_), None) = (&self.fault, &self.opened) {
+        if let (Some(_), None) = (&self.picture.fault, &self.opened) {
             return Some(
                 "The pixel will be explained as soon as the scene can be opened.".to_owned(),
             );

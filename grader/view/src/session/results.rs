@@ -3,16 +3,13 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use framework::render::path_steps::FirstBadValues;
-use framework::render::renderer::RenderStats;
 use glam::UVec2;
 use grader::probe::Fault;
 use protocol::{ElementOutcome, Panic};
-use view_probe::messages::{Draw, DrawnPixels, OpenOutcome, SubmissionPart, Values};
+use view_probe::messages::{Draw, DrawnPixels, OpenOutcome, Quantity, SubmissionPart, Values};
 
-use super::{Key, Note, PinnedTarget, Session};
+use super::{Key, Note, PictureSoFar, PinnedTarget, Session};
 use crate::model::explanation::Explanation;
-use crate::model::tiles::LayerKind;
 use crate::model::tree::TreeModel;
 use crate::probe::Stop;
 
@@ -28,7 +25,7 @@ impl Session {
         self.last_opening = took;
         if let ElementOutcome::Panicked(_) = opened.tree {
             let text = "The scene cannot be drawn because building the tree failed.";
-            self.fault = Some(Note::without_location(text.to_owned()));
+            self.picture.fault = Some(Note::without_location(text.to_owned()));
         }
         if self.opened.as_ref() != Some(&opened) {
             self.opened = Some(opened);
@@ -47,12 +44,12 @@ impl Session {
     /// Reports that a program could not open the scene because of this method.
     pub fn opening_ended(&mut self, key: Key, part: SubmissionPart, fault: &Fault) {
         if key.has_tree_of(&self.numbers) {
-            self.stop(self.note_on_fault(part, fault));
+            self.stop(self.note_on_fault(Some(part), fault));
         }
     }
 
     fn stop(&mut self, why: Note) {
-        self.fault = Some(why);
+        self.picture.fault = Some(why);
         self.shown.version += 1;
     }
 
@@ -63,18 +60,21 @@ impl Session {
         }
         let panics = drawn.panics.iter();
         let panicked = panics.flat_map(|(_, indices)| indices.iter().copied());
+        let PictureSoFar {
+            light,
+            clay,
+            hits,
+            tests,
+            ..
+        } = &mut self.picture;
         match &drawn.values {
-            Values::Light(light) => {
-                let is_clay = LayerKind::of(draw.quantity) == LayerKind::Clay;
-                let layer = if is_clay {
-                    &mut self.clay
-                } else {
-                    &mut self.light
-                };
-                layer.add(tile, draw, light, panicked, |sum, x| sum + x);
+            Values::Light(radiance) => {
+                let is_clay = draw.quantity == Quantity::Clay;
+                let layer = if is_clay { clay } else { light };
+                layer.add(tile, draw, radiance, panicked, |sum, x| sum + x);
             }
-            Values::Hits(hits) => self.hits.add(tile, draw, hits, panicked, |_, hit| hit),
-            Values::Tests(tests) => self.tests.add(tile, draw, tests, panicked, |_, test| test),
+            Values::Hits(drawn) => hits.add(tile, draw, drawn, panicked, |_, hit| hit),
+            Values::Tests(drawn) => tests.add(tile, draw, drawn, panicked, |_, test| test),
         }
         for (panic, indices) in &drawn.panics {
             let first = indices.first().copied().unwrap_or(u32::MAX);
@@ -82,22 +82,12 @@ impl Session {
             let pixel = first.map_or(UVec2::ZERO, |(_, pixel)| pixel);
             self.add_panic(panic, pixel, indices.len() as u64);
         }
-        let mut bad_values = FirstBadValues::default();
-        drawn
-            .bad_values
-            .iter()
-            .for_each(|path| bad_values.add(*path));
-        self.problems.add(&RenderStats {
-            invalid_paths: drawn.invalid_paths,
-            invalid_radiances: drawn.invalid_radiances,
-            bad_values,
-            ..RenderStats::default()
-        });
+        self.picture.problems.add(&drawn.stats);
         if drawn.no_light.is_some() {
-            self.no_light.clone_from(&drawn.no_light);
+            self.picture.no_light.clone_from(&drawn.no_light);
         }
-        let layer = LayerKind::of(draw.quantity);
-        self.timings[layer as usize].add(drawn.rays, now);
+        let timing = self.picture.timing_mut(draw.quantity);
+        timing.add(drawn.stats.rays, now);
         self.is_dirty = true;
         if self.is_complete() {
             self.timing_mut().stop(now);
@@ -122,22 +112,19 @@ impl Session {
         let pixel = pixel.filter(|_| draw.milliseconds == 0);
         let drawn = usize::from(pixel.is_some());
         let panicked = (0..).take(drawn);
-        let tiles = self.tiles_mut(LayerKind::of(draw.quantity));
+        let tiles = self.picture.tiles_mut(draw.quantity);
         tiles.add(tile, draw, drawn, panicked);
-        self.is_careful = true;
+        self.picture.is_careful = true;
         self.is_dirty = true;
         if let Some(pixel) = pixel {
-            let note = match part {
-                Some(part) => self.note_on_fault(part, fault),
-                None => Note::without_location(fault.to_string()),
-            };
+            let note = self.note_on_fault(part, fault);
             let panic = Panic {
                 message: note.text,
                 location: note.location.unwrap_or_default(),
             };
             self.add_panic(&panic, pixel, 1);
-            self.faults += 1;
-            if self.faults == MAX_FAULTS {
+            self.picture.faults += 1;
+            if self.picture.faults == MAX_FAULTS {
                 self.stop(Note::without_location(format!(
                     "Drawing has stopped because the program ended early at {MAX_FAULTS} pixels. Save \
                      a change or move the camera to try again."
@@ -180,7 +167,7 @@ impl Session {
         if key.has_tree_of(&self.numbers) && self.pinned.as_ref() == Some(pinned) {
             let (explanation, fault) = match result {
                 Ok(explanation) => (Some(explanation), None),
-                Err(Stop::FaultIn(part, fault)) => {
+                Err(Stop::Fault(part, fault)) => {
                     (None, Some(self.note_on_fault(part, &fault).to_string()))
                 }
                 Err(stop) => (None, Some(stop.to_string())),

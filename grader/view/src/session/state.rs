@@ -3,10 +3,10 @@
 use clap::ValueEnum;
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
+use view_probe::messages::Quantity;
 use view_probe::scene_data::Aim;
 
 use super::PanicNote;
-use crate::model::tiles::LayerKind;
 use crate::source_links::SourceLinks;
 
 /// The cores and the memory that the programs may use.
@@ -43,12 +43,12 @@ pub enum View {
 
 impl View {
     /// Returns the layer shown by the view.
-    pub(crate) fn layer(self) -> LayerKind {
+    pub(crate) fn layer(self) -> Quantity {
         match self {
-            View::Shaded => LayerKind::Light,
-            View::Clay => LayerKind::Clay,
-            View::Normals | View::Depth | View::Uv | View::Bvh => LayerKind::Hits,
-            View::Tests | View::Mistakes => LayerKind::Tests,
+            View::Shaded => Quantity::Light,
+            View::Clay => Quantity::Clay,
+            View::Normals | View::Depth | View::Uv | View::Bvh => Quantity::Hit,
+            View::Tests | View::Mistakes => Quantity::Tests,
         }
     }
 }
@@ -73,9 +73,10 @@ impl Key {
 }
 
 /// The pixel or ray to explain. It stays the same when the camera moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PinnedTarget {
     /// The camera at the time of the click.
+    #[serde(skip)]
     pub aim: Aim,
     /// The pixel, or `None` for the exam's ray.
     pub pixel: Option<UVec2>,

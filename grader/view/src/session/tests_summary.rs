@@ -1,11 +1,10 @@
 //! Averages over the tests for all pixels, for the views that show tests and mistakes.
 
 use serde::Serialize;
-use view_probe::messages::{MarkedTests, TestCounts};
+use view_probe::messages::{MarkedTests, Quantity, TestCounts};
 use view_probe::rules::RULES;
 
 use super::{Session, View};
-use crate::model::tiles::LayerKind;
 
 /// Averages over the tests for all drawn pixels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -47,10 +46,10 @@ impl TestAverages {
 impl Session {
     /// Returns the averages for the page if the shown view needs them.
     pub(super) fn tests_summary(&self) -> Option<TestsSummary> {
-        if self.shown.view.layer() != LayerKind::Tests {
+        if self.shown.view.layer() != Quantity::Tests {
             return None;
         }
-        let rays: Vec<MarkedTests> = self.tests.values().flatten().collect();
+        let rays: Vec<MarkedTests> = self.picture.tests.values().flatten().collect();
         Some(TestsSummary {
             averages: TestAverages::of(&rays)?,
             before: self.averages_before,
@@ -62,9 +61,9 @@ impl Session {
     /// the next version of the code. Nothing is kept of an incomplete picture, since its averages
     /// can't be compared with others.
     pub(super) fn keep_averages(&mut self) {
-        let is_complete = self.tests.tiles.is_complete();
-        let rays = is_complete.then(|| self.tests.values().flatten().collect::<Vec<_>>());
-        self.averages_before = rays.and_then(|rays| TestAverages::of(&rays));
+        let tests = &self.picture.tests;
+        let rays: Vec<MarkedTests> = tests.values().flatten().collect();
+        self.averages_before = TestAverages::of(&rays).filter(|_| tests.tiles.is_complete());
     }
 
     fn judging_problem(&self, rays: &[MarkedTests]) -> Option<&'static str> {

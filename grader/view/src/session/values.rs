@@ -2,23 +2,22 @@
 
 use glam::{UVec2, Vec2, Vec3};
 use protocol::Trace;
-use view_probe::messages::TestCounts;
+use view_probe::messages::{Quantity, TestCounts};
 
 use super::Session;
 use crate::model::layer::PixelContent;
-use crate::model::tiles::LayerKind;
 
 impl Session {
     /// Returns the value of a pixel in the current view, or `None` if it hasn't been drawn yet.
     pub fn value_at(&self, pixel: UVec2) -> Option<String> {
         let pixel = pixel.min(self.shown.film - 1);
         match self.shown.view.layer() {
-            LayerKind::Light => of_radiance(self.light.shown(pixel)?),
-            LayerKind::Clay => of_radiance(self.clay.shown(pixel)?),
-            LayerKind::Hits => text(self.hits.shown(pixel)?, |hit, _| {
+            Quantity::Light => of_radiance(self.picture.light.shown(pixel)?),
+            Quantity::Clay => of_radiance(self.picture.clay.shown(pixel)?),
+            Quantity::Hit => text(self.picture.hits.shown(pixel)?, |hit, _| {
                 hit.map_or("no hit".to_owned(), |hit| of_hit(&hit))
             }),
-            LayerKind::Tests => text(self.tests.shown(pixel)?, |tests, _| {
+            Quantity::Tests => text(self.picture.tests.shown(pixel)?, |tests, _| {
                 let TestCounts { boxes, primitives } = tests.counts;
                 let marked: u32 = tests.marks.iter().sum();
                 format!("{boxes} box tests, {primitives} primitive tests, {marked} wrong steps")

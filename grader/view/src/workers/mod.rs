@@ -35,11 +35,8 @@ pub fn run(shared: &SharedSession, worker: Worker) {
                 Ok(drawn) => shared.update(|session, now| {
                     session.drawn(key, tile, &draw, &drawn, now);
                 }),
-                Err(Stop::Fault(fault)) => shared.update(|session, _| {
-                    session.drawing_ended(key, tile, &draw, None, &fault);
-                }),
-                Err(Stop::FaultIn(part, fault)) => shared.update(|session, _| {
-                    session.drawing_ended(key, tile, &draw, Some(part), &fault);
+                Err(Stop::Fault(part, fault)) => shared.update(|session, _| {
+                    session.drawing_ended(key, tile, &draw, part, &fault);
                 }),
                 Err(Stop::Invalid(why)) => {
                     shared.update(|session, _| session.not_started(key, &why));

@@ -8,8 +8,8 @@ use grader::probe::Fault;
 use protocol::{ElementOutcome, Panic, Ray};
 use view_probe::indexed_tree::IndexedTree;
 use view_probe::messages::{
-    BoxQueries, Draw, DrawnPixels, Follow, OpenOutcome, Quantity, RecordedRay, RecordedRays,
-    Request, Response, SampleRange, SubmissionPart, Target, TreeData, TreeSize, Trial,
+    Draw, DrawnPixels, Follow, Quantity, RecordedRay, RecordedRays, Request, Response,
+    SubmissionPart, Target, TreeData, TreeSize,
 };
 use view_probe::rules::{NodeAddresses, NodeSpan, corners_with_margin, judged_nodes, rows};
 use view_probe::scene_data::{Aim, SceneData, TreeSource, written_shapes};
@@ -46,37 +46,19 @@ pub(super) struct SceneProbe<'a> {
     tree: Option<IndexedTree>,
 }
 
-fn unexpected(response: &Response) -> Stop {
-    let why = if *response == Response::NotOpen {
-        "it has no scene"
-    } else {
-        "it sent an invalid answer"
-    };
-    Stop::Invalid(why.to_owned())
-}
-
-/// If `stop` says that the program failed, also records which method was being called.
-fn in_part(part: SubmissionPart, stop: Stop) -> Stop {
-    if let Stop::Fault(fault) = stop {
-        Stop::FaultIn(part, fault)
-    } else {
-        stop
-    }
+/// The error for the response [`Response::NotOpen`]. Any other response that doesn't match its
+/// request has already been refused by [`Probe::ask`].
+fn no_scene() -> Stop {
+    Stop::Invalid("it has no scene".to_owned())
 }
 
 /// Returns the ray or path that a drawing request traces, or `None` if it traces more than one.
 fn single_target(draw: &Draw) -> Option<Target> {
     let (pass, pixel) = draw.pixels().next().filter(|_| draw.milliseconds == 0)?;
-    Some(match draw.quantity {
-        Quantity::Light { sample } => Target::Path {
-            pixel,
-            sample: sample + pass,
-        },
-        Quantity::Clay { sample } => Target::Clay {
-            pixel,
-            sample: sample + pass,
-        },
-        Quantity::Hit | Quantity::Tests => Target::Centre(pixel),
+    Some(Target::Pixel {
+        quantity: draw.quantity,
+        pixel,
+        sample: draw.sample + pass,
     })
 }
 
@@ -107,14 +89,7 @@ impl<'a> SceneProbe<'a> {
             opened?;
         }
         if self.aim != Some(work.aim) {
-            let response = self.ask(work, &Request::Aim(work.aim), LIMIT)?;
-            if response == Response::NotOpen {
-                // Building the tree failed, and this has already been reported.
-                return Err(Stop::Unwanted);
-            }
-            if response != Response::Aimed {
-                return Err(unexpected(&response));
-            }
+            self.ask(work, &Request::Aim(work.aim), LIMIT)?;
             self.aim = Some(work.aim);
         }
         Ok(())
@@ -123,7 +98,7 @@ impl<'a> SceneProbe<'a> {
     /// Opens the scene that `work` needs. Reports a method that fails or doesn't return.
     fn open(&mut self, work: &ScheduledJob, lists_rays: bool) -> Result<(), Stop> {
         let opened = self.open_by_parts(work, lists_rays);
-        if let Err(Stop::FaultIn(part, fault)) = &opened {
+        if let Err(Stop::Fault(Some(part), fault)) = &opened {
             self.session
                 .update(|session, _| session.opening_ended(work.key, *part, fault));
             return Err(Stop::Unwanted);
@@ -144,21 +119,19 @@ impl<'a> SceneProbe<'a> {
         self.key = work.key;
         self.aim = None;
         self.tree = None;
-        let response = self.ask(work, &Request::Scene(Box::new(data)), LIMIT)?;
-        if response != Response::Received {
-            return Err(unexpected(&response));
-        }
+        self.ask(work, &Request::Scene(Box::new(data)), LIMIT)?;
         let any_ray = Ray::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0));
         for part in SubmissionPart::BEFORE_BUILD {
             self.try_part(work, part, any_ray, work.call_limit)?;
         }
         let started_at = Instant::now();
-        let opened = self.build(work)?;
-        let took = started_at.elapsed();
-        let size = match opened.tree {
-            ElementOutcome::Value(size) => Some(size),
-            ElementOutcome::Panicked(_) | ElementOutcome::Skipped => None,
+        let built = self.ask(work, &Request::Build, work.open_limit);
+        let built = built.map_err(|stop| stop.in_part(SubmissionPart::Build))?;
+        let Response::Opened(opened) = built else {
+            return Err(no_scene());
         };
+        let took = started_at.elapsed();
+        let size = opened.tree.value().copied();
         self.missing.clone_from(&opened.missing);
         if size.is_some() {
             let placement = work.aim.camera.placement;
@@ -172,15 +145,7 @@ impl<'a> SceneProbe<'a> {
         Ok(())
     }
 
-    fn build(&mut self, work: &ScheduledJob) -> Result<OpenOutcome, Stop> {
-        match self.ask(work, &Request::Build, work.open_limit) {
-            Ok(Response::Opened(opened)) => Ok(opened),
-            Ok(other) => Err(unexpected(&other)),
-            Err(stop) => Err(in_part(SubmissionPart::Build, stop)),
-        }
-    }
-
-    /// Calls each method that takes a ray. If one fails, returns [`Stop::FaultIn`].
+    /// Calls each method that takes a ray. If one fails, the error names it.
     fn try_ray(&mut self, work: &ScheduledJob, ray: Ray, limit: Duration) -> Result<(), Stop> {
         for part in SubmissionPart::WITH_RAY {
             self.try_part(work, part, ray, limit)?;
@@ -195,11 +160,8 @@ impl<'a> SceneProbe<'a> {
         ray: Ray,
         limit: Duration,
     ) -> Result<(), Stop> {
-        match self.ask(work, &Request::Try(Trial { part, ray }), limit) {
-            Ok(Response::Tried) => Ok(()),
-            Ok(other) => Err(unexpected(&other)),
-            Err(stop) => Err(in_part(part, stop)),
-        }
+        let tried = self.ask(work, &Request::Try { part, ray }, limit);
+        tried.map(drop).map_err(|stop| stop.in_part(part))
     }
 
     /// Sends a request to the program. After a fault or an abandoned request, the program is killed
@@ -239,30 +201,38 @@ impl<'a> SceneProbe<'a> {
         // Don't keep using this program: it lists its rays, which takes time.
         self.probe = None;
         match found {
-            Err(Stop::FaultIn(part, _)) => Stop::FaultIn(part, fault),
+            Err(Stop::Fault(part, _)) => Stop::Fault(part, fault),
             Err(Stop::Unwanted) => Stop::Unwanted,
-            Err(Stop::Fault(_) | Stop::Invalid(_)) | Ok(()) => Stop::Fault(fault),
+            Err(Stop::Invalid(_)) | Ok(()) => Stop::Fault(None, fault),
         }
     }
 
     fn search_rays(&mut self, work: &ScheduledJob, target: Target) -> Result<(), Stop> {
         let limit = work.call_limit / 4;
-        // Only the camera is called. Without any hits, a path also calls part two.
-        let before_hits = match target {
-            Target::Path { pixel, .. } => Target::Centre(pixel),
-            Target::Centre(_) | Target::Clay { .. } | Target::Ray(_) => target,
+        let follow = |target, max_rays| Follow {
+            target,
+            max_tests: 0,
+            max_rays,
         };
-        self.follow(work, before_hits, 0, limit)
-            .map_err(|stop| in_part(SubmissionPart::Camera, stop))?;
+        let mut before_hits = target;
+        let mut is_path = false;
+        if let Target::Pixel { quantity, .. } = &mut before_hits
+            && *quantity == Quantity::Light
+        {
+            // Without any hits, a path also calls part two.
+            *quantity = Quantity::Hit;
+            is_path = true;
+        }
+        // Only the camera is called.
+        self.follow(work, follow(before_hits, 0), limit)
+            .map_err(|stop| stop.in_part(SubmissionPart::Camera))?;
         for max_rays in 0..MAX_SEARCHED_RAYS {
-            let followed = self.follow(work, target, max_rays, limit);
-            let followed = match target {
+            let mut followed = self.follow(work, follow(target, max_rays), limit);
+            if is_path {
                 // All methods of part one return for the rays so far.
-                Target::Path { .. } => {
-                    followed.map_err(|stop| in_part(SubmissionPart::Light, stop))?
-                }
-                Target::Centre(_) | Target::Clay { .. } | Target::Ray(_) => followed?,
-            };
+                followed = followed.map_err(|stop| stop.in_part(SubmissionPart::Light));
+            }
+            let followed = followed?;
             let Some(next) = followed.rays.get(max_rays as usize) else {
                 return Ok(());
             };
@@ -271,22 +241,15 @@ impl<'a> SceneProbe<'a> {
         Ok(())
     }
 
-    /// Traces a target without listing its tests.
     fn follow(
         &mut self,
         work: &ScheduledJob,
-        target: Target,
-        max_rays: u32,
+        follow: Follow,
         limit: Duration,
     ) -> Result<RecordedRays, Stop> {
-        let request = Request::Follow(Follow {
-            target,
-            max_tests: 0,
-            max_rays,
-        });
-        let response = self.ask(work, &request, limit)?;
+        let response = self.ask(work, &Request::Follow(follow), limit)?;
         let Response::Followed(followed) = response else {
-            return Err(unexpected(&response));
+            return Err(no_scene());
         };
         Ok(followed)
     }
@@ -298,21 +261,21 @@ impl<'a> SceneProbe<'a> {
         draw: &Draw,
         limit: Duration,
     ) -> Result<DrawnPixels, Stop> {
-        match self.ask(work, &Request::Draw(*draw), limit) {
-            Ok(Response::Drawn(drawn)) => Ok(drawn),
-            Ok(other) => Err(unexpected(&other)),
-            Err(Stop::Fault(fault)) => Err(match single_target(draw) {
-                Some(target) => self.find_culprit(work, target, fault),
-                None => Stop::Fault(fault),
-            }),
-            Err(stop) => Err(stop),
+        let response = self.ask(work, &Request::Draw(*draw), limit);
+        match (response, single_target(draw)) {
+            (Ok(Response::Drawn(drawn)), _) => Ok(drawn),
+            (Ok(_), _) => Err(no_scene()),
+            (Err(Stop::Fault(_, fault)), Some(target)) => {
+                Err(self.find_culprit(work, target, fault))
+            }
+            (Err(stop), _) => Err(stop),
         }
     }
 
     /// Returns the checked tree with facts about its nodes.
     pub(super) fn checked_tree(&mut self, work: &ScheduledJob) -> Result<TreeModel, Stop> {
         let tree = self.tree(work)?;
-        let shapes = written_shapes(&work.subject.data.shapes, &self.missing);
+        let shapes = written_shapes(&work.subject.data.scene.shapes, &self.missing);
         Ok(TreeModel::new(tree, &work.subject.tree_criteria(&shapes)))
     }
 
@@ -326,7 +289,7 @@ impl<'a> SceneProbe<'a> {
             return Err(Stop::Invalid(format!("panicked: {message} ({location})")));
         }
         let Response::Tree(ElementOutcome::Value(TreeData(tree))) = response else {
-            return Err(unexpected(&response));
+            return Err(no_scene());
         };
         Ok(IndexedTree::new(tree))
     }
@@ -341,7 +304,7 @@ impl<'a> SceneProbe<'a> {
             Some(tree) => tree,
             None => self.tree(work).map_err(|stop| match stop {
                 Stop::Unwanted => stop,
-                Stop::Fault(_) | Stop::FaultIn(..) | Stop::Invalid(_) => {
+                Stop::Fault(..) | Stop::Invalid(_) => {
                     Stop::Invalid(format!("The tree cannot be read: {stop}"))
                 }
             })?,
@@ -357,30 +320,31 @@ impl<'a> SceneProbe<'a> {
         work: &ScheduledJob,
         pinned: &PinnedTarget,
     ) -> Result<Explanation, Stop> {
-        let target = match (pinned.pixel, pinned.sample) {
-            (Some(pixel), None) => Target::Centre(pixel),
-            (Some(pixel), Some(sample)) => Target::Path { pixel, sample },
-            (None, _) => {
-                let question = work.subject.question.as_ref();
+        let question = work.subject.question.as_ref();
+        let target = match pinned.pixel {
+            Some(pixel) => Target::Pixel {
+                quantity: pinned.sample.map_or(Quantity::Hit, |_| Quantity::Light),
+                pixel,
+                sample: pinned.sample.unwrap_or(0),
+            },
+            None => {
                 let ray = question.and_then(|question| question.ray);
                 Target::Ray(ray.ok_or(Stop::Unwanted)?)
             }
         };
-        let request = Request::Follow(Follow {
+        let follow = Follow {
             target,
             max_tests: MAX_TESTS,
             max_rays: u32::MAX,
-        });
-        let followed = match self.ask(work, &request, work.call_limit) {
-            Ok(Response::Followed(followed)) => followed,
-            Ok(other) => return Err(unexpected(&other)),
-            Err(Stop::Fault(fault)) => return Err(self.find_culprit(work, target, fault)),
-            Err(stop) => return Err(stop),
+        };
+        let followed = match self.follow(work, follow, work.call_limit) {
+            Err(Stop::Fault(_, fault)) => return Err(self.find_culprit(work, target, fault)),
+            followed => followed?,
         };
         let tests = followed.rays.iter().flat_map(|ray| &ray.tests);
         let context = Context {
             tree,
-            shapes: &work.subject.data.shapes,
+            shapes: &work.subject.data.scene.shapes,
             is_list: matches!(work.subject.data.tree, TreeSource::List),
             addresses: NodeAddresses::find(tests, tree),
         };
@@ -409,10 +373,9 @@ impl<'a> SceneProbe<'a> {
     /// Returns the first samples of a pixel.
     fn history(&mut self, work: &ScheduledJob, pixel: UVec2) -> Result<Vec<SampleRow>, Stop> {
         let count = work.listed_samples;
-        let request = Request::Samples(SampleRange { pixel, count });
-        let response = self.ask(work, &request, work.call_limit)?;
-        let Response::Samples(samples) = response else {
-            return Err(unexpected(&response));
+        let request = Request::Samples { pixel, count };
+        let Response::Samples(samples) = self.ask(work, &request, work.call_limit)? else {
+            return Err(no_scene());
         };
         Ok(history(&samples))
     }
@@ -429,13 +392,12 @@ impl<'a> SceneProbe<'a> {
         let corners = nodes
             .iter()
             .filter_map(|node| corners_with_margin(*node, context.tree));
-        let request = Request::Boxes(BoxQueries {
+        let request = Request::Boxes {
             ray: ray.ray,
             boxes: corners.flatten().collect(),
-        });
-        let response = self.ask(work, &request, LIMIT)?;
-        let Response::Spans(inside) = response else {
-            return Err(unexpected(&response));
+        };
+        let Response::Spans(inside) = self.ask(work, &request, LIMIT)? else {
+            return Err(no_scene());
         };
         let (pairs, _) = inside.as_chunks();
         let span = |&[inside, inside_larger]: &[_; 2]| NodeSpan {

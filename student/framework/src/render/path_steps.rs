@@ -167,7 +167,7 @@ impl fmt::Display for BadValue {
 }
 
 /// The first path with each kind of bad value, in the order of [`BadValue`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FirstBadValues([Option<BadPath>; BadValue::COUNT]);
 
 /// A path with a bad value.

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use glam::{UVec2, Vec3};
+use serde::{Deserialize, Serialize};
 
 use crate::render::path_log;
 use crate::render::path_steps::{BadPath, FirstBadValues};
@@ -70,7 +71,7 @@ pub trait Lighting: Sync {
 }
 
 /// The settings for tracing paths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PathSettings {
     /// The maximum number of times that a path is scattered: 0 shows only emitters and the
     /// environment, 1 adds direct light.
@@ -80,7 +81,7 @@ pub struct PathSettings {
 }
 
 /// The reason a sample is discarded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum InvalidSample {
     /// Its path contains an unusable hit from the submission, such as a hit that contains NaN.
     Hit,
@@ -89,7 +90,7 @@ pub enum InvalidSample {
 }
 
 /// Statistics about the rendering of a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RenderStats {
     /// The number of rays traced by the submission, including shadow rays.
     pub rays: u64,

@@ -2,13 +2,14 @@
 
 use glam::{Mat3, UVec2, Vec3};
 use protocol::{PinholeCamera, Ray};
+use serde::{Deserialize, Serialize};
 
 use super::MAX_FILM_SIDE;
 use super::error::SceneError;
 use super::value::Value;
 
 /// A camera and its position in the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
     /// The parameters of the submission's `Camera`.
     pub pinhole: PinholeCamera,
@@ -20,7 +21,7 @@ pub struct Camera {
 }
 
 /// A transformation from camera space to world space: a rotation, then a translation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Placement {
     /// The position of the camera in world space.
     pub position: Vec3,

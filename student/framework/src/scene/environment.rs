@@ -7,11 +7,12 @@ use std::sync::Arc;
 use glam::{UVec2, Vec3};
 #[cfg(feature = "cli")]
 use image::{ImageFormat, ImageReader};
+use serde::{Deserialize, Serialize};
 
 use super::MAX_FILM_SIDE;
 
 /// The light of the environment.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Environment {
     /// The same radiance from all directions.
     Constant(Vec3),
@@ -22,10 +23,25 @@ pub enum Environment {
 /// A picture of all directions, as an equirectangular projection. The rows are evenly spaced in
 /// angle from +y, at the top, down to −y. The columns are evenly spaced in angle around the y-axis:
 /// the first begins at +x, and +z is a quarter of the way across.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "(UVec2, Vec<Vec3>)", into = "(UVec2, Vec<Vec3>)")]
 pub struct EnvironmentMap {
     size: UVec2,
     radiance: Arc<[Vec3]>,
+}
+
+impl TryFrom<(UVec2, Vec<Vec3>)> for EnvironmentMap {
+    type Error = String;
+
+    fn try_from((size, radiance): (UVec2, Vec<Vec3>)) -> Result<Self, String> {
+        EnvironmentMap::new(size, radiance)
+    }
+}
+
+impl From<EnvironmentMap> for (UVec2, Vec<Vec3>) {
+    fn from(map: EnvironmentMap) -> Self {
+        (map.size, map.radiance.to_vec())
+    }
 }
 
 impl EnvironmentMap {

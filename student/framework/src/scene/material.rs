@@ -1,12 +1,13 @@
 //! Materials of surfaces.
 
 use glam::{Vec2, Vec3};
+use serde::{Deserialize, Serialize};
 
 use super::error::SceneError;
 use super::value::Value;
 
 /// How a surface scatters or emits light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Material {
     /// A surface that is matte on both sides and reflects the same radiance in all directions.
     Lambertian {

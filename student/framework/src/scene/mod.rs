@@ -22,6 +22,7 @@ use std::path::Path;
 
 use glam::{UVec2, Vec3};
 use protocol::Shape;
+use serde::{Deserialize, Serialize};
 
 pub use camera::{Camera, Placement};
 pub use environment::{Environment, EnvironmentMap};
@@ -35,7 +36,7 @@ const MAX_LEAF_SIZE: usize = 4;
 pub const MAX_FILM_SIDE: u32 = 16_384;
 
 /// A scene that can be rendered.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scene {
     /// The author's description of the scene. Can be empty.
     pub about: String,

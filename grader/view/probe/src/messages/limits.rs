@@ -9,7 +9,7 @@ use framework::render::path_steps::BadValue;
 use protocol::{ElementOutcome, Panic};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
-use super::{DrawnPixels, Quantity, Request, Response, SampleOutcome, TreeData, Values};
+use super::{DrawnPixels, Quantity, Request, Response, TreeData, Values};
 
 /// The maximum number of values in a response: 16 samples of 64 × 64 pixels.
 pub const MAX_VALUES: usize = 1 << 16;
@@ -34,14 +34,14 @@ const SPAN_BYTES: usize = 1 + 2 * 4;
 /// The bytes of a bounce, apart from the arriving light. The name of the surface is short.
 const BOUNCE_BYTES: usize = 4 * 5 + 9 * 4 + 64 + BadValue::COUNT;
 const ARRIVING_LIGHT_BYTES: usize = 4 * 4 + 1;
-const BAD_PATH_BYTES: usize = 4 * 5;
-const SAMPLE_BYTES: usize = 5 + PANIC_BYTES + BadValue::COUNT * BAD_PATH_BYTES;
+const BAD_VALUES_BYTES: usize = BadValue::COUNT * (1 + 4 * 5);
+const SAMPLE_BYTES: usize = 5 + PANIC_BYTES + BAD_VALUES_BYTES;
 
 impl Request {
     /// Returns the maximum size of the response on the wire, in bytes.
     pub fn max_response_bytes(&self) -> usize {
         let of_lists = match self {
-            Request::Scene(_) | Request::Try(_) | Request::Build | Request::Aim(_) => 0,
+            Request::Scene(_) | Request::Try { .. } | Request::Build | Request::Aim(_) => 0,
             // Each pixel has a value and can be listed under a panic.
             Request::Draw(draw) => draw.pixels().count() * (1 + TRACE_BYTES + 5),
             Request::Tree(size) => size.nodes as usize * NODE_BYTES + size.primitives as usize * 4,
@@ -51,12 +51,11 @@ impl Request {
                 let steps = MAX_STEPS * of_step;
                 MAX_RAYS * RAY_BYTES + follow.max_tests as usize * TEST_BYTES + steps
             }
-            Request::Samples(range) => range.count as usize * SAMPLE_BYTES,
-            Request::Boxes(queries) => queries.boxes.len() * SPAN_BYTES,
+            Request::Samples { count, .. } => *count as usize * SAMPLE_BYTES,
+            Request::Boxes { boxes, .. } => boxes.len() * SPAN_BYTES,
         };
         // The lists of all panics, plus a few numbers.
-        let bad_values = BadValue::COUNT * BAD_PATH_BYTES;
-        of_lists + bad_values + (MAX_PANICS + 1) * (PANIC_BYTES + 5) + 64
+        of_lists + BAD_VALUES_BYTES + (MAX_PANICS + 1) * (PANIC_BYTES + 5) + 64
     }
 }
 
@@ -66,7 +65,7 @@ impl Response {
     pub fn answers(&self, request: &Request) -> bool {
         let is_whole = match (request, self) {
             (Request::Scene(_), Response::Received)
-            | (Request::Try(_), Response::Tried)
+            | (Request::Try { .. }, Response::Tried)
             | (Request::Build, Response::Opened(_))
             | (Request::Aim(_), Response::Aimed)
             | (_, Response::NotOpen) => true,
@@ -74,15 +73,12 @@ impl Response {
                 let of_quantity = matches!(
                     (draw.quantity, &drawn.values),
                     (Quantity::Hit, Values::Hits(_))
-                        | (
-                            Quantity::Light { .. } | Quantity::Clay { .. },
-                            Values::Light(_)
-                        )
+                        | (Quantity::Light | Quantity::Clay, Values::Light(_))
                         | (Quantity::Tests, Values::Tests(_))
                 );
                 // If a response contained no pixels, the same pixels would be requested again
                 // forever.
-                let is_some = (1..=draw.pixels().count()).contains(&drawn.values.len());
+                let is_some = (1..=draw.pixels().count()).contains(&drawn.values.count());
                 of_quantity && is_some && has_possible_numbers(drawn)
             }
             (Request::Tree(size), Response::Tree(outcome)) => match outcome {
@@ -96,10 +92,10 @@ impl Response {
                 let tests = followed.rays.iter().map(|ray| ray.tests.len());
                 tests.sum::<usize>() <= follow.max_tests as usize
             }
-            (Request::Samples(range), Response::Samples(samples)) => {
-                samples.is_empty() || samples.len() == range.count as usize
+            (Request::Samples { count, .. }, Response::Samples(samples)) => {
+                samples.is_empty() || samples.len() == *count as usize
             }
-            (Request::Boxes(queries), Response::Spans(spans)) => spans.len() == queries.boxes.len(),
+            (Request::Boxes { boxes, .. }, Response::Spans(spans)) => spans.len() == boxes.len(),
             _ => false,
         };
         let is_short = |text: &str| text.len() <= Panic::MAX_TEXT_BYTES;
@@ -121,13 +117,9 @@ impl Response {
             Response::Followed(followed) => followed.panic.iter().collect(),
             Response::Samples(samples) => {
                 let outcomes = samples.iter().map(|sample| &sample.outcome);
-                let panics = outcomes.filter_map(|outcome| match outcome {
-                    SampleOutcome::Panicked(panic) => Some(panic),
-                    SampleOutcome::Radiance(_)
-                    | SampleOutcome::InvalidHit
-                    | SampleOutcome::InvalidRadiance => None,
-                });
-                panics.collect()
+                outcomes
+                    .filter_map(|outcome| outcome.as_ref().err())
+                    .collect()
             }
             Response::Received
             | Response::Tried
@@ -149,9 +141,10 @@ fn of_outcome<T>(outcome: &ElementOutcome<T>) -> Option<&Panic> {
 /// up without overflow.
 fn has_possible_numbers(drawn: &DrawnPixels) -> bool {
     let mut indices = drawn.panics.iter().flat_map(|(_, indices)| indices);
-    let count = drawn.values.len();
+    let count = drawn.values.count();
+    let stats = &drawn.stats;
     indices.all(|index| (*index as usize) < count)
-        && [drawn.rays, drawn.invalid_paths, drawn.invalid_radiances]
+        && [stats.rays, stats.invalid_paths, stats.invalid_radiances]
             .iter()
             .all(|count| *count <= u32::MAX.into())
 }

@@ -4,7 +4,8 @@
 mod limits;
 mod recorded;
 
-use framework::render::path_steps::{BadPath, BadValue};
+use framework::render::path_steps::FirstBadValues;
+use framework::render::renderer::{InvalidSample, RenderStats};
 use glam::{UVec2, Vec3};
 use protocol::{ElementOutcome, Interval, Panic, Ray, Trace, Tree, TreeNode};
 use serde::{Deserialize, Serialize};
@@ -23,8 +24,16 @@ pub use recorded::{RecordedRay, RecordedRays, Test};
 pub enum Request {
     /// Replaces the scene. All other requests need a scene. Runs none of the submission's code.
     Scene(Box<SceneData>),
-    /// Calls a method to find out whether it has been written and whether it returns.
-    Try(Trial),
+    /// Calls a method to find out whether it has been written and whether it returns. As with the
+    /// grader's questions, each call is a separate request, so the viewer knows which method
+    /// doesn't return.
+    Try {
+        /// The method.
+        part: SubmissionPart,
+        /// The ray to test. Unused for the camera. The ray is tested against a single shape before
+        /// the tree is built, and against all shapes afterwards.
+        ray: Ray,
+    },
     /// Builds the tree, leaving out shapes whose `hit` hasn't been written yet. All requests listed
     /// below need the tree.
     Build,
@@ -36,21 +45,20 @@ pub enum Request {
     Tree(TreeSize),
     /// Records the tests made for a ray or a path.
     Follow(Follow),
-    /// Computes the samples of a pixel in the shaded view, one by one.
-    Samples(SampleRange),
+    /// Computes the first samples of a pixel in the shaded view, one by one.
+    Samples {
+        /// The pixel.
+        pixel: UVec2,
+        /// The number of samples.
+        count: u32,
+    },
     /// Calls `BBox::hit` on boxes.
-    Boxes(BoxQueries),
-}
-
-/// A call to a single method. As with the grader's questions, each call is a separate request, so
-/// the viewer knows which method doesn't return.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
-    /// The method.
-    pub part: SubmissionPart,
-    /// The ray to test. Unused for the camera. The ray is tested against a single shape before the
-    /// tree is built, and against all shapes afterwards.
-    pub ray: Ray,
+    Boxes {
+        /// The ray.
+        ray: Ray,
+        /// The corners of each box.
+        boxes: Vec<(Vec3, Vec3)>,
+    },
 }
 
 /// A rectangle on the film in which some pixels should be drawn.
@@ -72,26 +80,22 @@ pub struct Draw {
     pub first: u32,
     /// The quantity to compute for each pixel.
     pub quantity: Quantity,
+    /// The index of the path in the first pass.
+    pub sample: u32,
     /// The time in milliseconds after which the probe returns the pixels it has drawn. The probe
     /// always draws at least one pixel.
     pub milliseconds: u32,
 }
 
-/// The quantity to compute for a pixel.
+/// The quantity to compute for a pixel. Some views share the same quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Quantity {
     /// The hit of the ray through the centre of the pixel.
     Hit,
     /// The radiance of one path per pass.
-    Light {
-        /// The index of the path in the first pass.
-        sample: u32,
-    },
-    /// The radiance of one sample per pass, with the scene in clay.
-    Clay {
-        /// The index of the sample in the first pass.
-        sample: u32,
-    },
+    Light,
+    /// The radiance of one path per pass, with the scene in clay.
+    Clay,
     /// The tests made for the ray through the centre of the pixel. Needs the recording program.
     Tests,
 }
@@ -139,45 +143,20 @@ pub struct Follow {
     pub max_rays: u32,
 }
 
-/// The first samples of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct SampleRange {
-    /// The pixel.
-    pub pixel: UVec2,
-    /// The number of samples.
-    pub count: u32,
-}
-
 /// A ray or a path to record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Target {
-    /// The ray through the centre of this pixel.
-    Centre(UVec2),
-    /// One path through this pixel, with its shadow rays.
-    Path {
+    /// The ray or the path through a pixel that a quantity is computed from.
+    Pixel {
+        /// The quantity.
+        quantity: Quantity,
         /// The pixel.
         pixel: UVec2,
         /// The index of the path.
         sample: u32,
     },
-    /// One sample through this pixel, with the scene in clay.
-    Clay {
-        /// The pixel.
-        pixel: UVec2,
-        /// The index of the sample.
-        sample: u32,
-    },
     /// This ray, in world space.
     Ray(Ray),
-}
-
-/// Boxes to test with one ray.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BoxQueries {
-    /// The ray.
-    pub ray: Ray,
-    /// The corners of each box.
-    pub boxes: Vec<(Vec3, Vec3)>,
 }
 
 /// A response to a request.
@@ -284,15 +263,8 @@ pub struct DrawnPixels {
     /// Each panic, with the indices of the pixels where it occurred.
     #[serde(deserialize_with = "at_most::<_, _, MAX_PANICS>")]
     pub panics: Vec<(Panic, Vec<u32>)>,
-    /// The number of traced rays.
-    pub rays: u64,
-    /// The number of paths that are black because a hit was unusable.
-    pub invalid_paths: u64,
-    /// The number of paths that are black because their radiance wasn't finite.
-    pub invalid_radiances: u64,
-    /// The first bad values in the paths that were checked.
-    #[serde(deserialize_with = "at_most::<_, _, { BadValue::COUNT }>")]
-    pub bad_values: Vec<BadPath>,
+    /// The number of traced rays, and the problems with the paths.
+    pub stats: RenderStats,
     /// Why the shaded view is drawn in clay: part two isn't written yet.
     pub no_light: Option<Panic>,
 }
@@ -300,24 +272,10 @@ pub struct DrawnPixels {
 /// One sample of a pixel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathSample {
-    /// The radiance.
-    pub outcome: SampleOutcome,
+    /// The radiance, why the sample is black, or the panic of the code.
+    pub outcome: Result<Result<Vec3, InvalidSample>, Panic>,
     /// The values on its path that no correct code returns.
-    #[serde(deserialize_with = "at_most::<_, _, { BadValue::COUNT }>")]
-    pub bad_values: Vec<BadPath>,
-}
-
-/// The radiance of a sample, or why there is none.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum SampleOutcome {
-    /// The radiance.
-    Radiance(Vec3),
-    /// The sample is black because a hit was unusable.
-    InvalidHit,
-    /// The sample is black because its radiance wasn't finite.
-    InvalidRadiance,
-    /// The code panicked.
-    Panicked(Panic),
+    pub bad_values: FirstBadValues,
 }
 
 /// The values of pixels. The value of a pixel with a panic is meaningless.
@@ -333,17 +291,12 @@ pub enum Values {
 
 impl Values {
     /// Returns the number of pixels.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         match self {
             Values::Hits(list) => list.len(),
             Values::Light(list) => list.len(),
             Values::Tests(list) => list.len(),
         }
-    }
-
-    /// Returns whether the list is empty.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 }
 

@@ -37,19 +37,17 @@ pub fn explain(
     let rays = followed.rays.iter().zip(spans).enumerate();
     let mut bounce = 0;
     let explained = rays.map(|(index, (ray, spans))| {
-        let is_to_light = ray.ray.range.max.is_finite();
         // A shadow ray to the sky doesn't end, but the path tracer then logs the light it found.
         let next_step = followed.steps.get(ray.steps_before);
         let is_to_sky = next_step.is_some_and(|step| step.starts_with("light: "));
-        let is_shadow_ray = pixel.is_some() && index > 0 && (is_to_light || is_to_sky);
-        let kind = match pixel {
-            None => "ray from the exam".to_owned(),
-            Some(_) if index == 0 => "camera ray".to_owned(),
-            Some(_) if is_shadow_ray && !is_to_light => "shadow ray to the sky".to_owned(),
-            Some(_) if is_shadow_ray => "shadow ray to a light".to_owned(),
+        let (kind, is_shadow_ray) = match pixel {
+            None => ("ray from the exam".to_owned(), false),
+            Some(_) if index == 0 => ("camera ray".to_owned(), false),
+            Some(_) if ray.ray.range.max.is_finite() => ("shadow ray to a light".to_owned(), true),
+            Some(_) if is_to_sky => ("shadow ray to the sky".to_owned(), true),
             Some(_) => {
                 bounce += 1;
-                format!("ray after bounce {bounce}")
+                (format!("ray after bounce {bounce}"), false)
             }
         };
         ExplainedRay {

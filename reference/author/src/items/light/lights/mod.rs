@@ -384,7 +384,7 @@ struct View {
 
 impl View {
     /// Returns the same view from behind the light.
-    const fn from_behind(self) -> View {
+    const fn seen_from_behind(self) -> View {
         View { sign: -1.0, ..self }
     }
 }
@@ -405,17 +405,17 @@ const FAR: View = View {
     margin: 2e-5,
     ..FRONT
 };
-const BACK: View = FRONT.from_behind();
+const BACK: View = FRONT.seen_from_behind();
 const EDGE_ON: View = View {
     cosine: [0.005, 0.1],
     ..FRONT
 };
-const EDGE_ON_BACK: View = EDGE_ON.from_behind();
+const EDGE_ON_BACK: View = EDGE_ON.seen_from_behind();
 const VERY_EDGE_ON: View = View {
     cosine: [0.005, 0.0199],
     ..FRONT
 };
-const VERY_EDGE_ON_BACK: View = VERY_EDGE_ON.from_behind();
+const VERY_EDGE_ON_BACK: View = VERY_EDGE_ON.seen_from_behind();
 /// A view of a light that is parallel to two axes, from almost within its plane.
 const ALMOST_IN_ITS_PLANE: View = View {
     cosine: [2e-4, 9e-4],
@@ -423,7 +423,7 @@ const ALMOST_IN_ITS_PLANE: View = View {
     distance: [0.05, 2.0],
     margin: 1e-5,
 };
-const ALMOST_IN_ITS_PLANE_BEHIND: View = ALMOST_IN_ITS_PLANE.from_behind();
+const ALMOST_IN_ITS_PLANE_BEHIND: View = ALMOST_IN_ITS_PLANE.seen_from_behind();
 
 /// The forms of lights, as indices of the classes of their domain.
 const EVERY_FORM: &[usize] = &[0, 1, 2, 3, 4, 5, 6, 7];

@@ -24,6 +24,7 @@ pub mod triangle;
 use glam::DVec3;
 use judging::exam::{ExamQuestion, ExpectedRows, Item, Key};
 use protocol::{Geometry, Question, Ray, Shape};
+use rayon::prelude::*;
 
 use crate::oracle::{Intersection, Ray64, scan};
 use crate::seed::Seed;
@@ -44,8 +45,9 @@ pub static TASKS: &[&AuthoredTask] = &[
 /// Returns the items of an exam. Each item comes after the items that it needs. None of the
 /// questions is also in the items of the practice exam.
 pub fn items(tasks: &[&AuthoredTask], seed: Seed, practice: &[Item]) -> Vec<Item> {
-    let all = tasks.iter().flat_map(|task| task.draw(seed, practice));
-    resolve(all.collect())
+    let tasks = tasks.par_iter().map(|task| task.draw(seed, practice));
+    let tasks: Vec<Vec<DeclaredItem>> = tasks.collect();
+    resolve(tasks.into_iter().flatten().collect())
 }
 
 /// Returns an exam with the items about boxes, for tests.

@@ -222,7 +222,7 @@ mod tests {
         rows.iter().map(text).collect()
     }
 
-    /// Three submissions: the first has the most points, and the second is the last.
+    /// Three submissions: the first earned the most points, and the second is the last.
     fn three() -> [(&'static str, EntryOutcome, Option<&'static str>); 3] {
         [
             ("a", graded(80), Some("2026-11-20T10:00:00Z")),

@@ -97,7 +97,7 @@ fn find_target(
     }
 }
 
-/// Splits `Path Tracer (123456)` into the name and the number. Other titles have no number.
+/// Splits `Path Tracer (123456)` into the name and the number. Other titles don't contain a number.
 fn split_title(title: &str) -> (&str, Option<&str>) {
     let parts = title.strip_suffix(')');
     let parts = parts.and_then(|rest| rest.rsplit_once('('));

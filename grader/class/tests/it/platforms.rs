@@ -195,8 +195,8 @@ fn the_times_in_sakais_folders_count() {
     assert_eq!(late("Kim__Bob__Bobby__bob_x.edu_", "Bob (Bobby) Kim"), "0");
 }
 
-/// The group has no group name in any list, only the names of its folder and members. The folder's
-/// time is two days after the due time.
+/// No list names the group, which is only known by the names of its folder and its members. The
+/// folder's time is two days after the due time.
 #[test]
 fn an_extension_can_have_any_name_that_is_shown_for_a_group_or_its_members() {
     let class = sakai("Path tracer");

@@ -165,7 +165,7 @@ impl UnplacedQuestion {
 /// The questions of the item so far.
 struct Questions<'a> {
     rng: &'a mut Rng,
-    /// The class of the first question's size. Each question has the next size.
+    /// The class of the first question's size, which grows by one class with each question.
     first_size: usize,
     questions: Vec<ExamQuestion>,
 }

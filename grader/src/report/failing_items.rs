@@ -62,8 +62,8 @@ pub(super) fn first_to_fix(
     Some(nearest.and_then(with_item).unwrap_or(first))
 }
 
-/// Returns all failing items in the order in which to fix them. The first is the [item to fix
-/// first](first_to_fix). Items that are blocked by other tasks come last.
+/// Returns all failing items, beginning with the [item to fix first](first_to_fix). Items that are
+/// blocked by other tasks come last.
 pub(super) fn in_order_to_fix(score: &Score) -> Vec<&ItemScore> {
     let first = first_to_fix(score, |_| true).map(|(_, item)| &item.id);
     let failing = score.tasks.iter().flat_map(most_informative_first);

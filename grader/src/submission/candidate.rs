@@ -75,8 +75,8 @@ impl Candidate {
         renamed.map(note).collect()
     }
 
-    /// Returns the files that are changed in this folder but unmodified in the other one, if this
-    /// folder is in an archive and the other one isn't.
+    /// Returns the files that are changed in this folder but unmodified in `other`. Returns none
+    /// unless this folder is in an archive and `other` isn't.
     pub(super) fn archived_copies_of_starter(
         &self,
         other: &Candidate,

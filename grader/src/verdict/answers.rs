@@ -1,4 +1,5 @@
-//! The score of an item whose questions were answered, perhaps wrongly or with a panic.
+//! The score of an item that the submission answered. The answers can be wrong, and a panic counts
+//! as an answer.
 
 use judging::describe;
 use judging::exam::Item;

@@ -74,8 +74,8 @@ pub struct TaskFile {
 /// Clues to what is wrong with a task's code, for failures whose cause isn't obvious.
 #[derive(Debug, PartialEq, Eq)]
 pub struct TaskClues {
-    /// Where to look if every ray misses, after a sentence that says so. `None` if none of the task's
-    /// rays should hit anything.
+    /// Where to look if every ray misses. A sentence before it says that they do. `None` if none of
+    /// the task's rays should hit anything.
     pub if_nothing_is_hit: Option<&'static str>,
     /// The clue for code that overflows the stack. `None` if nothing is known about the recursion.
     pub if_stack_overflows: Option<&'static str>,

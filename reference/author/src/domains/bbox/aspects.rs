@@ -108,7 +108,7 @@ pub(super) const CALL_ASPECTS: &[Aspect<BoxCall>] = &[
             _ => None,
         }
     }),
-    // The distance at which the ray enters the box.
+    // How far away the ray enters the box.
     Aspect::new("distance", DISTANCES, |call| {
         Some(distance_class(call.bounds.span(&call.ray64())?.0))
     }),
@@ -273,7 +273,7 @@ pub(super) const FOIL: f64 = 1.8e-4;
 /// half the diagonal.
 pub(super) const CORNER: f64 = 0.953;
 
-/// The minimum distance at which a box counts as distant, as a multiple of its size.
+/// A box counts as distant from this distance on, as a multiple of its size.
 pub(super) const DISTANT: f64 = 15.0;
 
 /// Returns the class of an interval in [`RANGE_CLASSES`].

@@ -437,16 +437,16 @@ pub(super) const NEAR: f64 = 0.05;
 /// The weight below which a point inside the triangle counts as just inside an edge.
 pub(super) const EDGE: f64 = 0.02;
 
-/// The largest distance from an edge at which a ray counts as narrowly missing it, as a fraction of
-/// the altitude.
+/// A ray narrowly misses an edge if it passes by within this distance, as a fraction of the
+/// altitude.
 pub(super) const NARROW_MISS: f64 = 7e-4;
 
 /// Weights below this limit count as small.
 pub(super) const SMALL_WEIGHT: f64 = 1e-3;
 
-/// The maximum distance from the plane at which an end of the range counts as near it, as a
-/// multiple of the triangle's size.
+/// An end of the range is near the plane if it is within this distance, as a multiple of the
+/// triangle's size.
 pub(super) const END: f64 = 0.02;
 
-/// The minimum distance at which a plane counts as distant, as a multiple of the triangle's size.
+/// A plane counts as distant from this distance on, as a multiple of the triangle's size.
 const DISTANT: f64 = 20.0;

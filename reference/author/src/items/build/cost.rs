@@ -28,9 +28,9 @@ const MAX_CORRECT_COST: f64 = 1.06;
 /// common mistake.
 const MIN_ADJACENT_COST: f64 = 1.2;
 
-/// For each pair of a primitive count and a maximum leaf size, creates a question on which correct
-/// builders come close to the exact sweep. `draw` returns a random question, or `None` to be called
-/// again.
+/// Creates a question for each pair of a primitive count and a maximum leaf size. Correct builders
+/// come close to the exact sweep's cost in all of them. `draw` returns a random question, or `None`
+/// to be called again.
 fn questions(
     rng: &mut Rng,
     sizes: &[(usize, u32)],

@@ -65,7 +65,7 @@ impl<'a> Layout<'a> {
 
 /// Layouts of twelve primitives.
 const LAYOUTS: [Layout<'static>; 5] = [
-    // Three clumps, two of which are close together. A builder that forgets the outermost bucket
+    // Three clumps. Two of them are close together. A builder that forgets the outermost bucket
     // ignores the clump at that end, so it may prefer to split between the two close clumps.
     Layout::small(&[(0.0, 0.02, 4), (0.74, 0.8, 4), (0.98, 1.0, 4)]),
     // Clumps with a gap from just above one quarter to just below one half. A builder with four

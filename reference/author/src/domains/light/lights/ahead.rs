@@ -91,7 +91,7 @@ pub(super) const LIGHTS_AHEAD: &[Aspect<Row<LightsPdf>>] = &[
     }),
 ];
 
-/// The classes of positions at which a line crosses the plane of a light.
+/// The classes of the point where a line crosses the plane of a light.
 const SEEN: &[&str] = &[
     "in the middle",
     "between the middle and an edge",

@@ -126,8 +126,8 @@ const FORMS: &[&str] = &[
     "very narrow right triangle",
 ];
 
-/// Returns the class of a light's form. A rectangle is narrow if it is more than five times as long
-/// as it is wide, and very narrow if it is more than a hundred times as long.
+/// Returns the class of a light's form. A rectangle is narrow if its length is more than five times
+/// its width, and very narrow if it is more than a hundred times its width.
 fn form_class(light: &FlatLight64) -> usize {
     let [e0, e1] = light.shape.edges;
     let lengths = [e0.length(), e1.length()];
@@ -212,7 +212,7 @@ const ALIKE: &[&str] = &[
     "neither the corner nor the power",
 ];
 
-/// Returns what a flat light has in common with another one in the list.
+/// Returns what a flat light has in common with another light in the list.
 fn alike_class(list: &LightList, light: &FlatLight64) -> usize {
     let lights: Vec<FlatLight64> = flat_lights(list).collect();
     let is_shared =
